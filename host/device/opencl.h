@@ -1,0 +1,23 @@
+// The one place that includes the OpenCL C++ bindings, so that every file sees the same configuration of them.
+#pragma once
+
+#define CL_HPP_TARGET_OPENCL_VERSION 120
+#define CL_HPP_MINIMUM_OPENCL_VERSION 120
+#define CL_HPP_ENABLE_EXCEPTIONS
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpedantic"
+#pragma GCC diagnostic ignored "-Wshadow"
+#pragma GCC diagnostic ignored "-Wconversion"
+#pragma GCC diagnostic ignored "-Wsign-conversion"
+#pragma GCC diagnostic ignored "-Wignored-attributes"
+#include <CL/opencl.hpp>
+#pragma GCC diagnostic pop
+
+#include <string>
+
+namespace phlux::device {
+
+/// "CL_OUT_OF_RESOURCES" for -5 and so on; "OpenCL error N" for a code that no OpenCL 1.2 header names.
+[[nodiscard]] std::string error_name(cl_int code);
+
+} // namespace phlux::device

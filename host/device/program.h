@@ -1,0 +1,53 @@
+// From kernel files to a built OpenCL program: include expansion, options, the binary cache.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "device/device.h"
+
+namespace phlux::device {
+
+/// Where kernel sources come from: the ones embedded in this binary, or a folder while developing (`--kernel-dir`).
+class KernelFiles {
+public:
+  KernelFiles() = default; ///< the embedded files
+  explicit KernelFiles(std::filesystem::path folder);
+  /// The text of one kernel file, by its path relative to kernels/. @throws DeviceError when there is none
+  [[nodiscard]] std::string read(const std::string& name) const;
+
+private:
+  std::filesystem::path folder_; // empty: embedded
+};
+
+struct ProgramSource {
+  std::string root;                           ///< the kernel file to build, e.g. "path.cl"
+  std::map<std::string, std::string> defines; ///< macro -> value; becomes text at the top, not -D options
+
+  /// Adds kernels that are not in kernels/, such as a test's: text that may include kernel files, after `root`.
+  std::string extra;
+};
+
+/// One self-contained text: the defines, then `root` with every #include "file" of kernels/ expanded once, each part
+/// tagged with #line so that compilers' messages name the kernel file.
+[[nodiscard]] std::string expand(const KernelFiles& files, const ProgramSource& source);
+
+struct BuiltProgram {
+  cl::Program program;
+  bool from_cache = false; ///< the device's own binary was found in the cache
+  double seconds = 0.0;
+};
+
+/// Builds for one device, from the binary cache where it can. The cache is keyed by text, options, device, driver and
+/// phlux's version. `slow` is called once when building takes longer than 200 ms.
+/// @throws DeviceError with the compiler's log when the build fails
+[[nodiscard]] BuiltProgram build(const Device& device, const KernelFiles& files, const ProgramSource& source,
+                                 const std::function<void()>& slow = {});
+
+/// OpenCL C options for every program: -cl-std=CL1.2 -cl-denorms-are-zero -cl-mad-enable and so on.
+[[nodiscard]] std::string build_options();
+
+} // namespace phlux::device

@@ -1,0 +1,32 @@
+// Errors that end a command, by the exit code that they stand for. Every other exception is a defect of phlux.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace phlux {
+
+/// what() is the one line that the user reads: "FILE:LINE: what is wrong: what would be right" where a file is to blame.
+class Error : public std::runtime_error {
+public:
+  Error(int exit_code, const std::string& line) : std::runtime_error(line), exit_code_(exit_code) {}
+  [[nodiscard]] int exit_code() const { return exit_code_; }
+
+private:
+  int exit_code_;
+};
+
+struct UsageError : Error {
+  explicit UsageError(const std::string& line) : Error(2, line) {}
+};
+struct SceneError : Error { ///< a bad scene or a bad input file
+  explicit SceneError(const std::string& line) : Error(3, line) {}
+};
+struct DeviceError : Error { ///< no device, or it failed
+  explicit DeviceError(const std::string& line) : Error(4, line) {}
+};
+struct WriteError : Error {
+  explicit WriteError(const std::string& line) : Error(5, line) {}
+};
+
+} // namespace phlux

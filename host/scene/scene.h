@@ -1,0 +1,117 @@
+// A scene as the renderer understands it: what the scene file said, with every transform applied, in double
+// precision and world units. It knows no file format, no device and no integrator.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+namespace phlux::scene {
+
+using Vec3 = glm::dvec3;
+using Rgb = glm::dvec3;
+
+/// A reflectance model and its parameters. `phong` is the modified Phong model of CW 197 (a diffuse surface has
+/// `specular` 0); `anisotropic_phong` is Ashikhmin and Shirley's. Energy is conserved: for `phong`,
+/// diffuse + specular <= 1 in every channel. Exponents are >= 0; `phong` uses exponent_u alone.
+struct Material {
+  enum class Kind { phong, anisotropic_phong };
+  Kind kind = Kind::phong;
+  Rgb diffuse{0.5};
+  Rgb specular{0.0};
+  double exponent_u = 0.0;
+  double exponent_v = 0.0;
+  bool two_sided = false; ///< reflects on both sides; otherwise the back is black
+  bool operator==(const Material&) const = default;
+};
+
+/// What is attached to a shape: indices into Scene::materials and Scene::area_emitters (-1: emits nothing).
+struct Surface {
+  int material = 0;
+  int area_emitter = -1;
+};
+
+/// A flat shape {origin + u edge_u + v edge_v}, front side along cross(edge_u, edge_v).
+/// parallelogram: |u| <= 1, |v| <= 1 (origin is the centre); ellipse: u^2 + v^2 <= 1 (origin is the centre).
+struct Patch {
+  enum class Region { parallelogram, ellipse };
+  Region region = Region::parallelogram;
+  Vec3 origin{0.0}, edge_u{1, 0, 0}, edge_v{0, 1, 0};
+  Surface surface;
+};
+
+struct Sphere {
+  Vec3 center{0.0};
+  double radius = 1.0;          ///< > 0
+  bool front_is_inside = false; ///< flipNormals
+  Surface surface;
+};
+
+/// Triangles that share vertices. The front side is counter-clockwise (along cross(p1 - p0, p2 - p0)); the loader has
+/// already reversed triangles and normals for flipNormals and for transforms that mirror, and dropped triangles
+/// without area.
+struct Mesh {
+  std::vector<Vec3> positions;
+  std::vector<glm::vec3> normals; ///< unit, one per position; empty: flat shading
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  Surface surface;
+};
+
+struct AreaEmitter { ///< radiance leaves the front side of the shape that refers to it
+  Rgb radiance{1.0}; ///< W / (m^2 sr)
+};
+
+struct PointLight {
+  Vec3 position{0.0};
+  Rgb intensity{1.0}; ///< W / sr
+};
+
+/// Intensity is full within beam_width of the axis and falls off linearly in the angle to 0 at cutoff_angle
+/// (both in radians, measured from the axis; 0 <= beam_width <= cutoff_angle <= pi), as Mitsuba's `spot`.
+struct SpotLight {
+  Vec3 position{0.0}, direction{0, 0, 1}; ///< direction: unit, the axis along which light travels
+  Rgb intensity{1.0};
+  double cutoff_angle = 0.0, beam_width = 0.0;
+};
+
+struct DirectionalLight {
+  Vec3 direction{0, 0, 1}; ///< unit, along which light travels
+  Rgb irradiance{1.0};     ///< W / m^2 on a surface facing the light
+};
+
+/// A pinhole. In its own frame it looks along +z, +y is up and, as in Mitsuba, +x points to the left of the image.
+struct Camera {
+  Vec3 position{0.0}, left{1, 0, 0}, up{0, 1, 0}, forward{0, 0, 1}; ///< orthonormal, right-handed
+  double tan_half_fov_x = 1.0; ///< tangent of half the horizontal field of view
+  double principal_x = 0.0, principal_y = 0.0; ///< Mitsuba's principalPointOffset, in units of the film's size
+  int width = 768, height = 576;               ///< pixels, square
+};
+
+/// What the scene file asks of the renderer; the command line overrides it.
+struct RenderDefaults {
+  std::string integrator = "path"; ///< path, light or bidir
+  int samples_per_pixel = 4;
+  int max_depth = -1; ///< edges of a path, -1: unbounded; 1 is emission alone
+  int rr_depth = 5;   ///< edges from which roulette may end a path
+};
+
+struct Scene {
+  std::vector<Material> materials;
+  std::vector<AreaEmitter> area_emitters;
+  std::vector<Patch> patches;
+  std::vector<Sphere> spheres;
+  std::vector<Mesh> meshes;
+  std::vector<PointLight> point_lights;
+  std::vector<SpotLight> spot_lights;
+  std::vector<DirectionalLight> directional_lights;
+  std::optional<Rgb> constant_radiance; ///< the `constant` emitter
+  Camera camera;
+  RenderDefaults defaults;
+};
+
+} // namespace phlux::scene

@@ -1,0 +1,18 @@
+// Mitsuba scene files (versions 0.5, 0.6 and the 2.x and 3.x spelling) to scenes.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "scene/scene.h"
+
+namespace phlux::scene_file {
+
+/// Reads FILE and the meshes that it names. `definitions` are `-D name=value`, replacing `$name` and <default>s.
+/// Warnings go to the log (spdlog), each naming FILE:LINE.
+/// @throws SceneError "FILE:LINE: what is wrong: what would be right"
+[[nodiscard]] scene::Scene load(const std::filesystem::path& file,
+                                const std::map<std::string, std::string>& definitions = {});
+
+} // namespace phlux::scene_file
