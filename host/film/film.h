@@ -19,8 +19,12 @@ struct Pixel {
   std::uint64_t samples = 0;
 };
 
+/// Sums stay exact to about 2^-53 times the number of blocks, so that no sample count stalls them (MATH.md 6). What
+/// the float32 blocks themselves round remains: a mean is good to about 2^-24 sqrt(block length) of itself, and a
+/// variance of one sample below that part of mean^2 is rounding, not noise.
 class Film {
 public:
+  /// Black, without samples. Both sizes > 0.
   Film(int width, int height);
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
@@ -35,9 +39,11 @@ public:
   /// Unbiased variance of that mean, per channel; 0 with fewer than two samples. Never negative.
   [[nodiscard]] std::array<double, 3> variance_of_mean(std::size_t pixel) const;
 
-  /// Mean over the pixels (and channels) of variance of one sample / mean^2, over pixels that are not black.
+  /// Mean over the pixels (and channels) of variance of one sample / mean^2, over pixels that are not black; 0 where
+  /// no pixel has two samples and a mean above 0.
   [[nodiscard]] double relative_variance() const;
-  /// Mean over the pixels of standard error / mean, over pixels that are not black. Infinite before two samples.
+  /// Mean over the pixels (and channels) of standard error / mean, over pixels that are not black. Infinite before
+  /// every pixel has two samples, 0 for an image that is black.
   [[nodiscard]] double relative_standard_error() const;
   [[nodiscard]] double samples_per_pixel() const; ///< mean over the pixels
 
