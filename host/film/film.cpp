@@ -11,16 +11,18 @@ namespace {
 constexpr std::size_t kChannels = 3;
 
 // Variance of the mean / mean^2, from the sums S of x and Q of x^2 over n >= 2 samples, S > 0:
-// the unbiased variance of one sample is (Q - S^2/n) / (n - 1), of the mean 1/n of it, and mean^2 is S^2/n^2, which
-// leaves (n Q / S^2 - 1) / (n - 1). By Cauchy-Schwarz it is >= 0; rounding may leave it just below.
+// the unbiased variance of one sample is (Q - S^2/n) / (n - 1), of the mean 1/n of it, and mean^2 is S^2/n^2,
+// which leaves (n Q / S^2 - 1) / (n - 1). By Cauchy-Schwarz it is >= 0; rounding may leave it just below.
 double relative_variance_of_mean(const Pixel& pixel, std::size_t channel) {
   const double n = static_cast<double>(pixel.samples);
   const double sum = pixel.sum[channel];
   return std::max(0.0, (n * pixel.sum_of_squares[channel] / sum / sum - 1.0) / (n - 1.0));
 }
 
-// Mean of f(pixel, channel) over all channels with a mean above 0 of pixels with two samples or more; 0 without any.
-template <class Function> double mean_where_not_black(std::span<const Pixel> pixels, Function f) {
+// Mean of f(pixel, channel) over all channels with a mean above 0 of pixels with two samples or more; 0
+// without any.
+template<class Function>
+double mean_where_not_black(std::span<const Pixel> pixels, Function f) {
   double total = 0.0;
   std::uint64_t count = 0;
   for (const Pixel& pixel : pixels) {

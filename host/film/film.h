@@ -1,4 +1,5 @@
-// The image in the making: per pixel, float64 sums of radiance and of its square. Knows no device and no file.
+// The image in the making: per pixel, float64 sums of radiance and of its square. Knows no device and no
+// file.
 #pragma once
 
 #include <array>
@@ -19,9 +20,9 @@ struct Pixel {
   std::uint64_t samples = 0;
 };
 
-/// Sums stay exact to about 2^-53 times the number of blocks, so that no sample count stalls them (MATH.md 6). What
-/// the float32 blocks themselves round remains: a mean is good to about 2^-24 sqrt(block length) of itself, and a
-/// variance of one sample below that part of mean^2 is rounding, not noise.
+/// Sums stay exact to about 2^-53 times the number of blocks, so that no sample count stalls them (MATH.md
+/// 6). What the float32 blocks themselves round remains: a mean is good to about 2^-24 sqrt(block length) of
+/// itself, and a variance of one sample below that part of mean^2 is rounding, not noise.
 class Film {
 public:
   /// Black, without samples. Both sizes > 0.
@@ -31,7 +32,8 @@ public:
   [[nodiscard]] std::span<const Pixel> pixels() const { return pixels_; } ///< row by row from the top
   [[nodiscard]] std::span<Pixel> pixels() { return pixels_; }
 
-  /// Folds one block of `samples` samples of one pixel in. Blocks must come in the same order for the same bits.
+  /// Folds one block of `samples` samples of one pixel in. Blocks must come in the same order for the same
+  /// bits.
   void add(std::size_t pixel, const BlockSum& block, std::uint32_t samples);
 
   /// Mean radiance of a pixel; 0 without samples.
@@ -39,11 +41,11 @@ public:
   /// Unbiased variance of that mean, per channel; 0 with fewer than two samples. Never negative.
   [[nodiscard]] std::array<double, 3> variance_of_mean(std::size_t pixel) const;
 
-  /// Mean over the pixels (and channels) of variance of one sample / mean^2, over pixels that are not black; 0 where
-  /// no pixel has two samples and a mean above 0.
+  /// Mean over the pixels (and channels) of variance of one sample / mean^2, over pixels that are not black;
+  /// 0 where no pixel has two samples and a mean above 0.
   [[nodiscard]] double relative_variance() const;
-  /// Mean over the pixels (and channels) of standard error / mean, over pixels that are not black. Infinite before
-  /// every pixel has two samples, 0 for an image that is black.
+  /// Mean over the pixels (and channels) of standard error / mean, over pixels that are not black. Infinite
+  /// before every pixel has two samples, 0 for an image that is black.
   [[nodiscard]] double relative_standard_error() const;
   [[nodiscard]] double samples_per_pixel() const; ///< mean over the pixels
 

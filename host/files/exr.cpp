@@ -1,0 +1,155 @@
+#include "files/exr.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+
+#include <ImfChannelList.h>
+#include <ImfDoubleAttribute.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfIO.h>
+#include <ImfInputFile.h>
+#include <ImfOutputFile.h>
+#include <ImfStringAttribute.h>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "errors.h"
+#include "files/output.h"
+
+namespace phlux::files {
+namespace {
+
+class MemoryStream final : public Imf::OStream {
+public:
+  MemoryStream() : Imf::OStream("memory") {}
+  void write(const char* data, int count) override {
+    const std::size_t size = static_cast<std::size_t>(count);
+    if (position_ + size > bytes.size()) bytes.resize(position_ + size);
+    std::memcpy(bytes.data() + position_, data, size);
+    position_ += size;
+  }
+  std::uint64_t tellp() override { return position_; }
+  void seekp(std::uint64_t position) override { position_ = position; }
+
+  std::string bytes;
+
+private:
+  std::size_t position_ = 0;
+};
+
+Imf::Slice slice_of(const std::vector<float>& values, const Imath::Box2i& window) {
+  // OpenEXR takes the same, non-const pointer to read from and to write to.
+  return Imf::Slice::Make(Imf::FLOAT, const_cast<float*>(values.data()), window);
+}
+
+void insert_attributes(Imf::Header& header, const RenderInfo& info) {
+  header.insert("version", Imf::StringAttribute(info.version));
+  header.insert("scene", Imf::StringAttribute(info.scene));
+  header.insert("integrator", Imf::StringAttribute(info.integrator));
+  header.insert("strategy", Imf::StringAttribute(info.strategy));
+  header.insert("samples", Imf::DoubleAttribute(info.samples));
+  header.insert("seed", Imf::StringAttribute(fmt::format("{}", info.seed)));
+  header.insert("device", Imf::StringAttribute(info.device));
+  header.insert("driver", Imf::StringAttribute(info.driver));
+  header.insert("seconds", Imf::DoubleAttribute(info.seconds));
+}
+
+void find_attribute(const Imf::Header& header, const char* name, std::string& value) {
+  if (const auto* attribute = header.findTypedAttribute<Imf::StringAttribute>(name))
+    value = attribute->value();
+}
+void find_attribute(const Imf::Header& header, const char* name, double& value) {
+  if (const auto* attribute = header.findTypedAttribute<Imf::DoubleAttribute>(name))
+    value = attribute->value();
+}
+
+RenderInfo find_attributes(const Imf::Header& header) {
+  RenderInfo info;
+  find_attribute(header, "version", info.version);
+  find_attribute(header, "scene", info.scene);
+  find_attribute(header, "integrator", info.integrator);
+  find_attribute(header, "strategy", info.strategy);
+  find_attribute(header, "samples", info.samples);
+  std::string seed;
+  find_attribute(header, "seed", seed);
+  std::from_chars(seed.data(), seed.data() + seed.size(), info.seed);
+  find_attribute(header, "device", info.device);
+  find_attribute(header, "driver", info.driver);
+  find_attribute(header, "seconds", info.seconds);
+  return info;
+}
+
+// A damaged header may claim any size; 2^29 pixels in one channel are 2 GiB.
+constexpr std::int64_t kMostPixels = std::int64_t{1} << 29;
+
+Image read_pixels(Imf::InputFile& file) {
+  const Imf::Header& header = file.header();
+  const Imath::Box2i window = header.dataWindow();
+  const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
+  const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
+  if (width <= 0 || height <= 0 || width > kMostPixels / height)
+    throw std::runtime_error(fmt::format("an image of {}x{} pixels", width, height));
+
+  Image image{.width = static_cast<int>(width),
+              .height = static_cast<int>(height),
+              .channels = {},
+              .info = find_attributes(header)};
+  Imf::FrameBuffer frame;
+  for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel) {
+    if (channel.channel().xSampling != 1 || channel.channel().ySampling != 1)
+      throw std::runtime_error(fmt::format("channel {} is subsampled", channel.name()));
+    const auto [entry, _] = image.channels.emplace(channel.name(), static_cast<std::size_t>(width * height));
+    frame.insert(channel.name(), slice_of(entry->second, window));
+  }
+  file.setFrameBuffer(frame);
+  file.readPixels(window.min.y, window.max.y);
+  return image;
+}
+
+std::string one_line(std::string text) {
+  std::ranges::replace(text, '\n', ' ');
+  return text;
+}
+
+} // namespace
+
+std::string encode_exr(const Image& image) {
+  Imf::Header header(image.width, image.height);
+  header.compression() = Imf::ZIP_COMPRESSION;
+  insert_attributes(header, image.info);
+  Imf::FrameBuffer frame;
+  for (const auto& [name, values] : image.channels) {
+    header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+    frame.insert(name, slice_of(values, header.dataWindow()));
+  }
+  MemoryStream stream;
+  {
+    Imf::OutputFile file(stream, header);
+    file.setFrameBuffer(frame);
+    file.writePixels(image.height);
+  } // its destructor writes the table of line offsets
+  return std::move(stream.bytes);
+}
+
+void write_exr(const std::filesystem::path& file, const Image& image) {
+  write_file(file, encode_exr(image));
+}
+
+Image read_exr(const std::filesystem::path& file) {
+  const std::string name = file.string();
+  if (::access(name.c_str(), R_OK) != 0)
+    throw SceneError(fmt::format("{}: cannot be read: {}", name, std::strerror(errno)));
+  try {
+    Imf::InputFile input(name.c_str());
+    return read_pixels(input);
+  } catch (const std::exception& error) {
+    throw SceneError(
+        fmt::format("{}: is no OpenEXR image that phlux can read: {}", name, one_line(error.what())));
+  }
+}
+
+} // namespace phlux::files

@@ -1,0 +1,35 @@
+#include "files/image.h"
+
+#include <array>
+
+namespace phlux::files {
+namespace {
+
+constexpr std::array<const char*, 3> kRadiance = {"R", "G", "B"};
+constexpr std::array<const char*, 3> kVariance = {"variance.R", "variance.G", "variance.B"};
+
+template<class Function>
+void add_channels(Image& image, const std::array<const char*, 3>& names, std::size_t pixels,
+                  Function values_of) {
+  std::array<float*, 3> channels{};
+  for (std::size_t channel = 0; channel < names.size(); ++channel)
+    channels[channel] = image.channels.emplace(names[channel], pixels).first->second.data();
+  for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
+    const std::array<double, 3> values = values_of(pixel);
+    for (std::size_t channel = 0; channel < names.size(); ++channel)
+      channels[channel][pixel] = static_cast<float>(values[channel]);
+  }
+}
+
+} // namespace
+
+Image image_of(const film::Film& film, const RenderInfo& info, bool moments) {
+  Image image{.width = film.width(), .height = film.height(), .channels = {}, .info = info};
+  const std::size_t pixels = film.pixels().size();
+  add_channels(image, kRadiance, pixels, [&](std::size_t pixel) { return film.mean(pixel); });
+  if (moments)
+    add_channels(image, kVariance, pixels, [&](std::size_t pixel) { return film.variance_of_mean(pixel); });
+  return image;
+}
+
+} // namespace phlux::files

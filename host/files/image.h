@@ -1,0 +1,35 @@
+// An image as files hold it: named float32 channels and what is known about the render.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "film/film.h"
+
+namespace phlux::files {
+
+/// The attributes of CONTRACT.md, by their names there. In EXR files the texts and the seed (64 bits, which
+/// no number of EXR holds) are strings, the others doubles.
+struct RenderInfo {
+  std::string version; ///< of phlux; empty in a file that another program wrote
+  std::string scene;   ///< the file, as the user named it
+  std::string integrator, strategy;
+  double samples = 0.0; ///< per pixel, a mean where pixels differ
+  std::uint64_t seed = 0;
+  std::string device, driver;
+  double seconds = 0.0; ///< of rendering
+};
+
+struct Image {
+  int width = 0, height = 0;
+  std::map<std::string, std::vector<float>> channels; ///< each width * height values, row by row from the top
+  RenderInfo info;
+};
+
+/// Channels R, G, B: mean radiance, linear, neither exposed nor clamped. With `moments` also variance.R,
+/// variance.G and variance.B: the variance of that mean.
+[[nodiscard]] Image image_of(const film::Film& film, const RenderInfo& info, bool moments);
+
+} // namespace phlux::files
