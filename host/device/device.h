@@ -20,11 +20,13 @@ struct DeviceInfo {
   int lanes = 1; ///< the WIDTH that phlux would use: 1, 4, 8 or 16
 };
 
-/// Every device of every platform, in the drivers' order. A platform without devices is skipped with a warning.
+/// Every device of every platform, in the drivers' order. A platform without devices is skipped with a
+/// warning.
 /// @throws DeviceError when there is no platform or no device at all, saying what to install
 [[nodiscard]] std::vector<DeviceInfo> list_devices();
 
-/// One device, its context and an in-order queue with profiling. Copies share them; they live until the process ends.
+/// One device, its context and an in-order queue with profiling. Copies share them; they live until the
+/// process ends.
 struct Device {
   DeviceInfo info;
   cl::Device handle;
@@ -32,9 +34,9 @@ struct Device {
   cl::CommandQueue queue;
 };
 
-/// The devices that the user's `--device` specifications name, each once; the default when there are none is the first
-/// CPU, else the first device. A specification is "P:D", "cpu", "gpu", "all" or a part of a device's or platform's name
-/// (case-insensitive).
+/// The devices that the user's `--device` specifications name, each once; the default when there are none is
+/// the first CPU, else the first device; the environment variable PHLUX_DEVICE replaces that default. A
+/// specification is "P:D", "cpu", "gpu", "all" or a part of a device's or platform's name (case-insensitive).
 /// @throws DeviceError when a specification names nothing, listing what there is
 [[nodiscard]] std::vector<Device> open_devices(const std::vector<std::string>& specifications);
 

@@ -1,4 +1,5 @@
-// The one place that includes the OpenCL C++ bindings, so that every file sees the same configuration of them.
+// The one place that includes the OpenCL C++ bindings, so that every file sees the same configuration of
+// them.
 #pragma once
 
 #define CL_HPP_TARGET_OPENCL_VERSION 120
@@ -19,5 +20,8 @@ namespace phlux::device {
 
 /// "CL_OUT_OF_RESOURCES" for -5 and so on; "OpenCL error N" for a code that no OpenCL 1.2 header names.
 [[nodiscard]] std::string error_name(cl_int code);
+
+/// The call that failed and the code's name: "clEnqueueNDRangeKernel: CL_OUT_OF_RESOURCES".
+[[nodiscard]] std::string describe(const cl::Error& error);
 
 } // namespace phlux::device

@@ -11,7 +11,8 @@
 
 namespace phlux::device {
 
-/// Where kernel sources come from: the ones embedded in this binary, or a folder while developing (`--kernel-dir`).
+/// Where kernel sources come from: the ones embedded in this binary, or a folder while developing
+/// (`--kernel-dir`).
 class KernelFiles {
 public:
   KernelFiles() = default; ///< the embedded files
@@ -27,12 +28,13 @@ struct ProgramSource {
   std::string root;                           ///< the kernel file to build, e.g. "path.cl"
   std::map<std::string, std::string> defines; ///< macro -> value; becomes text at the top, not -D options
 
-  /// Adds kernels that are not in kernels/, such as a test's: text that may include kernel files, after `root`.
+  /// Adds kernels that are not in kernels/, such as a test's: text that may include kernel files, after
+  /// `root`.
   std::string extra;
 };
 
-/// One self-contained text: the defines, then `root` with every #include "file" of kernels/ expanded once, each part
-/// tagged with #line so that compilers' messages name the kernel file.
+/// One self-contained text: the defines, then `root` with every #include "file" of kernels/ expanded once,
+/// each part tagged with #line so that compilers' messages name the kernel file.
 [[nodiscard]] std::string expand(const KernelFiles& files, const ProgramSource& source);
 
 struct BuiltProgram {
@@ -41,13 +43,20 @@ struct BuiltProgram {
   double seconds = 0.0;
 };
 
-/// Builds for one device, from the binary cache where it can. The cache is keyed by text, options, device, driver and
-/// phlux's version. `slow` is called once when building takes longer than 200 ms.
-/// @throws DeviceError with the compiler's log when the build fails
+/// Builds for one device, from the binary cache where it can. The cache is keyed by text, options, device,
+/// driver and phlux's version. `slow` is called once, from another thread, when building takes longer than
+/// 200 ms.
+/// @throws DeviceError naming file and line of the first error when the build fails; the full log goes to the
+/// log
 [[nodiscard]] BuiltProgram build(const Device& device, const KernelFiles& files, const ProgramSource& source,
                                  const std::function<void()>& slow = {});
 
-/// OpenCL C options for every program: -cl-std=CL1.2 -cl-denorms-are-zero -cl-mad-enable and so on.
+/// OpenCL C options for every program, then those of the environment variable PHLUX_KERNEL_OPTIONS (tests:
+/// -Werror).
 [[nodiscard]] std::string build_options();
+
+/// The first error of a compiler's log as "FILE:LINE: message"; empty when the log has none that names a
+/// kernel file.
+[[nodiscard]] std::string first_error(const std::string& log);
 
 } // namespace phlux::device

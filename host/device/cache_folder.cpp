@@ -1,0 +1,85 @@
+#include "device/cache_folder.h"
+
+#include <cstdlib>
+#include <mutex>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace phlux::device {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::optional<std::string> environment(const char* name) {
+  const char* value = std::getenv(name);
+  if (value == nullptr || *value == '\0') return std::nullopt;
+  return value;
+}
+
+void choose_pocl_cache() {
+  fs::path wanted;
+  if (auto given = environment("POCL_CACHE_DIR")) {
+    wanted = *given;
+  } else if (auto user = user_cache_folder("pocl/kcache")) { // PoCL's own default
+    wanted = *user;
+  }
+  if (!wanted.empty() && writable_folder(wanted)) {
+    setenv("POCL_CACHE_DIR", wanted.c_str(), 1);
+    return;
+  }
+  const auto temporary = temporary_cache_folder("pocl");
+  if (!temporary) {
+    spdlog::warn("no writable folder for PoCL's kernel cache: set POCL_CACHE_DIR to one");
+    return;
+  }
+  if (!wanted.empty())
+    spdlog::warn("PoCL's kernel cache {} is not writable: using {}", wanted.string(), temporary->string());
+  setenv("POCL_CACHE_DIR", temporary->c_str(), 1);
+}
+
+} // namespace
+
+std::optional<fs::path> user_cache_folder(const std::string& name) {
+  if (auto cache = environment("XDG_CACHE_HOME")) return fs::path(*cache) / name;
+  if (auto home = environment("HOME")) return fs::path(*home) / ".cache" / name;
+  return std::nullopt;
+}
+
+bool writable_folder(const fs::path& folder) {
+  std::error_code ignored;
+  fs::create_directories(folder, ignored);
+  const std::string probe = (folder / fmt::format(".writable-{}", getpid())).string();
+  const int file = open(probe.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0600);
+  if (file < 0) return false;
+  close(file);
+  unlink(probe.c_str());
+  return true;
+}
+
+std::optional<fs::path> temporary_cache_folder(const std::string& name) {
+  std::error_code failed;
+  const fs::path temporary = fs::temp_directory_path(failed);
+  if (failed) return std::nullopt;
+  const fs::path own = temporary / fmt::format("phlux-{}", getuid());
+  mkdir(own.c_str(), 0700);
+  // Whoever made it first owns what we would run from it, so take it only if that was this user.
+  struct stat found {};
+  if (lstat(own.c_str(), &found) != 0 || !S_ISDIR(found.st_mode) || found.st_uid != getuid() ||
+      (found.st_mode & (S_IWGRP | S_IWOTH)) != 0)
+    return std::nullopt;
+  fs::path folder = own / name;
+  if (!writable_folder(folder)) return std::nullopt;
+  return folder;
+}
+
+void prepare_pocl_cache() {
+  static std::once_flag once;
+  std::call_once(once, choose_pocl_cache);
+}
+
+} // namespace phlux::device

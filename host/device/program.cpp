@@ -1,0 +1,142 @@
+#include "device/program.h"
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdlib>
+#include <mutex>
+#include <optional>
+#include <regex>
+#include <thread>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include "device/binary_cache.h"
+#include "errors.h"
+
+namespace phlux::device {
+
+namespace {
+
+constexpr std::chrono::milliseconds patience{200};
+
+// Calls `slow` from a thread of its own unless it is destroyed within `patience`.
+class Watcher {
+public:
+  explicit Watcher(const std::function<void()>& slow) {
+    if (slow) thread_ = std::thread([this, slow] { wait(slow); });
+  }
+  Watcher(const Watcher&) = delete;
+  Watcher& operator=(const Watcher&) = delete;
+  ~Watcher() {
+    {
+      const std::lock_guard lock(mutex_);
+      done_ = true;
+    }
+    changed_.notify_one();
+    if (thread_.joinable()) thread_.join();
+  }
+
+private:
+  void wait(const std::function<void()>& slow) {
+    std::unique_lock lock(mutex_);
+    if (!changed_.wait_for(lock, patience, [this] { return done_; })) slow();
+  }
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool done_ = false;
+  std::thread thread_;
+};
+
+std::string cache_key(const Device& device, const std::string& text) {
+  const cl::Platform platform(device.handle.getInfo<CL_DEVICE_PLATFORM>());
+  return fmt::format("phlux {}\n{}\n{}\n{}\n{}\n{}\n{}", PHLUX_VERSION, device.info.platform,
+                     platform.getInfo<CL_PLATFORM_VERSION>(), device.info.name, device.info.driver,
+                     build_options(), text);
+}
+
+std::optional<cl::Program> build_binary(const Device& device, const std::vector<unsigned char>& binary) {
+  try {
+    cl::Program program(device.context, {device.handle}, {binary});
+    program.build({device.handle}, build_options().c_str());
+    return program;
+  } catch (const cl::Error& error) {
+    spdlog::debug("kernel cache: the driver refuses the binary: {}", describe(error));
+    return std::nullopt;
+  }
+}
+
+std::string build_log(const cl::Program& program, const cl::Device& device) {
+  try {
+    return program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device);
+  } catch (const cl::Error& error) {
+    return fmt::format("(no log: {})", describe(error));
+  }
+}
+
+cl::Program build_text(const Device& device, const std::string& name, const std::string& text) {
+  cl::Program program;
+  try {
+    program = cl::Program(device.context, text);
+    program.build({device.handle}, build_options().c_str());
+    return program;
+  } catch (const cl::Error& error) {
+    const std::string log = program() == nullptr ? std::string() : build_log(program, device.handle);
+    spdlog::debug("{} on {} ({}):\n{}", describe(error), device.info.name, device.info.driver, log);
+    const std::string first = first_error(log);
+    throw DeviceError(first.empty() ? fmt::format("{}: kernels do not build on {}: {}", name,
+                                                  device.info.name, describe(error))
+                                    : fmt::format("{} (building kernels on {})", first, device.info.name));
+  }
+}
+
+// Empty when the driver gives no binary, as it may.
+std::vector<unsigned char> binary_of(const cl::Program& program) {
+  try {
+    const auto binaries = program.getInfo<CL_PROGRAM_BINARIES>();
+    return binaries.empty() ? std::vector<unsigned char>() : binaries.front();
+  } catch (const cl::Error& error) {
+    spdlog::debug("kernel cache: no binary: {}", describe(error));
+    return {};
+  }
+}
+
+} // namespace
+
+std::string build_options() {
+  std::string options = "-cl-std=CL1.2 -cl-denorms-are-zero -cl-kernel-arg-info";
+  if (const char* more = std::getenv("PHLUX_KERNEL_OPTIONS"); more != nullptr && *more != '\0')
+    options += fmt::format(" {}", more);
+  return options;
+}
+
+std::string first_error(const std::string& log) {
+  // clang and most others: path.cl:12:3: error: ...; PoCL 3: error: path.cl:12:3: ...
+  static const std::regex file_first(
+      R"(([\w./-]+\.(?:cl|h)|extra):(\d+):(?:\d+:)? *(?:fatal )?error: *([^\n]*))");
+  static const std::regex error_first(R"(error: *([\w./-]+\.(?:cl|h)|extra):(\d+):(?:\d+:)? *([^\n]*))");
+  std::smatch found;
+  if (!std::regex_search(log, found, file_first) && !std::regex_search(log, found, error_first)) return {};
+  return fmt::format("{}:{}: {}", found.str(1), found.str(2), found.str(3));
+}
+
+BuiltProgram build(const Device& device, const KernelFiles& files, const ProgramSource& source,
+                   const std::function<void()>& slow) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto elapsed = [&] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
+  const Watcher watcher(slow);
+  const std::string text = expand(files, source);
+  const std::string key = cache_key(device, text);
+  const BinaryCache cache;
+  if (const auto binary = cache.load(key))
+    if (const auto program = build_binary(device, *binary)) return {*program, true, elapsed()};
+
+  const auto program = build_text(device, source.root.empty() ? "extra" : source.root, text);
+  cache.store(key, binary_of(program));
+  return {program, false, elapsed()};
+}
+
+} // namespace phlux::device
