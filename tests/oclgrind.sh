@@ -1,0 +1,23 @@
+#!/bin/sh
+# Runs COMMAND with oclgrind as the only OpenCL platform. Fails when COMMAND does, and when oclgrind reports anything:
+# its own exit status is 0 even then.
+#   oclgrind.sh FOLDER COMMAND...     FOLDER: where the log and the platform's description may be written
+set -eu
+folder=$1
+shift
+library=${OCLGRIND_LIBRARY:-/usr/lib/oclgrind/liboclgrind-rt-icd.so}
+
+rm -rf "$folder"
+mkdir -p "$folder/vendors"
+echo "$library" > "$folder/vendors/oclgrind.icd"
+: > "$folder/log"
+
+status=0
+OCL_ICD_VENDORS="$folder/vendors" PHLUX_DEVICE=oclgrind PHLUX_CACHE_DIR="$folder/cache" \
+OCLGRIND_LOG="$folder/log" OCLGRIND_DATA_RACES=1 "$@" || status=$?
+if [ -s "$folder/log" ]; then
+  echo "oclgrind reports:"
+  head -n 200 "$folder/log"
+  exit 1
+fi
+exit "$status"
