@@ -1,0 +1,241 @@
+#include "cli/command_line.h"
+
+#include <limits>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "cli/commands.h"
+#include "cli/values.h"
+#include "errors.h"
+
+namespace phlux::cli {
+namespace {
+
+// An option with one value, which `set` is given as text; when repeated, the last one counts, as scripts
+// expect.
+template<class Set>
+CLI::Option* add_value(CLI::App& app, const std::string& names, const std::string& value,
+                       const std::string& help, Set set) {
+  return app
+      .add_option_function<std::string>(
+          names, [set](const std::string& text) { set(text); }, help)
+      ->type_name(value)
+      ->take_last();
+}
+
+// An option that may be repeated, one value each time.
+template<class Add>
+CLI::Option* add_values(CLI::App& app, const std::string& names, const std::string& value,
+                        const std::string& help, Add add) {
+  return app
+      .add_option_function<std::vector<std::string>>(
+          names,
+          [add](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts) add(text);
+          },
+          help)
+      ->type_name(value)
+      ->allow_extra_args(false);
+}
+
+void add_method(CLI::App& app, RenderOptions& options) {
+  app.option_defaults()->group("How light is found");
+  add_value(app, "-i,--integrator", "NAME", "path, light or bidir; default: the scene's",
+            [&](const std::string& text) {
+              const std::vector<std::string> names = {"path", "light", "bidir"};
+              options.integrator = names[choice("--integrator", text, names)];
+            });
+  add_value(app, "--strategy", "NAME",
+            fmt::format("how directions are sampled: {}; default: {}",
+                        fmt::join(render::strategy_names(), ", "), render::Settings().strategy),
+            [&](const std::string& text) {
+              options.strategy =
+                  render::strategy_names()[choice("--strategy", text, render::strategy_names())];
+            });
+  add_value(
+      app, "--connect", "NAME",
+      "path only, what reaches the lights: none (hits), light (light samples) or mis "
+      "(both, weighted); default: mis",
+      [&](const std::string& text) {
+        options.connect = static_cast<render::Connect>(choice("--connect", text, {"none", "light", "mis"}));
+      });
+  add_value(app, "--max-depth", "N",
+            "edges of the longest path: 1 is emission alone, -1 unbounded; default: the scene's",
+            [&](const std::string& text) { options.max_depth = depth("--max-depth", text); });
+  add_value(app, "--rr-depth", "N",
+            "edges from which roulette may end a path, -1: never; default: the scene's",
+            [&](const std::string& text) { options.rr_depth = depth("--rr-depth", text); });
+}
+
+void add_amount(CLI::App& app, RenderOptions& options) {
+  constexpr std::uint64_t kMostSamples = std::numeric_limits<int>::max();
+  app.option_defaults()->group("How much");
+  CLI::Option* samples =
+      add_value(app, "-n,--spp", "N", "samples a pixel; default: the scene's", [&](const std::string& text) {
+        options.samples_per_pixel = static_cast<int>(whole_number("--spp", text, 1, kMostSamples));
+      });
+  add_value(app, "--time", "SECONDS", "render as long instead", [&](const std::string& text) {
+    options.time_limit = positive_number("--time", text);
+  })->excludes(samples);
+  add_value(app, "--error", "E",
+            "render until the mean relative standard error is E instead, such as 0.01; with "
+            "--time: until the first of both",
+            [&](const std::string& text) { options.target_error = positive_number("--error", text); })
+      ->excludes(samples);
+  add_value(app, "--size", "WxH",
+            "pixels of the image; default: the scene's. The horizontal field of view stays",
+            [&](const std::string& text) { options.size = size("--size", text); });
+  add_value(app, "--seed", "N", "the same seed gives the same image on the same device; default: 0",
+            [&](const std::string& text) {
+              options.seed = whole_number("--seed", text, 0, std::numeric_limits<std::uint64_t>::max());
+            });
+  add_values(app, "-D", "NAME=VALUE", "replaces $NAME in the scene; may be repeated",
+             [&](const std::string& text) {
+               auto [name, value] = definition("-D", text);
+               options.definitions.insert_or_assign(std::move(name), std::move(value));
+             });
+}
+
+void add_device(CLI::App& app, RenderOptions& options) {
+  app.option_defaults()->group("Where it runs");
+  add_values(app, "--device", "SPEC",
+             "P:D as `phlux devices` lists them, cpu, gpu, all, or a part of a name; may be "
+             "repeated",
+             [&](const std::string& text) { options.devices.push_back(text); });
+  add_value(app, "--width", "N",
+            "paths that one work item traces at a time: 1, 4, 8 or 16; default: what suits the "
+            "device",
+            [&](const std::string& text) {
+              const std::vector<std::string> widths = {"1", "4", "8", "16"};
+              options.lanes = std::stoi(widths[choice("--width", text, widths)]);
+            });
+  add_value(app, "--traversal", "NAME", "brute (every shape), bvh or auto; default: auto",
+            [&](const std::string& text) {
+              options.traversal =
+                  static_cast<render::Traversal>(choice("--traversal", text, {"auto", "brute", "bvh"}));
+            });
+  add_value(app, "--kernel-dir", "FOLDER",
+            "kernel sources to use instead of the built-in ones, while developing",
+            [&](const std::string& text) {
+              if (!std::filesystem::is_directory(text))
+                throw UsageError(fmt::format("--kernel-dir {}: must be a folder of kernel files", text));
+              options.kernel_dir = text;
+            });
+}
+
+void add_files(CLI::App& app, RenderOptions& options) {
+  app.option_defaults()->group("What is written");
+  const auto add_file = [&](const std::string& names, const std::string& value, const std::string& help,
+                            std::filesystem::path& file) {
+    add_value(app, names, value, help, [&file, names](const std::string& text) {
+      if (text.empty()) throw UsageError(fmt::format("{} '': must be a file name", names));
+      file = text;
+    });
+  };
+  add_file("-o,--output", "FILE.exr", "the image; default: the scene's name in the working directory",
+           options.output);
+  add_file("--png", "FILE", "tone-mapped preview, also rewritten while rendering; default: beside the image",
+           options.preview);
+  add_file("--stats", "FILE.json", "figures of the render", options.statistics);
+  app.add_flag("--moments", options.moments, "adds channels variance.R, .G and .B: variance of the mean");
+  app.add_flag("-q,--quiet", options.quiet, "no progress and no summary");
+  app.add_flag("--verbose", options.verbose, "notes on what was passed over and chosen");
+}
+
+void add_render(CLI::App& program, std::optional<Command>& command) {
+  CLI::App& app = *program.add_subcommand("render", "Renders a scene to an OpenEXR image and a PNG preview");
+  const auto options = std::make_shared<RenderOptions>();
+  app.add_option("scene", options->scene_file, "Mitsuba scene file")->type_name("SCENE.xml")->required();
+  add_files(app, *options);
+  add_amount(app, *options);
+  add_method(app, *options);
+  add_device(app, *options);
+  app.final_callback([&command, options] { command = [options] { return render(*options); }; });
+}
+
+void add_devices(CLI::App& program, std::optional<Command>& command) {
+  CLI::App& app = *program.add_subcommand("devices", "Lists the OpenCL devices and what phlux would use");
+  const auto options = std::make_shared<DevicesOptions>();
+  app.add_flag("--json", options->json, "as JSON");
+  app.final_callback([&command, options] { command = [options] { return list_devices(*options); }; });
+}
+
+void add_compare(CLI::App& program, std::optional<Command>& command) {
+  CLI::App& app = *program.add_subcommand("compare", "Says how far an image is from a reference");
+  const auto options = std::make_shared<CompareOptions>();
+  app.add_option("a", options->a, "image")->type_name("A.exr")->required();
+  app.add_option("b", options->b, "reference")->type_name("B.exr")->required();
+  app.add_flag("--json", options->json, "as JSON");
+  app.footer("relmse is the mean of (a-b)^2 / (b^2 + 1e-4), relmse_trimmed the same without the largest 0.1% "
+             "of pixels;\n"
+             "max_z and z_share_over_3 need images rendered with --moments.\n"
+             "Exit code: 0, or 1 when a value is not finite.");
+  app.final_callback([&command, options] { command = [options] { return compare(*options); }; });
+}
+
+std::vector<std::string> option_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+  }
+  return names;
+}
+
+// CLI11 puts what it does not know aside; the first such option explains more than what it then misses.
+[[noreturn]] void reject(const CLI::App& program, const CLI::ParseError& error) {
+  const std::vector<CLI::App*> chosen = program.get_subcommands();
+  const CLI::App& app = chosen.empty() ? program : *chosen.front();
+  const std::string help =
+      app.get_parent() == nullptr ? "phlux --help" : fmt::format("phlux {} --help", app.get_name());
+  const std::vector<std::string> unknown = program.remaining(true);
+  for (const std::string& text : unknown) {
+    if (!text.starts_with('-')) continue;
+    const std::string meant = nearest(text.substr(0, text.find('=')), option_names(app));
+    throw UsageError(
+        fmt::format("unknown option {}: {}", text,
+                    meant.empty() ? help + " lists the options" : fmt::format("did you mean {}?", meant)));
+  }
+  if (chosen.empty()) {
+    std::vector<std::string> names;
+    for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
+    const std::string meant = unknown.empty() ? "" : nearest(unknown.front(), names);
+    throw UsageError(fmt::format("{}: {}",
+                                 unknown.empty() ? "no command" : "unknown command " + unknown.front(),
+                                 meant.empty() ? fmt::format("must be one of {}", fmt::join(names, ", "))
+                                               : fmt::format("did you mean {}?", meant)));
+  }
+  if (!unknown.empty())
+    throw UsageError(fmt::format("{}: one argument too many: see {}", unknown.front(), help));
+  throw UsageError(fmt::format("{}: see {}", error.what(), help));
+}
+
+} // namespace
+
+std::optional<Command> parse(int argc, char** argv) {
+  std::optional<Command> command;
+  CLI::App program("phlux: path tracing of Mitsuba scenes on any OpenCL device", "phlux");
+  program.set_version_flag("--version", "phlux " PHLUX_VERSION);
+  program.require_subcommand(1);
+  program.footer(
+      "phlux COMMAND --help lists the options of a command.\n"
+      "Exit codes: 0 done, 1 a comparison failed, 2 wrong usage, 3 bad scene or file, 4 no device or it "
+      "failed,\n5 write failed, 130 interrupted.");
+  add_render(program, command);
+  add_devices(program, command);
+  add_compare(program, command);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::Success& help_or_version) {
+    program.exit(help_or_version);
+    return std::nullopt;
+  } catch (const CLI::ParseError& error) {
+    reject(program, error);
+  }
+  return command;
+}
+
+} // namespace phlux::cli

@@ -1,0 +1,104 @@
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "cli/commands.h"
+#include "device/device.h"
+#include "errors.h"
+#include "files/json.h"
+
+namespace phlux::cli {
+namespace {
+
+std::string specification(const device::DeviceInfo& info) {
+  return fmt::format("{}:{}", info.platform_index, info.device_index);
+}
+
+// What a render without --device would use; nothing when that cannot be opened, or PHLUX_DEVICE names
+// nothing.
+std::vector<std::string> default_specifications() {
+  std::vector<std::string> specifications;
+  try {
+    for (const device::Device& device : device::open_devices({}))
+      specifications.push_back(specification(device.info));
+  } catch (const DeviceError&) {
+  }
+  return specifications;
+}
+
+nlohmann::ordered_json to_json(const device::DeviceInfo& info, bool is_default) {
+  return {{"device", specification(info)},
+          {"platform", info.platform},
+          {"type", info.type},
+          {"name", info.name},
+          {"driver", info.driver},
+          {"opencl_c_version", info.opencl_c_version},
+          {"compute_units", info.compute_units},
+          {"global_memory", info.global_memory},
+          {"largest_buffer", info.largest_buffer},
+          {"native_float_width", info.native_float_width},
+          {"width", info.lanes},
+          {"default", is_default}};
+}
+
+std::string gibibytes(std::uint64_t bytes) {
+  return fmt::format("{:.1f} GiB", static_cast<double>(bytes) * 0x1p-30);
+}
+
+using Row = std::array<std::string, 11>;
+const Row kHeadings = {"DEVICE", "TYPE",   "NAME",           "PLATFORM",     "DRIVER", "OPENCL C",
+                       "UNITS",  "MEMORY", "LARGEST BUFFER", "NATIVE WIDTH", "WIDTH"};
+
+Row to_row(const device::DeviceInfo& info, bool is_default) {
+  return {specification(info) + (is_default ? " *" : ""),
+          info.type,
+          info.name,
+          info.platform,
+          info.driver,
+          info.opencl_c_version,
+          fmt::format("{}", info.compute_units),
+          gibibytes(info.global_memory),
+          gibibytes(info.largest_buffer),
+          fmt::format("{}", info.native_float_width),
+          fmt::format("{}", info.lanes)};
+}
+
+void print_table(const std::vector<Row>& rows) {
+  std::array<std::size_t, std::tuple_size_v<Row>> widths{};
+  for (const Row& row : rows)
+    for (std::size_t column = 0; column < row.size(); ++column)
+      widths[column] = std::max(widths[column], row[column].size());
+  for (const Row& row : rows) {
+    std::string line;
+    for (std::size_t column = 0; column < row.size(); ++column)
+      line += fmt::format("{:<{}}  ", row[column], widths[column]);
+    line.erase(line.find_last_not_of(' ') + 1);
+    fmt::print("{}\n", line);
+  }
+}
+
+} // namespace
+
+int list_devices(const DevicesOptions& options) {
+  const std::vector<device::DeviceInfo> devices = device::list_devices();
+  const std::vector<std::string> defaults = default_specifications();
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  std::vector<Row> rows = {kHeadings};
+  for (const device::DeviceInfo& info : devices) {
+    const bool is_default = std::ranges::find(defaults, specification(info)) != defaults.end();
+    json.push_back(to_json(info, is_default));
+    rows.push_back(to_row(info, is_default));
+  }
+  if (options.json) {
+    fmt::print("{}", files::json_text(json));
+  } else {
+    print_table(rows);
+    fmt::print("* used unless --device says otherwise; WIDTH: paths that one work item traces at a time\n");
+  }
+  return 0;
+}
+
+} // namespace phlux::cli

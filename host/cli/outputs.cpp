@@ -1,0 +1,81 @@
+#include "cli/outputs.h"
+
+#include <algorithm>
+#include <cctype>
+#include <vector>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+#include <spdlog/stopwatch.h>
+
+#include "errors.h"
+#include "files/output.h"
+#include "files/png.h"
+
+namespace phlux::cli {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr double kPreviewShareOfTime = 0.02;
+
+std::string lower_case_extension(const fs::path& file) {
+  std::string extension = file.extension().string();
+  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  return extension;
+}
+
+void reject_other_formats(const fs::path& image) {
+  const std::vector<std::string> others = {".png", ".jpg", ".jpeg", ".hdr", ".pfm",
+                                           ".ppm", ".tif", ".tiff", ".bmp"};
+  if (std::ranges::find(others, lower_case_extension(image)) == others.end()) return;
+  throw UsageError(
+      fmt::format("--output {}: the image is an OpenEXR file, such as {}: --png names the preview",
+                  image.string(), fs::path(image).replace_extension(".exr").string()));
+}
+
+fs::path preview_beside(const fs::path& image) {
+  std::error_code error;
+  if (fs::exists(image, error) && !fs::is_regular_file(image, error)) return {};
+  if (lower_case_extension(image) == ".exr") return fs::path(image).replace_extension(".png");
+  return fs::path(image) += ".png";
+}
+
+void reject_same_names(const Outputs& outputs) {
+  std::vector<fs::path> names;
+  for (const fs::path& file : {outputs.image, outputs.preview, outputs.statistics}) {
+    const fs::path name = file.lexically_normal();
+    if (!name.empty() && name != "/dev/null" && std::ranges::find(names, name) != names.end())
+      throw UsageError(fmt::format(
+          "{}: named for two outputs: image, preview and statistics need a file each", file.string()));
+    names.push_back(name);
+  }
+}
+
+} // namespace
+
+Outputs outputs_of(const RenderOptions& options) {
+  Outputs outputs{options.output, options.preview, options.statistics};
+  if (outputs.image.empty()) outputs.image = options.scene_file.stem() += ".exr";
+  reject_other_formats(outputs.image);
+  if (outputs.preview.empty()) outputs.preview = preview_beside(outputs.image);
+  reject_same_names(outputs);
+  return outputs;
+}
+
+void check_writable(const Outputs& outputs) {
+  for (const fs::path& file : {outputs.image, outputs.preview, outputs.statistics})
+    if (!file.empty()) files::check_writable(file);
+}
+
+void PreviewRefresher::update(const film::Film& film, double seconds) {
+  if (file_.empty() || seconds < next_) return;
+  const spdlog::stopwatch watch;
+  try {
+    files::write_png(file_, files::image_of(film, {}, false));
+  } catch (const WriteError& error) {
+    spdlog::info("{}", error.what());
+  }
+  next_ = seconds + std::max(kSecondsBetween, watch.elapsed().count() / kPreviewShareOfTime);
+}
+
+} // namespace phlux::cli

@@ -1,0 +1,96 @@
+#include "cli/progress.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+namespace phlux::cli {
+namespace {
+
+constexpr double kSecondsBetweenBars = 0.1;
+constexpr double kSecondsBetweenLines = 10.0;
+constexpr std::size_t kBarWidth = 24, kUsualColumns = 80;
+
+std::size_t terminal_columns() {
+  winsize window{};
+  if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &window) != 0 || window.ws_col == 0) return kUsualColumns;
+  return window.ws_col;
+}
+
+std::string clock_text(double seconds) {
+  const auto whole = static_cast<std::int64_t>(std::ceil(seconds));
+  if (whole < 3600) return fmt::format("{}:{:02}", whole / 60, whole % 60);
+  return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
+}
+
+std::string bar(double fraction) {
+  const auto filled = static_cast<std::size_t>(fraction * static_cast<double>(kBarWidth));
+  return fmt::format("[{:<{}}]", std::string(filled, '#'), kBarWidth);
+}
+
+} // namespace
+
+double fraction_done(const render::Progress& progress, std::optional<double> time_limit,
+                     std::optional<double> target_error, double error) {
+  double fraction = 0.0;
+  if (progress.samples_total && *progress.samples_total > 0.0)
+    fraction = progress.samples_done / *progress.samples_total;
+  if (time_limit) fraction = std::max(fraction, progress.seconds / *time_limit);
+  if (target_error && std::isfinite(error))
+    fraction = std::max(fraction, error > 0.0 ? std::pow(*target_error / error, 2) : 1.0);
+  return std::clamp(fraction, 0.0, 1.0);
+}
+
+std::string progress_text(const render::Progress& progress, double fraction, double error) {
+  std::string text = fmt::format("{:3.0f}%  ", std::floor(100.0 * fraction));
+  text += progress.samples_total
+              ? fmt::format("{:.0f}/{:.0f} samples", progress.samples_done, *progress.samples_total)
+              : fmt::format("{:.0f} samples", progress.samples_done);
+  if (progress.seconds > 0.0)
+    text += fmt::format("  {:.3g} M paths/s", 1e-6 * static_cast<double>(progress.paths) / progress.seconds);
+  if (std::isfinite(error)) text += fmt::format("  error {:.3g}%", 100.0 * error);
+  if (fraction > 0.0 && fraction < 1.0)
+    text += fmt::format("  {} left", clock_text(progress.seconds * (1.0 - fraction) / fraction));
+  return text;
+}
+
+ProgressDisplay::ProgressDisplay(bool quiet, std::optional<double> time_limit,
+                                 std::optional<double> target_error)
+    : quiet_(quiet), terminal_(::isatty(STDERR_FILENO) == 1), time_limit_(time_limit),
+      target_error_(target_error), next_update_(terminal_ ? kSecondsBetweenBars : kSecondsBetweenLines) {}
+
+void ProgressDisplay::building_kernels() {
+  if (!quiet_) show("building kernels");
+}
+
+void ProgressDisplay::update(const render::Progress& progress, const std::function<double()>& error) {
+  if (quiet_ || progress.seconds < next_update_) return;
+  next_update_ = progress.seconds + (terminal_ ? kSecondsBetweenBars : kSecondsBetweenLines);
+  const double error_so_far = error();
+  const double fraction = fraction_done(progress, time_limit_, target_error_, error_so_far);
+  const std::string text = progress_text(progress, fraction, error_so_far);
+  show(terminal_ ? bar(fraction) + " " + text : text);
+}
+
+void ProgressDisplay::clear() {
+  if (line_is_shown_) fmt::print(stderr, "\r\x1b[K");
+  line_is_shown_ = false;
+}
+
+void ProgressDisplay::show(const std::string& text) {
+  if (!terminal_) {
+    fmt::print(stderr, "phlux: {}\n", text);
+    return;
+  }
+  fmt::print(stderr, "\r\x1b[K{}", text.substr(0, terminal_columns() - 1));
+  std::fflush(stderr);
+  line_is_shown_ = true;
+}
+
+} // namespace phlux::cli

@@ -1,0 +1,149 @@
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <string>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include "cli/commands.h"
+#include "cli/interrupt.h"
+#include "cli/outputs.h"
+#include "cli/progress.h"
+#include "cli/statistics.h"
+#include "errors.h"
+#include "files/exr.h"
+#include "files/json.h"
+#include "files/output.h"
+#include "files/png.h"
+#include "scene_file/load.h"
+
+namespace phlux::cli {
+namespace {
+
+constexpr int kInterrupted = 130;
+
+// A scene rendered at another size keeps its horizontal field of view.
+scene::Scene load_scene(const RenderOptions& options) {
+  scene::Scene scene = scene_file::load(options.scene_file, options.definitions);
+  if (options.size) {
+    scene.camera.width = (*options.size)[0];
+    scene.camera.height = (*options.size)[1];
+  }
+  return scene;
+}
+
+render::Settings settings_of(const RenderOptions& options, const scene::RenderDefaults& defaults) {
+  render::Settings settings;
+  settings.integrator = options.integrator.value_or(defaults.integrator);
+  settings.strategy = options.strategy.value_or(settings.strategy);
+  settings.connect = options.connect;
+  settings.samples_per_pixel = options.samples_per_pixel.value_or(defaults.samples_per_pixel);
+  settings.time_limit = options.time_limit;
+  settings.target_error = options.target_error;
+  settings.max_depth = options.max_depth.value_or(defaults.max_depth);
+  settings.rr_depth = options.rr_depth.value_or(defaults.rr_depth);
+  settings.seed = options.seed;
+  settings.devices = options.devices;
+  settings.lanes = options.lanes;
+  settings.traversal = options.traversal;
+  settings.kernel_dir = options.kernel_dir;
+  return settings;
+}
+
+// The film's relative standard error, computed at most twice a second and for at most 2% of the time.
+class ErrorSoFar {
+public:
+  explicit ErrorSoFar(const film::Film& film) : film_(film) {}
+  double operator()() {
+    const auto start = std::chrono::steady_clock::now();
+    if (start < next_) return value_;
+    value_ = film_.relative_standard_error();
+    const auto end = std::chrono::steady_clock::now();
+    next_ = end +
+            std::max<std::chrono::steady_clock::duration>(std::chrono::milliseconds(500), 50 * (end - start));
+    return value_;
+  }
+
+private:
+  const film::Film& film_;
+  double value_ = std::numeric_limits<double>::infinity();
+  std::chrono::steady_clock::time_point next_{};
+};
+
+render::Statistics run(const scene::Scene& scene, const render::Settings& settings, film::Film& film,
+                       const Outputs& outputs, bool quiet) {
+  const InterruptGuard interrupt;
+  ProgressDisplay display(quiet, settings.time_limit, settings.target_error);
+  PreviewRefresher preview(outputs.preview);
+  ErrorSoFar error(film);
+  bool interrupted = false;
+  render::Events events;
+  events.building_kernels = [&] { display.building_kernels(); };
+  events.progress = [&](const render::Progress& progress) {
+    display.update(progress, [&] { return error(); });
+    preview.update(film, progress.seconds);
+    interrupted = interrupt.requested();
+    return !interrupted;
+  };
+  render::Statistics statistics = render::render(scene, settings, film, events);
+  statistics.interrupted = interrupted;
+  return statistics;
+}
+
+files::RenderInfo info_of(const RenderOptions& options, const render::Settings& settings,
+                          const film::Film& film, const render::Statistics& statistics) {
+  return {.version = PHLUX_VERSION,
+          .scene = options.scene_file.string(),
+          .integrator = settings.integrator,
+          .strategy = settings.strategy,
+          .samples = film.samples_per_pixel(),
+          .seed = settings.seed,
+          .device = statistics.device,
+          .driver = statistics.driver,
+          .seconds = statistics.seconds_render};
+}
+
+void write(const Outputs& outputs, const files::RenderInfo& info, const film::Film& film,
+           const render::Statistics& statistics, bool moments) {
+  const files::Image image = files::image_of(film, info, moments);
+  files::write_exr(outputs.image, image);
+  if (!outputs.preview.empty()) files::write_png(outputs.preview, image);
+  if (!outputs.statistics.empty())
+    files::write_file(outputs.statistics, files::json_text(statistics_json(statistics, info, film)));
+}
+
+std::string summary(const Outputs& outputs, const film::Film& film, const render::Statistics& statistics) {
+  const double seconds = statistics.seconds_render;
+  std::string text = fmt::format("{}: {}x{}, {:.6g} samples per pixel, {:.3g} s", outputs.image.string(),
+                                 film.width(), film.height(), film.samples_per_pixel(), seconds);
+  if (seconds > 0.0)
+    text += fmt::format(", {:.3g} M paths/s", 1e-6 * static_cast<double>(statistics.paths) / seconds);
+  if (const double error = film.relative_standard_error(); std::isfinite(error))
+    text += fmt::format(", relative standard error {:.3g}%", 100.0 * error);
+  return text + (statistics.interrupted ? ", interrupted" : "");
+}
+
+} // namespace
+
+int render(const RenderOptions& options) {
+  if (options.verbose) spdlog::set_level(spdlog::level::info);
+  const Outputs outputs = outputs_of(options);
+  check_writable(outputs);
+  const scene::Scene scene = load_scene(options);
+  const render::Settings settings = settings_of(options, scene.defaults);
+  film::Film film(scene.camera.width, scene.camera.height);
+  const render::Statistics statistics = run(scene, settings, film, outputs, options.quiet);
+
+  if (statistics.nonfinite > 0)
+    spdlog::warn("{} samples were not finite and count as black", statistics.nonfinite);
+  if (film.samples_per_pixel() == 0.0) { // an older image is worth more than a black one
+    spdlog::warn("interrupted before the first sample: nothing is written");
+    return kInterrupted;
+  }
+  write(outputs, info_of(options, settings, film, statistics), film, statistics, options.moments);
+  if (!options.quiet) fmt::print("{}\n", summary(outputs, film, statistics));
+  return statistics.interrupted ? kInterrupted : 0;
+}
+
+} // namespace phlux::cli

@@ -1,0 +1,33 @@
+// Texts of the command line to values. What is not a value throws UsageError "OPTION TEXT: what would be
+// right".
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace phlux::cli {
+
+/// A decimal number from `least` to `most`.
+[[nodiscard]] std::uint64_t whole_number(const std::string& option, const std::string& text,
+                                         std::uint64_t least, std::uint64_t most);
+/// 1 or more, or -1 for unbounded.
+[[nodiscard]] int depth(const std::string& option, const std::string& text);
+/// A finite number above 0.
+[[nodiscard]] double positive_number(const std::string& option, const std::string& text);
+/// WIDTHxHEIGHT in pixels; at most 2^28 pixels, which take 15 GB.
+[[nodiscard]] std::array<int, 2> size(const std::string& option, const std::string& text);
+/// NAME=VALUE; the value may be empty.
+[[nodiscard]] std::pair<std::string, std::string> definition(const std::string& option,
+                                                             const std::string& text);
+/// The index of `text` in `names`; the error names the nearest one, or all.
+[[nodiscard]] std::size_t choice(const std::string& option, const std::string& text,
+                                 const std::vector<std::string>& names);
+
+/// The name that `text` was probably meant to be: within two edits, and within half of its length; else
+/// empty.
+[[nodiscard]] std::string nearest(const std::string& text, const std::vector<std::string>& names);
+
+} // namespace phlux::cli
