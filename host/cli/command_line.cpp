@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <memory>
+#include <sstream>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -14,6 +15,21 @@
 namespace phlux::cli {
 namespace {
 
+// The help's second column starts at kNames and ends at kColumns.
+constexpr std::size_t kNames = 30, kColumns = 100;
+
+std::string wrapped(const std::string& text) {
+  std::string lines;
+  std::size_t column = kNames;
+  std::istringstream words(text);
+  for (std::string word; words >> word; column += word.size() + 1) {
+    if (!lines.empty()) lines += column + word.size() > kColumns ? '\n' : ' ';
+    if (lines.ends_with('\n')) column = kNames;
+    lines += word;
+  }
+  return lines;
+}
+
 // An option with one value, which `set` is given as text; when repeated, the last one counts, as scripts
 // expect.
 template<class Set>
@@ -21,7 +37,7 @@ CLI::Option* add_value(CLI::App& app, const std::string& names, const std::strin
                        const std::string& help, Set set) {
   return app
       .add_option_function<std::string>(
-          names, [set](const std::string& text) { set(text); }, help)
+          names, [set](const std::string& text) { set(text); }, wrapped(help))
       ->type_name(value)
       ->take_last();
 }
@@ -36,7 +52,7 @@ CLI::Option* add_values(CLI::App& app, const std::string& names, const std::stri
           [add](const std::vector<std::string>& texts) {
             for (const std::string& text : texts) add(text);
           },
-          help)
+          wrapped(help))
       ->type_name(value)
       ->allow_extra_args(false);
 }
@@ -73,18 +89,15 @@ void add_method(CLI::App& app, RenderOptions& options) {
 void add_amount(CLI::App& app, RenderOptions& options) {
   constexpr std::uint64_t kMostSamples = std::numeric_limits<int>::max();
   app.option_defaults()->group("How much");
-  CLI::Option* samples =
-      add_value(app, "-n,--spp", "N", "samples a pixel; default: the scene's", [&](const std::string& text) {
-        options.samples_per_pixel = static_cast<int>(whole_number("--spp", text, 1, kMostSamples));
-      });
-  add_value(app, "--time", "SECONDS", "render as long instead", [&](const std::string& text) {
-    options.time_limit = positive_number("--time", text);
-  })->excludes(samples);
+  add_value(app, "-n,--spp", "N", "samples a pixel; default: the scene's", [&](const std::string& text) {
+    options.samples_per_pixel = static_cast<int>(whole_number("--spp", text, 1, kMostSamples));
+  });
+  add_value(app, "--time", "SECONDS", "render for so long instead",
+            [&](const std::string& text) { options.time_limit = positive_number("--time", text); });
   add_value(app, "--error", "E",
             "render until the mean relative standard error is E instead, such as 0.01; with "
             "--time: until the first of both",
-            [&](const std::string& text) { options.target_error = positive_number("--error", text); })
-      ->excludes(samples);
+            [&](const std::string& text) { options.target_error = positive_number("--error", text); });
   add_value(app, "--size", "WxH",
             "pixels of the image; default: the scene's. The horizontal field of view stays",
             [&](const std::string& text) { options.size = size("--size", text); });
@@ -148,12 +161,17 @@ void add_files(CLI::App& app, RenderOptions& options) {
 void add_render(CLI::App& program, std::optional<Command>& command) {
   CLI::App& app = *program.add_subcommand("render", "Renders a scene to an OpenEXR image and a PNG preview");
   const auto options = std::make_shared<RenderOptions>();
-  app.add_option("scene", options->scene_file, "Mitsuba scene file")->type_name("SCENE.xml")->required();
+  app.add_option("SCENE.xml", options->scene_file, "Mitsuba scene file")->type_name("")->required();
   add_files(app, *options);
   add_amount(app, *options);
   add_method(app, *options);
   add_device(app, *options);
-  app.final_callback([&command, options] { command = [options] { return render(*options); }; });
+  app.footer(" "); // not the program's
+  app.final_callback([&command, options] {
+    if (options->samples_per_pixel && (options->time_limit || options->target_error))
+      throw UsageError("--spp: cannot go with --time or --error, which decide how many samples are taken");
+    command = [options] { return render(*options); };
+  });
 }
 
 void add_devices(CLI::App& program, std::optional<Command>& command) {
@@ -166,8 +184,8 @@ void add_devices(CLI::App& program, std::optional<Command>& command) {
 void add_compare(CLI::App& program, std::optional<Command>& command) {
   CLI::App& app = *program.add_subcommand("compare", "Says how far an image is from a reference");
   const auto options = std::make_shared<CompareOptions>();
-  app.add_option("a", options->a, "image")->type_name("A.exr")->required();
-  app.add_option("b", options->b, "reference")->type_name("B.exr")->required();
+  app.add_option("A.exr", options->a, "image")->type_name("")->required();
+  app.add_option("B.exr", options->b, "reference")->type_name("")->required();
   app.add_flag("--json", options->json, "as JSON");
   app.footer("relmse is the mean of (a-b)^2 / (b^2 + 1e-4), relmse_trimmed the same without the largest 0.1% "
              "of pixels;\n"
@@ -210,7 +228,10 @@ std::vector<std::string> option_names(const CLI::App& app) {
   }
   if (!unknown.empty())
     throw UsageError(fmt::format("{}: one argument too many: see {}", unknown.front(), help));
-  throw UsageError(fmt::format("{}: see {}", error.what(), help));
+  const std::string what = error.what();
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr)
+    throw UsageError(fmt::format("{}: a value is missing: see {}", what.substr(0, what.find(':')), help));
+  throw UsageError(fmt::format("{}: see {}", what, help));
 }
 
 } // namespace
@@ -220,6 +241,7 @@ std::optional<Command> parse(int argc, char** argv) {
   CLI::App program("phlux: path tracing of Mitsuba scenes on any OpenCL device", "phlux");
   program.set_version_flag("--version", "phlux " PHLUX_VERSION);
   program.require_subcommand(1);
+  program.get_formatter()->label("REQUIRED", ""); // the usage line says it
   program.footer(
       "phlux COMMAND --help lists the options of a command.\n"
       "Exit codes: 0 done, 1 a comparison failed, 2 wrong usage, 3 bad scene or file, 4 no device or it "

@@ -15,7 +15,8 @@ namespace {
 
 constexpr double kSecondsBetweenBars = 0.1;
 constexpr double kSecondsBetweenLines = 10.0;
-constexpr std::size_t kBarWidth = 24, kUsualColumns = 80;
+constexpr std::size_t kUsualColumns = 80;
+constexpr std::size_t kNarrowestBar = 6, kWidestBar = 32;
 
 std::size_t terminal_columns() {
   winsize window{};
@@ -29,9 +30,13 @@ std::string clock_text(double seconds) {
   return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
 }
 
-std::string bar(double fraction) {
-  const auto filled = static_cast<std::size_t>(fraction * static_cast<double>(kBarWidth));
-  return fmt::format("[{:<{}}]", std::string(filled, '#'), kBarWidth);
+// "[####    ] TEXT" in at most `columns`; the bar takes what the text leaves.
+std::string bar_line(double fraction, const std::string& text, std::size_t columns) {
+  constexpr std::size_t kAroundBar = 3;
+  if (text.size() + kAroundBar + kNarrowestBar > columns) return text.substr(0, columns);
+  const std::size_t width = std::min(kWidestBar, columns - text.size() - kAroundBar);
+  const auto filled = static_cast<std::size_t>(fraction * static_cast<double>(width));
+  return fmt::format("[{:<{}}] {}", std::string(filled, '#'), width, text);
 }
 
 } // namespace
@@ -75,7 +80,7 @@ void ProgressDisplay::update(const render::Progress& progress, const std::functi
   const double error_so_far = error();
   const double fraction = fraction_done(progress, time_limit_, target_error_, error_so_far);
   const std::string text = progress_text(progress, fraction, error_so_far);
-  show(terminal_ ? bar(fraction) + " " + text : text);
+  show(terminal_ ? bar_line(fraction, text, terminal_columns() - 1) : text);
 }
 
 void ProgressDisplay::clear() {
@@ -88,7 +93,7 @@ void ProgressDisplay::show(const std::string& text) {
     fmt::print(stderr, "phlux: {}\n", text);
     return;
   }
-  fmt::print(stderr, "\r\x1b[K{}", text.substr(0, terminal_columns() - 1));
+  fmt::print(stderr, "\r\x1b[K{}", text);
   std::fflush(stderr);
   line_is_shown_ = true;
 }

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -51,23 +52,26 @@ render::Settings settings_of(const RenderOptions& options, const scene::RenderDe
   return settings;
 }
 
-// The film's relative standard error, computed at most twice a second and for at most 2% of the time.
+// The film's relative standard error, computed at most twice a second and for at most 2% of the time; in
+// between it falls with the root of the samples.
 class ErrorSoFar {
 public:
   explicit ErrorSoFar(const film::Film& film) : film_(film) {}
-  double operator()() {
-    const auto start = std::chrono::steady_clock::now();
-    if (start < next_) return value_;
-    value_ = film_.relative_standard_error();
-    const auto end = std::chrono::steady_clock::now();
-    next_ = end +
-            std::max<std::chrono::steady_clock::duration>(std::chrono::milliseconds(500), 50 * (end - start));
-    return value_;
+  double at(double samples) {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point start = Clock::now();
+    if (start >= next_) {
+      value_ = film_.relative_standard_error();
+      samples_ = samples;
+      const Clock::time_point end = Clock::now();
+      next_ = end + std::max<Clock::duration>(std::chrono::milliseconds(500), 50 * (end - start));
+    }
+    return samples > 0.0 ? value_ * std::sqrt(samples_ / samples) : value_;
   }
 
 private:
   const film::Film& film_;
-  double value_ = std::numeric_limits<double>::infinity();
+  double value_ = std::numeric_limits<double>::infinity(), samples_ = 0.0;
   std::chrono::steady_clock::time_point next_{};
 };
 
@@ -81,7 +85,7 @@ render::Statistics run(const scene::Scene& scene, const render::Settings& settin
   render::Events events;
   events.building_kernels = [&] { display.building_kernels(); };
   events.progress = [&](const render::Progress& progress) {
-    display.update(progress, [&] { return error(); });
+    display.update(progress, [&] { return error.at(progress.samples_done); });
     preview.update(film, progress.seconds);
     interrupted = interrupt.requested();
     return !interrupted;
