@@ -16,7 +16,7 @@ namespace {
 constexpr std::array<const char*, 3> kRadiance = {"R", "G", "B"};
 constexpr std::array<const char*, 3> kVariance = {"variance.R", "variance.G", "variance.B"};
 constexpr double kDarkness = 1e-4;    // what relmse adds to b^2, so that black pixels do not divide by 0
-constexpr double kRounding = 0x1p-20; // 2^-24 sqrt(256): float32 sums of 256 samples
+constexpr double kRounding = 0x1p-16; // 256 x 2^-24: a float32 sum of 256 equal samples
 constexpr std::size_t kTrimOneIn = 1000;
 
 using Channels = std::array<const std::vector<float>*, 3>;

@@ -21,8 +21,8 @@ struct Comparison {
       0.0; ///< without the largest 0.1% of pixels (rounded down), by their mean over channels
 
   /// Where both images have variance channels: z = |a-b| / sqrt(variance_a + variance_b + r^2), its largest
-  /// value and the share of pixels' channels above 3. The rounding r = 2^-20 max(|a|, |b|) of float32 sums of
-  /// some hundred samples keeps z finite where there is no noise.
+  /// value and the share of pixels' channels above 3. The rounding r = 2^-16 max(|a|, |b|) of float32 sums
+  /// of up to 256 samples keeps z finite, and small, where there is no noise.
   std::optional<double> max_z, z_share_over_3;
 
   std::uint64_t nonfinite = 0; ///< values, in the channels above, that are NaN or infinite

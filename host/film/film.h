@@ -21,8 +21,9 @@ struct Pixel {
 };
 
 /// Sums stay exact to about 2^-53 times the number of blocks, so that no sample count stalls them (MATH.md
-/// 6). What the float32 blocks themselves round remains: a mean is good to about 2^-24 sqrt(block length) of
-/// itself, and a variance of one sample below that part of mean^2 is rounding, not noise.
+/// 6). What the float32 blocks themselves round remains: with B samples a block, a mean is good to 2^-24 B of
+/// itself (2^-24 sqrt(B) where samples differ), and a variance of one sample below that part of mean^2 is
+/// rounding, not noise.
 class Film {
 public:
   /// Black, without samples. Both sizes > 0.

@@ -1,0 +1,143 @@
+#include "files/exr.h"
+
+#include <fstream>
+#include <limits>
+
+#include <ImfChannelList.h>
+#include <ImfDoubleAttribute.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfInputFile.h>
+#include <ImfOutputFile.h>
+#include <ImfStringAttribute.h>
+
+#include <catch2/catch.hpp>
+
+#include "errors.h"
+#include "files/output.h"
+#include "files/temporary_folder.h"
+
+using phlux::SceneError;
+using phlux::film::Film;
+using namespace phlux::files;
+
+namespace {
+
+const RenderInfo kInfo{.version = "0.1.0",
+                       .scene = "scenes/box.xml",
+                       .integrator = "path",
+                       .strategy = "mixture",
+                       .samples = 64.0,
+                       .seed = std::numeric_limits<std::uint64_t>::max(),
+                       .device = "a device",
+                       .driver = "3.1",
+                       .seconds = 1.5};
+
+Film numbered_film() {
+  Film film(3, 2);
+  for (std::size_t pixel = 0; pixel < 6; ++pixel) {
+    const float x = static_cast<float>(pixel);
+    film.add(pixel, {{x, 2 * x, 1e9F * x}, {x * x, 4 * x * x, 1e18F * x * x}}, 2);
+  }
+  return film;
+}
+
+} // namespace
+
+TEST_CASE("An image comes back from an EXR file bit for bit") {
+  const TemporaryFolder folder;
+  const Image image = image_of(numbered_film(), kInfo, true);
+  write_exr(folder / "a.exr", image);
+  const Image back = read_exr(folder / "a.exr");
+  CHECK(back.width == 3);
+  CHECK(back.height == 2);
+  CHECK(back.channels == image.channels);
+  CHECK(back.channels.at("R") ==
+        std::vector<float>{0.0F, 0.5F, 1.0F, 1.5F, 2.0F, 2.5F}); // the mean, top row first
+  CHECK(back.channels.at("B")[5] == 2.5e9F);                     // neither clamped nor exposed
+  CHECK(back.channels.at("variance.R")[4] == 4.0F); // samples 0 and 4, or Q = 16: (16/2 - 2^2) / 1
+}
+
+TEST_CASE("An EXR file has the channels and attributes of the contract") {
+  const TemporaryFolder folder;
+  const bool moments = GENERATE(false, true);
+  write_exr(folder / "a.exr", image_of(numbered_film(), kInfo, moments));
+  const Imf::InputFile file((folder / "a.exr").c_str());
+  const Imf::Header& header = file.header();
+
+  std::map<std::string, Imf::PixelType> channels;
+  for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel)
+    channels[channel.name()] = channel.channel().type;
+  CHECK(channels.size() == (moments ? 6 : 3));
+  CHECK(channels.contains("variance.G") == moments);
+  for (const auto& [name, type] : channels) CHECK(type == Imf::FLOAT);
+
+  const auto text = [&](const char* name) {
+    return header.typedAttribute<Imf::StringAttribute>(name).value();
+  };
+  const auto number = [&](const char* name) {
+    return header.typedAttribute<Imf::DoubleAttribute>(name).value();
+  };
+  CHECK(text("version") == "0.1.0");
+  CHECK(text("scene") == "scenes/box.xml");
+  CHECK(text("integrator") == "path");
+  CHECK(text("strategy") == "mixture");
+  CHECK(number("samples") == 64.0);
+  CHECK(text("seed") == "18446744073709551615");
+  CHECK(text("device") == "a device");
+  CHECK(text("driver") == "3.1");
+  CHECK(number("seconds") == 1.5);
+
+  const RenderInfo info = read_exr(folder / "a.exr").info;
+  CHECK(info.version == kInfo.version);
+  CHECK(info.scene == kInfo.scene);
+  CHECK(info.strategy == kInfo.strategy);
+  CHECK(info.samples == kInfo.samples);
+  CHECK(info.seed == kInfo.seed);
+  CHECK(info.seconds == kInfo.seconds);
+}
+
+TEST_CASE("Other programs' files are read: half channels, an offset data window, no attributes") {
+  const TemporaryFolder folder;
+  std::vector<half> values = {1.0F, 2.0F, 3.0F, 4.0F};
+  const Imath::Box2i window({10, 20}, {11, 21});
+  Imf::Header header(window, window);
+  header.channels().insert("R", Imf::Channel(Imf::HALF));
+  Imf::FrameBuffer frame;
+  frame.insert("R", Imf::Slice::Make(Imf::HALF, values.data(), window));
+  {
+    Imf::OutputFile file((folder / "a.exr").c_str(), header);
+    file.setFrameBuffer(frame);
+    file.writePixels(2);
+  }
+  const Image image = read_exr(folder / "a.exr");
+  CHECK(image.channels.at("R") == std::vector<float>{1.0F, 2.0F, 3.0F, 4.0F});
+  CHECK(image.info.version.empty());
+}
+
+TEST_CASE("What is no EXR image is a SceneError of one line that names the file") {
+  const TemporaryFolder folder;
+  const std::string file = (folder / "a.exr").string();
+  SECTION("missing") {}
+  SECTION("empty") {
+    write_file(file, "");
+  }
+  SECTION("text") {
+    write_file(file, "not an image at all");
+  }
+  SECTION("cut off") {
+    const std::string bytes = encode_exr(image_of(numbered_film(), kInfo, true));
+    write_file(file, bytes.substr(0, bytes.size() - 20));
+  }
+  SECTION("damaged header") {
+    std::string bytes = encode_exr(image_of(numbered_film(), kInfo, true));
+    const std::size_t window = bytes.find("dataWindow");
+    bytes.replace(window + 31, 8, "\x7f\x7f\x7f\x7f\x7f\x7f\x7f\x7f", 8);
+    write_file(file, bytes);
+  }
+  SECTION("a folder") {
+    std::filesystem::create_directory(file);
+  }
+  CHECK_THROWS_AS(read_exr(file), SceneError);
+  CHECK_THROWS_WITH(read_exr(file), Catch::StartsWith(file + ": ") && !Catch::Contains("\n"));
+}

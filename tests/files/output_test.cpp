@@ -1,0 +1,115 @@
+#include "files/output.h"
+
+#include <csignal>
+#include <fstream>
+#include <iterator>
+#include <vector>
+
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+#include <catch2/catch.hpp>
+
+#include "errors.h"
+#include "files/temporary_folder.h"
+
+namespace fs = std::filesystem;
+using phlux::WriteError;
+using phlux::files::check_writable;
+using phlux::files::write_file;
+
+namespace {
+
+std::string contents(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::ptrdiff_t entries(const TemporaryFolder& folder) {
+  return std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator());
+}
+
+// Writes beyond 1000 bytes fail, as on a full disk.
+class FullDisk {
+public:
+  FullDisk() : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    ::getrlimit(RLIMIT_FSIZE, &old_);
+    const rlimit small{1000, old_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &small);
+  }
+  ~FullDisk() {
+    ::setrlimit(RLIMIT_FSIZE, &old_);
+    std::signal(SIGXFSZ, handler_);
+  }
+
+private:
+  rlimit old_{};
+  void (*handler_)(int);
+};
+
+} // namespace
+
+TEST_CASE("Files are written whole, over what was there") {
+  const TemporaryFolder folder;
+  write_file(folder / "a", "one");
+  write_file(folder / "a", std::string("two\0three", 9));
+  CHECK(contents(folder / "a") == std::string("two\0three", 9));
+  CHECK(entries(folder) == 1);
+}
+
+TEST_CASE("Checking leaves everything as it is") {
+  const TemporaryFolder folder;
+  check_writable(folder / "new");
+  CHECK(folder.is_empty());
+  write_file(folder / "old", "old");
+  check_writable(folder / "old");
+  CHECK(contents(folder / "old") == "old");
+  CHECK(entries(folder) == 1);
+}
+
+TEST_CASE("What cannot be written is a WriteError that names the file") {
+  const TemporaryFolder folder;
+  write_file(folder / "file", "x");
+  const std::vector<fs::path> paths = {folder / "missing/a.exr", folder / "file/a.exr", folder.path(),
+                                       "/proc/a.exr", ""};
+  const fs::path& path = paths[GENERATE(range(std::size_t{0}, std::size_t{5}))];
+  CAPTURE(path);
+  CHECK_THROWS_AS(check_writable(path), WriteError);
+  CHECK_THROWS_AS(write_file(path, "bytes"), WriteError);
+  CHECK_THROWS_WITH(check_writable(path), Catch::StartsWith(path.string() + ": cannot be written: "));
+  CHECK(entries(folder) == 1);
+}
+
+TEST_CASE("A write that fails half-way keeps the old file and leaves no partial one") {
+  const TemporaryFolder folder;
+  write_file(folder / "a", "old");
+  {
+    const FullDisk full;
+    CHECK_THROWS_AS(write_file(folder / "a", std::string(5000, 'x')), WriteError);
+    CHECK_THROWS_AS(write_file(folder / "b", std::string(5000, 'x')), WriteError);
+  }
+  CHECK(contents(folder / "a") == "old");
+  CHECK(entries(folder) == 1);
+}
+
+TEST_CASE("A folder that vanishes after the check is an error, not a crash") {
+  const TemporaryFolder folder;
+  fs::create_directory(folder / "sub");
+  check_writable(folder / "sub/a");
+  fs::remove_all(folder / "sub");
+  CHECK_THROWS_AS(write_file(folder / "sub/a", "x"), WriteError);
+}
+
+TEST_CASE("Links stay links, and special files stay special") {
+  const TemporaryFolder folder;
+  write_file(folder / "target", "old");
+  fs::create_symlink("target", folder / "link");
+  write_file(folder / "link", "new");
+  CHECK(fs::is_symlink(folder / "link"));
+  CHECK(contents(folder / "target") == "new");
+
+  check_writable("/dev/null");
+  write_file("/dev/null", "bytes");
+  CHECK(fs::is_character_file("/dev/null"));
+  CHECK_THROWS_AS(write_file("/dev/full", "bytes"), WriteError);
+}
