@@ -9,8 +9,8 @@
 
 namespace phlux::scene_file {
 
-/// Reads FILE and the meshes that it names. `definitions` are `-D name=value`, replacing `$name` and <default>s.
-/// Warnings go to the log (spdlog), each naming FILE:LINE.
+/// Reads FILE and the meshes that it names. `definitions` are `-D name=value`, replacing `$name` and
+/// <default>s. Warnings go to the log (spdlog), each naming FILE:LINE.
 /// @throws SceneError "FILE:LINE: what is wrong: what would be right"
 [[nodiscard]] scene::Scene load(const std::filesystem::path& file,
                                 const std::map<std::string, std::string>& definitions = {});

@@ -1,0 +1,14 @@
+// Colours as Mitsuba's RGB mode reads them: linear, with Rec. 709 primaries.
+#pragma once
+
+#include "scene/scene.h"
+#include "scene_file/document.h"
+
+namespace phlux::scene_file {
+
+/// One number (grey), three numbers, or #rrggbb. As in Mitsuba 0.6, <rgb> is linear in each of these forms,
+/// and only <srgb> is decoded from sRGB (IEC 61966-2-1).
+/// @throws SceneError
+[[nodiscard]] scene::Rgb read_color(const Element& property);
+
+} // namespace phlux::scene_file

@@ -1,0 +1,51 @@
+// The scene file as a tree of elements that know their lines, with parameters replaced and references
+// checked.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "scene_file/location.h"
+
+namespace phlux::scene_file {
+
+struct Element {
+  std::string tag;
+  std::map<std::string, std::string> attributes;
+  std::vector<Element> children;
+  Location where;
+
+  /// The attribute's value, empty if it is not there.
+  [[nodiscard]] const std::string& operator[](const std::string& attribute) const;
+  [[nodiscard]] bool has(const std::string& attribute) const { return attributes.contains(attribute); }
+  /// The plugin that an object names, in lower case as Mitsuba compares it.
+  [[nodiscard]] std::string type() const;
+  /// <bsdf type="phong">, for messages
+  [[nodiscard]] std::string name() const;
+};
+
+struct Document {
+  std::filesystem::path file;
+  Element scene;
+  int major_version = 0;                         ///< 0: the names are Mitsuba 0.5's and 0.6's
+  std::map<std::string, const Element*> objects; ///< by id; they point into `scene`
+
+  /// The object that a <ref> names; any other element itself.
+  [[nodiscard]] const Element& resolve(const Element& element) const;
+  /// A property's name as a file of this version spells it.
+  [[nodiscard]] std::string spelling(const std::string& snake_case) const;
+
+  Document() = default;
+  Document(const Document&) = delete; ///< `objects` points into `scene`
+  Document& operator=(const Document&) = delete;
+};
+
+/// Reads FILE into `document`.
+/// @throws SceneError for malformed XML, unknown elements or attributes, an unknown version, duplicate ids,
+/// and references that are circular or lead nowhere
+void read_document(const std::filesystem::path& file, const std::map<std::string, std::string>& definitions,
+                   Document& document);
+
+} // namespace phlux::scene_file

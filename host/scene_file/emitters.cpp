@@ -1,0 +1,123 @@
+#include "scene_file/emitters.h"
+
+#include <glm/geometric.hpp>
+#include <glm/gtx/component_wise.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "scene_file/properties.h"
+#include "scene_file/transform.h"
+
+namespace phlux::scene_file {
+
+namespace {
+
+using scene::Rgb;
+using scene::Vec3;
+
+constexpr double default_cutoff_degrees = 20.0;
+constexpr double default_beam_share = 0.75; ///< of the cutoff angle
+
+Rgb emission(Properties& properties, const std::string& name) {
+  const Rgb color = properties.color(name, Rgb(1.0));
+  if (glm::compMin(color) < 0.0)
+    properties.fail_at(name, "negative emission", "every channel must be 0 or more");
+  return color;
+}
+
+/// Says so where the emitter is dark, so that the caller can leave it out.
+bool emits(const Properties& properties, const Rgb& color) {
+  if (color != Rgb(0.0)) return true;
+  warn(properties.element().where, properties.element().name() + " emits nothing and is left out");
+  return false;
+}
+
+/// `position` or `direction`, of which Mitsuba allows only one beside to_world.
+std::optional<Vec3> explicit_place(Properties& properties, const std::string& name) {
+  const auto place = properties.vector(name);
+  if (place && properties.has("to_world"))
+    properties.fail_at(name, "given together with " + properties.spelling("to_world"), "give one of the two");
+  return place;
+}
+
+Vec3 axis(Properties& properties) {
+  const glm::dmat4 to_world = properties.transform("to_world");
+  if (!is_rigid(to_world))
+    properties.fail_at("to_world", "it scales or shears", "translations, rotations and lookat alone");
+  return glm::normalize(Vec3(to_world[2]));
+}
+
+void read_point(Properties& properties, scene::Scene& scene) {
+  const auto position = explicit_place(properties, "position");
+  const Vec3 origin(properties.transform("to_world")[3]);
+  const scene::PointLight light{position.value_or(origin), emission(properties, "intensity")};
+  if (emits(properties, light.intensity)) scene.point_lights.push_back(light);
+}
+
+void read_spot(Properties& properties, scene::Scene& scene) {
+  scene::SpotLight light;
+  light.position = Vec3(properties.transform("to_world")[3]);
+  light.direction = axis(properties);
+  light.intensity = emission(properties, "intensity");
+  const double cutoff = properties.real("cutoff_angle", default_cutoff_degrees);
+  const double beam = properties.real("beam_width", default_beam_share * cutoff);
+  if (!(cutoff > 0.0 && cutoff <= 180.0))
+    properties.fail_at("cutoff_angle", std::to_string(cutoff) + " degrees", "above 0 and at most 180");
+  if (!(beam >= 0.0 && beam <= cutoff))
+    properties.fail_at("beam_width", std::to_string(beam) + " degrees",
+                       "0 or more, and at most the cutoff angle");
+  light.cutoff_angle = glm::radians(cutoff);
+  light.beam_width = glm::radians(beam);
+  if (emits(properties, light.intensity)) scene.spot_lights.push_back(light);
+}
+
+void read_directional(Properties& properties, scene::Scene& scene) {
+  scene::DirectionalLight light;
+  const auto direction = explicit_place(properties, "direction");
+  if (direction && *direction == Vec3(0.0))
+    properties.fail_at("direction", "it has no length", "a vector along the light");
+  light.direction = direction ? glm::normalize(*direction) : axis(properties);
+  light.irradiance = emission(properties, "irradiance");
+  if (emits(properties, light.irradiance)) scene.directional_lights.push_back(light);
+}
+
+void read_constant(Properties& properties, scene::Scene& scene) {
+  const Rgb radiance = emission(properties, "radiance");
+  properties.pass_over({"to_world"});
+  if (scene.constant_radiance)
+    fail(properties.element().where, "a second constant emitter", "give one, with their sum");
+  if (emits(properties, radiance)) scene.constant_radiance = radiance;
+}
+
+} // namespace
+
+void read_emitter(const Element& emitter, const Document& document, scene::Scene& scene) {
+  Properties properties(emitter, document);
+  properties.pass_over({"sampling_weight"});
+  const std::string type = emitter.type();
+  if (type == "point")
+    read_point(properties, scene);
+  else if (type == "spot")
+    read_spot(properties, scene);
+  else if (type == "directional")
+    read_directional(properties, scene);
+  else if (type == "constant")
+    read_constant(properties, scene);
+  else if (type == "area")
+    fail(emitter.where, emitter.name() + " outside a shape", "it must stand inside the <shape> that emits");
+  else
+    fail(emitter.where, emitter.name() + " is not supported",
+         "supported are area, point, spot, directional, constant");
+  properties.finish();
+}
+
+scene::AreaEmitter read_area_emitter(const Element& emitter, const Document& document) {
+  Properties properties(emitter, document);
+  if (emitter.type() != "area") fail(emitter.where, emitter.name() + " inside a shape", "an area emitter");
+  properties.pass_over({"sampling_weight"});
+  const scene::AreaEmitter area{emission(properties, "radiance")};
+  properties.finish();
+  static_cast<void>(emits(properties, area.radiance));
+  return area;
+}
+
+} // namespace phlux::scene_file

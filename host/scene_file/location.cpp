@@ -1,0 +1,25 @@
+#include "scene_file/location.h"
+
+#include <spdlog/spdlog.h>
+
+#include "errors.h"
+
+namespace phlux::scene_file {
+
+std::string Location::text() const {
+  return line > 0 ? *file + ":" + std::to_string(line) : *file;
+}
+
+void fail(const Location& where, const std::string& wrong, const std::string& right) {
+  throw SceneError(where.text() + ": " + wrong + ": " + right);
+}
+
+void warn(const Location& where, const std::string& message) {
+  spdlog::warn("{}: {}", where.text(), message);
+}
+
+void note(const Location& where, const std::string& message) {
+  spdlog::info("{}: {}", where.text(), message);
+}
+
+} // namespace phlux::scene_file

@@ -1,0 +1,24 @@
+// Where in which file something was said, and the one-line errors and notes that point there.
+#pragma once
+
+#include <memory>
+#include <string>
+
+namespace phlux::scene_file {
+
+struct Location {
+  std::shared_ptr<const std::string> file;
+  int line = 0;                           ///< from 1; 0: the file as a whole
+  [[nodiscard]] std::string text() const; ///< FILE:LINE
+};
+
+/// @throws SceneError "FILE:LINE: wrong: right"
+[[noreturn]] void fail(const Location& where, const std::string& wrong, const std::string& right);
+
+/// To the log: something that may surprise, though rendering can go on.
+void warn(const Location& where, const std::string& message);
+
+/// To the log: something that was passed over because it cannot change the image.
+void note(const Location& where, const std::string& message);
+
+} // namespace phlux::scene_file

@@ -1,0 +1,132 @@
+#include "scene_file/mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+namespace phlux::scene_file {
+
+namespace {
+
+using scene::Mesh;
+using scene::Vec3;
+using Triangle = std::array<std::uint32_t, 3>;
+
+/// Rounding of single precision: a corner whose sine is smaller than this is no corner to the renderer.
+constexpr double least_sine = std::numeric_limits<float>::epsilon() / 2.0;
+
+bool representable(const Vec3& p) {
+  constexpr double most = std::numeric_limits<float>::max();
+  return std::abs(p.x) <= most && std::abs(p.y) <= most && std::abs(p.z) <= most; // false for NaN
+}
+
+/// Twice the area, along the front side's normal.
+Vec3 area_vector(const Mesh& mesh, const Triangle& t) {
+  const Vec3& p = mesh.positions[t[0]];
+  return glm::cross(mesh.positions[t[1]] - p, mesh.positions[t[2]] - p);
+}
+
+/// As the renderer will see it, with positions in single precision.
+bool has_area(const Mesh& mesh, const Triangle& t) {
+  const Vec3 p(glm::vec3(mesh.positions[t[0]]));
+  const Vec3 u = Vec3(glm::vec3(mesh.positions[t[1]])) - p, v = Vec3(glm::vec3(mesh.positions[t[2]])) - p;
+  return glm::length(glm::cross(u, v)) > least_sine * glm::length(u) * glm::length(v);
+}
+
+void transform(Mesh& mesh, const MeshRequest& request, const Location& file) {
+  for (Vec3& p : mesh.positions) {
+    p = Vec3(request.to_world * glm::dvec4(p, 1.0));
+    if (!representable(p))
+      fail(file, "a vertex leaves the range of single precision", "a smaller mesh or toWorld");
+  }
+  const glm::dmat3 linear(request.to_world);
+  const glm::dmat3 normal_to_world = glm::transpose(glm::inverse(linear));
+  for (glm::vec3& n : mesh.normals) {
+    const Vec3 world = normal_to_world * Vec3(n);
+    const double length = glm::length(world);
+    n = length > 0.0 ? glm::vec3(world / length) : glm::vec3(0.0f);
+  }
+  if (glm::determinant(linear) < 0.0)
+    for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+}
+
+/// Turns triangles so that their front is on the side of their vertices' normals.
+void orient_by_normals(Mesh& mesh) {
+  for (Triangle& t : mesh.triangles) {
+    const glm::vec3 sum = mesh.normals[t[0]] + mesh.normals[t[1]] + mesh.normals[t[2]];
+    if (glm::dot(area_vector(mesh, t), Vec3(sum)) < 0.0) std::swap(t[1], t[2]);
+  }
+}
+
+double angle_between(const Vec3& a, const Vec3& b) {
+  return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+}
+
+/// Fills in zero normals: the mean of the adjacent triangles' normals, weighted by their angles at the vertex
+/// (Thuermer and Wuethrich 1998).
+void compute_missing_normals(Mesh& mesh) {
+  mesh.normals.resize(mesh.positions.size(), glm::vec3(0.0f));
+  const auto missing = [&mesh](std::size_t i) { return mesh.normals[i] == glm::vec3(0.0f); };
+  std::vector<bool> computed(mesh.positions.size());
+  for (std::size_t i = 0; i < computed.size(); ++i) computed[i] = missing(i);
+  if (std::ranges::find(computed, true) == computed.end()) return;
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3 normal = glm::normalize(area_vector(mesh, t));
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (!computed[t[k]]) continue;
+      const Vec3& p = mesh.positions[t[k]];
+      const double angle =
+          angle_between(mesh.positions[t[(k + 1) % 3]] - p, mesh.positions[t[(k + 2) % 3]] - p);
+      mesh.normals[t[k]] += glm::vec3(normal * angle);
+    }
+  }
+  for (std::size_t i = 0; i < computed.size(); ++i)
+    if (computed[i] && !missing(i)) mesh.normals[i] = glm::normalize(mesh.normals[i]);
+  for (const Triangle& t : mesh.triangles) // where the sum cancels, any adjacent triangle's
+    for (const auto i : t)
+      if (missing(i)) mesh.normals[i] = glm::vec3(glm::normalize(area_vector(mesh, t)));
+  for (glm::vec3& n : mesh.normals)
+    if (n == glm::vec3(0.0f)) n = {0.0f, 0.0f, 1.0f}; // of vertices that no triangle uses
+}
+
+void flip(Mesh& mesh) {
+  for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+  for (glm::vec3& n : mesh.normals) n = -n;
+}
+
+} // namespace
+
+std::string read_bytes(const MeshRequest& request) {
+  std::error_code error;
+  const auto size = std::filesystem::file_size(request.file, error); // also fails for what is not a file
+  std::ifstream stream(request.file, std::ios::binary);
+  std::string bytes;
+  if (!error && stream) {
+    bytes.resize(size);
+    stream.read(bytes.data(), static_cast<std::streamsize>(size));
+  }
+  if (error || !stream)
+    fail(request.named_at, "mesh file '" + request.file.string() + "' cannot be read",
+         "an existing file, named relative to the scene's folder");
+  return bytes;
+}
+
+scene::Mesh finish_mesh(scene::Mesh mesh, const MeshRequest& request, std::size_t dropped) {
+  const Location file{std::make_shared<const std::string>(request.file.string()), 0};
+  if (mesh.triangles.empty() && dropped == 0) fail(file, "the mesh has no triangles", "at least one face");
+  if (request.face_normals) mesh.normals.clear();
+  transform(mesh, request, file);
+  dropped += std::erase_if(mesh.triangles, [&mesh](const Triangle& t) { return !has_area(mesh, t); });
+  if (dropped > 0) warn(file, std::to_string(dropped) + " zero-area triangles are dropped");
+  if (!mesh.normals.empty()) orient_by_normals(mesh);
+  if (!request.face_normals) compute_missing_normals(mesh);
+  if (request.flip_normals) flip(mesh);
+  return mesh;
+}
+
+} // namespace phlux::scene_file

@@ -1,0 +1,252 @@
+// Stanford PLY. Hand-written because the one library of Debian 12 that reads PLY, assimp 5.2.5, hangs on a
+// header cut short, aborts on binary files whose data begin with a line end, and accepts ascii files cut
+// short.
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "scene_file/mesh.h"
+#include "scene_file/ply_header.h"
+
+namespace phlux::scene_file {
+
+namespace {
+
+/// Numbers one after the other, whatever their storage.
+class PlyNumbers {
+public:
+  PlyNumbers(std::string_view bytes, const PlyHeader& header, Location where)
+      : at_(bytes.data() + header.size), end_(bytes.data() + bytes.size()), format_(header.format),
+        where_(std::move(where)) {
+    if (ascii()) where_.line = header.lines + 1;
+  }
+
+  [[nodiscard]] bool ascii() const { return format_ == PlyHeader::Format::ascii; }
+  [[nodiscard]] std::uint64_t bytes_left() const { return static_cast<std::uint64_t>(end_ - at_); }
+  /// Lines are known in ascii files only.
+  [[nodiscard]] const Location& where() const { return where_; }
+
+  double next(PlyType type) { return ascii() ? next_word() : next_binary(type); }
+
+  void skip_blanks() {
+    for (; at_ != end_ && (*at_ == ' ' || *at_ == '\t' || *at_ == '\r' || *at_ == '\n'); ++at_)
+      if (*at_ == '\n') ++where_.line;
+  }
+
+  [[noreturn]] void truncated() const {
+    fail(where_, "the file is cut short", "as many rows as the PLY header announces");
+  }
+
+private:
+  double next_word() {
+    skip_blanks();
+    if (at_ == end_) truncated();
+    double value = 0.0;
+    const auto [stopped, error] = std::from_chars(at_, end_, value);
+    const bool ended =
+        stopped == end_ || *stopped == ' ' || *stopped == '\t' || *stopped == '\r' || *stopped == '\n';
+    if (error != std::errc{} || !ended) {
+      const auto word_end =
+          std::find_if(at_, end_, [](char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r'; });
+      fail(where_, "'" + std::string(at_, std::min(word_end, at_ + 32)) + "' is not a number",
+           "a finite number");
+    }
+    at_ = stopped;
+    return value;
+  }
+
+  double next_binary(PlyType type) {
+    switch (type) {
+    case PlyType::int8:
+      return raw<std::int8_t>();
+    case PlyType::uint8:
+      return raw<std::uint8_t>();
+    case PlyType::int16:
+      return raw<std::int16_t>();
+    case PlyType::uint16:
+      return raw<std::uint16_t>();
+    case PlyType::int32:
+      return raw<std::int32_t>();
+    case PlyType::uint32:
+      return raw<std::uint32_t>();
+    case PlyType::float32:
+      return static_cast<double>(raw<float>());
+    case PlyType::float64:
+      return raw<double>();
+    }
+    return 0.0;
+  }
+
+  template<class Number>
+  Number raw() {
+    if (bytes_left() < sizeof(Number)) truncated();
+    char bytes[sizeof(Number)];
+    std::memcpy(bytes, at_, sizeof(Number));
+    at_ += sizeof(Number);
+    const bool same =
+        (format_ == PlyHeader::Format::little_endian) == (std::endian::native == std::endian::little);
+    if (!same) std::reverse(std::begin(bytes), std::end(bytes));
+    return std::bit_cast<Number>(bytes);
+  }
+
+  const char* at_;
+  const char* end_;
+  PlyHeader::Format format_;
+  Location where_;
+};
+
+class PlyReader {
+public:
+  PlyReader(std::string_view bytes, const PlyHeader& header, const Location& where)
+      : header_(header), where_(where), numbers_(bytes, header, where) {}
+
+  /// In object space. `dropped` counts faces with fewer than three corners.
+  scene::Mesh mesh(std::size_t& dropped) {
+    vertices_ = element("vertex").rows;
+    static_cast<void>(element("face"));
+    if (vertices_ >= std::numeric_limits<std::uint32_t>::max())
+      fail(where_, "too many vertices", "fewer than 2^32");
+    for (const auto& element : header_.elements) {
+      check_size(element);
+      if (element.name == "vertex")
+        read_vertices(element);
+      else if (element.name == "face")
+        read_faces(element);
+      else
+        skip(element);
+    }
+    if (numbers_.ascii()) numbers_.skip_blanks();
+    if (numbers_.bytes_left() > 0)
+      fail(numbers_.where(), "data after the last row", "as many rows as the PLY header announces");
+    dropped = dropped_;
+    return std::move(mesh_);
+  }
+
+private:
+  const PlyElement& element(const char* name) const {
+    const auto named = [name](const PlyElement& e) { return e.name == name; };
+    if (std::ranges::count_if(header_.elements, named) != 1)
+      fail(where_, std::string("the PLY header needs one element ") + name,
+           "vertices (x, y, z) and faces (vertex_indices)");
+    return *std::ranges::find_if(header_.elements, named);
+  }
+
+  /// Whether the bytes can hold the rows at all, before memory is taken for them.
+  void check_size(const PlyElement& element) const {
+    std::uint64_t least = 0;
+    for (const auto& property : element.properties)
+      least += numbers_.ascii() ? 1 : byte_size(property.count_type.value_or(property.type));
+    if (least > 0 && element.rows > numbers_.bytes_left() / least + 1) numbers_.truncated();
+  }
+
+  void skip_property(const PlyProperty& property) {
+    const double entries = property.count_type ? numbers_.next(*property.count_type) : 1.0;
+    for (double i = 0; i < entries; ++i) numbers_.next(property.type);
+  }
+
+  void skip(const PlyElement& element) {
+    if (element.properties.empty()) return;
+    for (std::uint64_t row = 0; row < element.rows; ++row)
+      for (const auto& property : element.properties) skip_property(property);
+  }
+
+  void read_vertices(const PlyElement& element) {
+    static constexpr std::array<std::string_view, 6> names{"x", "y", "z", "nx", "ny", "nz"};
+    std::vector<std::size_t>
+        slots; // by property: where its number goes; the last slot is for numbers of no use
+    std::array<bool, names.size() + 1> given{};
+    for (const auto& property : element.properties) {
+      const auto slot = static_cast<std::size_t>(std::ranges::find(names, property.name) - names.begin());
+      slots.push_back(property.count_type ? names.size() : slot);
+      given[slots.back()] = true;
+    }
+    if (!given[0] || !given[1] || !given[2])
+      fail({where_.file, element.line}, "vertices without x, y or z", "all three");
+    const bool normals = given[3] && given[4] && given[5];
+    mesh_.positions.reserve(element.rows);
+    if (normals) mesh_.normals.reserve(element.rows);
+    std::array<double, names.size() + 1> row{};
+    for (std::uint64_t i = 0; i < element.rows; ++i) {
+      for (std::size_t p = 0; p < slots.size(); ++p) {
+        const auto& property = element.properties[p];
+        if (property.count_type)
+          skip_property(property);
+        else
+          row[slots[p]] = numbers_.next(property.type);
+      }
+      add_vertex(row, normals);
+    }
+  }
+
+  void add_vertex(const std::array<double, 7>& row, bool normals) {
+    const auto index = mesh_.positions.size();
+    for (std::size_t k = 0; k < 3; ++k)
+      if (!(std::abs(row[k]) <= std::numeric_limits<float>::max()))
+        fail(numbers_.where(), "vertex " + std::to_string(index) + " is not finite",
+             "coordinates within single precision");
+    mesh_.positions.emplace_back(row[0], row[1], row[2]);
+    if (!normals) return;
+    const glm::vec3 normal(row[3], row[4], row[5]);
+    if (!std::isfinite(normal.x + normal.y + normal.z))
+      fail(numbers_.where(), "normal " + std::to_string(index) + " is not finite", "finite numbers");
+    mesh_.normals.push_back(normal);
+  }
+
+  void read_faces(const PlyElement& element) {
+    const auto holds_indices = [](const PlyProperty& p) {
+      return p.count_type && (p.name == "vertex_indices" || p.name == "vertex_index");
+    };
+    if (std::ranges::count_if(element.properties, holds_indices) != 1)
+      fail({where_.file, element.line}, "faces without vertex_indices",
+           "property list uchar int vertex_indices");
+    mesh_.triangles.reserve(element.rows);
+    for (std::uint64_t i = 0; i < element.rows; ++i)
+      for (const auto& property : element.properties) {
+        if (holds_indices(property))
+          read_face(i, property);
+        else
+          skip_property(property);
+      }
+  }
+
+  /// A fan of triangles around the first corner, right for convex polygons.
+  void read_face(std::uint64_t row, const PlyProperty& property) {
+    const double corners = numbers_.next(*property.count_type);
+    std::uint32_t first = 0, previous = 0;
+    for (double k = 0; k < corners; ++k) {
+      const double value = numbers_.next(property.type);
+      if (!(value >= 0.0 && value < static_cast<double>(vertices_) && value == std::floor(value)))
+        fail(numbers_.where(), "face " + std::to_string(row) + " has a vertex index out of range",
+             "0 to " + std::to_string(vertices_ - 1) + " (vertices - 1)");
+      const auto index = static_cast<std::uint32_t>(value);
+      if (k == 0) first = index;
+      if (k >= 2) mesh_.triangles.push_back({first, previous, index});
+      previous = index;
+    }
+    if (corners < 3) ++dropped_;
+  }
+
+  const PlyHeader& header_;
+  const Location& where_;
+  PlyNumbers numbers_;
+  std::uint64_t vertices_ = 0;
+  std::size_t dropped_ = 0;
+  scene::Mesh mesh_;
+};
+
+} // namespace
+
+scene::Mesh load_ply(const MeshRequest& request) {
+  const Location where{std::make_shared<const std::string>(request.file.string()), 0};
+  std::string bytes = read_bytes(request);
+  const PlyHeader header = read_ply_header(bytes, where);
+  std::size_t dropped = 0;
+  scene::Mesh mesh = PlyReader(bytes, header, where).mesh(dropped);
+  std::string().swap(bytes); // the file's bytes are of no more use
+  return finish_mesh(std::move(mesh), request, dropped);
+}
+
+} // namespace phlux::scene_file

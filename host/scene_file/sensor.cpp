@@ -1,0 +1,151 @@
+#include "scene_file/sensor.h"
+
+#include <cmath>
+#include <map>
+#include <set>
+
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "scene_file/properties.h"
+#include "scene_file/transform.h"
+#include "scene_file/values.h"
+
+namespace phlux::scene_file {
+
+namespace {
+
+using scene::Vec3;
+
+constexpr int largest_size = 32768;                       ///< pixels along one side of the image
+const double film_35mm_diagonal = std::hypot(36.0, 24.0); ///< mm, by which Mitsuba reads focal lengths
+
+int positive(Properties& properties, const std::string& name, int otherwise, int most) {
+  const int value = properties.integer(name, otherwise);
+  if (value < 1 || value > most)
+    properties.fail_at(name, std::to_string(value) + " is out of range", "1 to " + std::to_string(most));
+  return value;
+}
+
+void read_filter(const Element& filter, const Document& document) {
+  static const std::set<std::string> filters{"box", "tent", "gaussian", "mitchell", "catmullrom", "lanczos"};
+  if (!filters.contains(filter.type()))
+    fail(filter.where, filter.name() + " is not supported",
+         "box, or another of Mitsuba's, for which box is used");
+  if (filter.type() != "box") warn(filter.where, filter.name() + " is not supported; box is used");
+  Properties(filter, document).pass_over_rest();
+}
+
+void read_film(const Element& film, const Document& document, scene::Camera& camera) {
+  Properties properties(film, document);
+  if (film.type() != "hdrfilm") fail(film.where, film.name() + " is not supported", "supported is hdrfilm");
+  camera.width = positive(properties, "width", camera.width, largest_size);
+  camera.height = positive(properties, "height", camera.height, largest_size);
+  for (const auto& [name, whole] :
+       {std::pair{"crop_offset_x", 0}, std::pair{"crop_offset_y", 0}, std::pair{"crop_width", camera.width},
+        std::pair{"crop_height", camera.height}})
+    if (properties.integer(name, whole) != whole)
+      properties.fail_at(name, "crop windows are not supported",
+                         "leave the crop out to render the whole film");
+  properties.pass_over({"banner", "file_format", "pixel_format", "component_format", "channel_names",
+                        "attach_log", "high_quality_edges", "sample_border", "compensate"});
+  if (const Element* filter = properties.object("rfilter")) read_filter(*filter, document);
+  properties.finish();
+}
+
+void read_sampler(const Element& sampler, const Document& document, scene::RenderDefaults& defaults) {
+  static const std::set<std::string> samplers{"independent", "stratified", "multijitter", "orthogonal",
+                                              "ldsampler",   "halton",     "hammersley",  "sobol"};
+  if (!samplers.contains(sampler.type()))
+    fail(sampler.where, sampler.name() + " is not supported",
+         "independent, or another of Mitsuba's, for which it is used");
+  if (sampler.type() != "independent")
+    warn(sampler.where, sampler.name() + " is not supported; independent is used");
+  Properties properties(sampler, document);
+  defaults.samples_per_pixel =
+      positive(properties, "sample_count", defaults.samples_per_pixel, std::numeric_limits<int>::max());
+  properties.pass_over({"seed", "dimension", "scramble", "jitter"});
+  properties.finish();
+}
+
+/// Tangent of half the angle that fov or focal_length gives, along fov_axis, turned to the horizontal one.
+double tan_half_fov_x(Properties& properties, double aspect) {
+  const double tan_across_diagonal =
+      1.0 / std::sqrt(1.0 + 1.0 / (aspect * aspect)); // horizontal over diagonal
+  std::string axis = to_lower(properties.string("fov_axis", "x"));
+  if (!properties.has("fov")) {
+    std::string length = properties.string("focal_length", "50mm");
+    if (length.ends_with("mm")) length.resize(length.size() - 2);
+    const auto millimetres = parse_real(length);
+    if (!millimetres || *millimetres <= 0.0)
+      properties.fail_at("focal_length", "'" + length + "' is not a length",
+                         "a positive number of mm, such as 50mm");
+    return film_35mm_diagonal / (2.0 * *millimetres) * tan_across_diagonal;
+  }
+  if (properties.has("focal_length"))
+    properties.fail_at("focal_length", "given together with fov", "give one of the two");
+  const double degrees = properties.real("fov", 0.0);
+  if (!(degrees > 0.0 && degrees < 180.0))
+    properties.fail_at("fov", std::to_string(degrees) + " degrees", "more than 0 and less than 180");
+  if (axis == "smaller") axis = aspect > 1.0 ? "y" : "x";
+  if (axis == "larger") axis = aspect > 1.0 ? "x" : "y";
+  const std::map<std::string, double> to_horizontal{
+      {"x", 1.0}, {"y", aspect}, {"diagonal", tan_across_diagonal}};
+  if (!to_horizontal.contains(axis))
+    properties.fail_at("fov_axis", "'" + axis + "' is not an axis", "x, y, diagonal, smaller or larger");
+  return std::tan(glm::radians(degrees) / 2.0) * to_horizontal.at(axis);
+}
+
+void place(Properties& properties, scene::Camera& camera) {
+  const glm::dmat4 to_world = properties.transform("to_world");
+  if (!is_rigid(to_world))
+    properties.fail_at("to_world", "it scales or shears",
+                       "translations, rotations, lookat and mirroring alone");
+  camera.position = Vec3(to_world[3]);
+  camera.forward = glm::normalize(Vec3(to_world[2]));
+  camera.left =
+      glm::normalize(Vec3(to_world[0]) - camera.forward * glm::dot(camera.forward, Vec3(to_world[0])));
+  const Vec3 up = glm::cross(camera.forward, camera.left);
+  camera.up = glm::dot(up, Vec3(to_world[1])) < 0.0 ? -up : up; // to_world may mirror
+}
+
+} // namespace
+
+void read_sensor(const Element& sensor, const Document& document, scene::Scene& scene) {
+  Properties properties(sensor, document);
+  if (sensor.type() != "perspective")
+    fail(sensor.where, sensor.name() + " is not supported", "supported is perspective");
+  scene::Camera& camera = scene.camera;
+  if (const Element* film = properties.object("film")) read_film(*film, document, camera);
+  if (const Element* sampler = properties.object("sampler")) read_sampler(*sampler, document, scene.defaults);
+  place(properties, camera);
+  camera.tan_half_fov_x = tan_half_fov_x(properties, static_cast<double>(camera.width) / camera.height);
+  camera.principal_x = properties.real("principal_point_offset_x", 0.0);
+  camera.principal_y = properties.real("principal_point_offset_y", 0.0);
+  properties.pass_over({"near_clip", "far_clip", "shutter_open", "shutter_close", "focus_distance"});
+  properties.finish();
+}
+
+void read_integrator(const Element& integrator, const Document& document, scene::RenderDefaults& defaults) {
+  static const std::map<std::string, std::string> integrators{
+      {"path", "path"}, {"ptracer", "light"}, {"bdpt", "bidir"}};
+  Properties properties(integrator, document);
+  const auto known = integrators.find(integrator.type());
+  if (known == integrators.end())
+    fail(integrator.where, integrator.name() + " is not supported", "supported are path, ptracer, bdpt");
+  defaults.integrator = known->second;
+  for (const auto& [name, depth] :
+       {std::pair{"max_depth", &defaults.max_depth}, std::pair{"rr_depth", &defaults.rr_depth}}) {
+    *depth = properties.integer(name, *depth);
+    if (*depth < 1 && *depth != -1)
+      properties.fail_at(name, std::to_string(*depth) + " is out of range", "1 or more, or -1 for no bound");
+  }
+  properties.require("hide_emitters", false);
+  properties.require("strict_normals", false);
+  properties.pass_over(
+      {"light_image", "sample_direct", "granularity", "brute_force", "samples_per_pass", "timeout"});
+  properties.require("show_weighted", false);
+  properties.finish();
+}
+
+} // namespace phlux::scene_file
