@@ -6,7 +6,10 @@
 #include <mutex>
 #include <optional>
 #include <regex>
+#include <sstream>
 #include <thread>
+#include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -53,7 +56,7 @@ std::string cache_key(const Device& device, const std::string& text) {
   const cl::Platform platform(device.handle.getInfo<CL_DEVICE_PLATFORM>());
   return fmt::format("phlux {}\n{}\n{}\n{}\n{}\n{}\n{}", PHLUX_VERSION, device.info.platform,
                      platform.getInfo<CL_PLATFORM_VERSION>(), device.info.name, device.info.driver,
-                     build_options(), text);
+                     build_options(), significant(text));
 }
 
 std::optional<cl::Program> build_binary(const Device& device, const std::vector<unsigned char>& binary) {
@@ -84,7 +87,7 @@ cl::Program build_text(const Device& device, const std::string& name, const std:
   } catch (const cl::Error& error) {
     const std::string log = program() == nullptr ? std::string() : build_log(program, device.handle);
     spdlog::debug("{} on {} ({}):\n{}", describe(error), device.info.name, device.info.driver, log);
-    const std::string first = first_error(log);
+    const std::string first = first_error(log, text);
     throw DeviceError(first.empty() ? fmt::format("{}: kernels do not build on {}: {}", name,
                                                   device.info.name, describe(error))
                                     : fmt::format("{} (building kernels on {})", first, device.info.name));
@@ -102,6 +105,23 @@ std::vector<unsigned char> binary_of(const cl::Program& program) {
   }
 }
 
+// The kernel file and line of a line of expanded text, by its #line tags: oclgrind's messages pass over
+// those.
+std::pair<std::string, int> place_in(const std::string& text, int wanted) {
+  static const std::regex tag(R"re(#line (\d+) "(.*)")re");
+  std::pair<std::string, int> place{"defines", 0};
+  std::istringstream lines(text);
+  std::smatch found;
+  std::string line;
+  for (int number = 1; number <= wanted && std::getline(lines, line); ++number) {
+    if (std::regex_match(line, found, tag))
+      place = {found[2], std::stoi(found[1]) - 1};
+    else
+      ++place.second;
+  }
+  return place;
+}
+
 } // namespace
 
 std::string build_options() {
@@ -111,14 +131,17 @@ std::string build_options() {
   return options;
 }
 
-std::string first_error(const std::string& log) {
+std::string first_error(const std::string& log, const std::string& text) {
   // clang and most others: path.cl:12:3: error: ...; PoCL 3: error: path.cl:12:3: ...
-  static const std::regex file_first(
-      R"(([\w./-]+\.(?:cl|h)|extra):(\d+):(?:\d+:)? *(?:fatal )?error: *([^\n]*))");
-  static const std::regex error_first(R"(error: *([\w./-]+\.(?:cl|h)|extra):(\d+):(?:\d+:)? *([^\n]*))");
+  static const std::regex file_first(R"(([^\s:]+):(\d{1,9}):(?:\d+:)? *(?:fatal )?error: *([^\n]*))");
+  static const std::regex error_first(R"(error: *([^\s:]+):(\d{1,9}):(?:\d+:)? *([^\n]*))");
   std::smatch found;
   if (!std::regex_search(log, found, file_first) && !std::regex_search(log, found, error_first)) return {};
-  return fmt::format("{}:{}: {}", found.str(1), found.str(2), found.str(3));
+  std::string file = found[1];
+  int line = std::stoi(found[2]);
+  if (text.find(fmt::format(" \"{}\"\n", file)) == std::string::npos)
+    std::tie(file, line) = place_in(text, line);
+  return fmt::format("{}:{}: {}", file, line, found.str(3));
 }
 
 BuiltProgram build(const Device& device, const KernelFiles& files, const ProgramSource& source,

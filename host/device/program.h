@@ -34,8 +34,15 @@ struct ProgramSource {
 };
 
 /// One self-contained text: the defines, then `root` with every #include "file" of kernels/ expanded once,
-/// each part tagged with #line so that compilers' messages name the kernel file.
+/// each part tagged with #line so that compilers' messages name the kernel file. Branches of #if, #ifdef and
+/// #elif that the defines (and the #defines met on the way) rule out are left out, so the text holds only
+/// what the program needs; a condition on what only the compiler knows stays in the text.
+/// @throws DeviceError "FILE:LINE: ..." when a file is missing
 [[nodiscard]] std::string expand(const KernelFiles& files, const ProgramSource& source);
+
+/// `text` without #line tags, blank lines and lines of comment: equal for two texts that make the same
+/// program.
+[[nodiscard]] std::string significant(const std::string& text);
 
 struct BuiltProgram {
   cl::Program program;
@@ -55,8 +62,8 @@ struct BuiltProgram {
 /// -Werror).
 [[nodiscard]] std::string build_options();
 
-/// The first error of a compiler's log as "FILE:LINE: message"; empty when the log has none that names a
-/// kernel file.
-[[nodiscard]] std::string first_error(const std::string& log);
+/// The first error of a compiler's log as "FILE:LINE: message", FILE being a kernel file even where the
+/// compiler counts lines of `text`, the expanded program; empty when the log has none with a place.
+[[nodiscard]] std::string first_error(const std::string& log, const std::string& text);
 
 } // namespace phlux::device
