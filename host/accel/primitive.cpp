@@ -1,0 +1,216 @@
+#include "accel/primitive.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+
+namespace phlux::accel {
+namespace {
+
+using scene::Vec3;
+
+// Largest relative error of rounding a double to float.
+constexpr float half_ulp = std::numeric_limits<float>::epsilon() / 2;
+
+Vec3 rounded(const Vec3& v) { return Vec3(glm::vec3(v)); }
+
+// The three points (or centre and edges) of a flat primitive about `origin`. Vertices are rounded before edges are
+// taken, so that neighbours keep sharing them.
+struct Flat {
+  Vec3 origin, edge_u, edge_v;
+  int region;
+  scene::Surface surface;
+};
+
+Flat flat(const scene::Scene& scene, const Vec3& origin, Reference reference) {
+  if (reference.kind == Reference::Kind::patch) {
+    const scene::Patch& patch = scene.patches[reference.object];
+    const bool ellipse = patch.region == scene::Patch::Region::ellipse;
+    return {rounded(patch.origin - origin), patch.edge_u, patch.edge_v,
+            ellipse ? REGION_ELLIPSE : REGION_PARALLELOGRAM, patch.surface};
+  }
+  const scene::Mesh& mesh = scene.meshes[reference.object];
+  const auto& [a, b, c] = mesh.triangles[reference.element];
+  const Vec3 p0 = rounded(mesh.positions[a] - origin);
+  return {p0, rounded(mesh.positions[b] - origin) - p0, rounded(mesh.positions[c] - origin) - p0, REGION_TRIANGLE,
+          mesh.surface};
+}
+
+void grow(Box& box, const Vec3& low, const Vec3& high) {
+  for (int axis = 0; axis < 3; ++axis) {
+    // Rounded outwards, by twice what rounding to float can have moved anything.
+    const double margin = 4.0 * half_ulp * std::max(std::abs(low[axis]), std::abs(high[axis]));
+    const auto i = static_cast<std::size_t>(axis);
+    box.low[i] = std::min(box.low[i], static_cast<float>(low[axis] - margin));
+    box.high[i] = std::max(box.high[i], static_cast<float>(high[axis] + margin));
+  }
+}
+
+Box empty_box() {
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  return {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+}
+
+// Half the extent of a parallelogram or ellipse along each axis.
+Vec3 half_extent(const Flat& f) {
+  if (f.region == REGION_PARALLELOGRAM) return glm::abs(f.edge_u) + glm::abs(f.edge_v);
+  return glm::sqrt(f.edge_u * f.edge_u + f.edge_v * f.edge_v);
+}
+
+double area_of(int region, double cross_length) {
+  switch (region) {
+  case REGION_TRIANGLE: return cross_length / 2;
+  case REGION_PARALLELOGRAM: return cross_length * 4;
+  default: return cross_length * std::numbers::pi;
+  }
+}
+
+} // namespace
+
+Vec3 middle(const scene::Scene& scene) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Vec3 low(infinity), high(-infinity);
+  const auto include = [&](const Vec3& from, const Vec3& to) {
+    low = glm::min(low, from);
+    high = glm::max(high, to);
+  };
+  for (const scene::Mesh& mesh : scene.meshes)
+    for (const Vec3& p : mesh.positions) include(p, p);
+  for (const scene::Patch& patch : scene.patches) {
+    const Vec3 half = glm::abs(patch.edge_u) + glm::abs(patch.edge_v);
+    include(patch.origin - half, patch.origin + half);
+  }
+  for (const scene::Sphere& sphere : scene.spheres)
+    include(sphere.center - sphere.radius, sphere.center + sphere.radius);
+  return low.x <= high.x ? (low + high) * 0.5 : Vec3(0.0);
+}
+
+Box bounds(const scene::Scene& scene, const Vec3& origin, Reference reference) {
+  Box box = empty_box();
+  if (reference.kind == Reference::Kind::sphere) {
+    const scene::Sphere& sphere = scene.spheres[reference.object];
+    const Vec3 center = sphere.center - origin;
+    grow(box, center - sphere.radius, center + sphere.radius);
+    return box;
+  }
+  const Flat f = flat(scene, origin, reference);
+  if (f.region == REGION_TRIANGLE) {
+    const Vec3 p1 = f.origin + f.edge_u, p2 = f.origin + f.edge_v;
+    grow(box, glm::min(f.origin, glm::min(p1, p2)), glm::max(f.origin, glm::max(p1, p2)));
+  } else {
+    const Vec3 half = half_extent(f);
+    grow(box, f.origin - half, f.origin + half);
+  }
+  return box;
+}
+
+TableWriter::TableWriter(const scene::Scene& scene, Geometry& geometry) : scene_(scene), geometry_(geometry) {
+  std::size_t count = 0;
+  for (const scene::Mesh& mesh : scene.meshes) {
+    first_normal_of_mesh_.push_back(count);
+    count += mesh.normals.size();
+  }
+  geometry.vertex_normals.reserve(count * 3);
+  for (const scene::Mesh& mesh : scene.meshes)
+    for (const glm::vec3& n : mesh.normals) geometry.vertex_normals.insert(geometry.vertex_normals.end(), {n.x, n.y, n.z});
+}
+
+void TableWriter::write_planar(const std::array<float, PLANAR_FLOATS>& values) {
+  const auto block = static_cast<std::size_t>(geometry_.block);
+  const std::size_t index = geometry_.primitives.size(), slot = index % block;
+  if (slot == 0) geometry_.planars.resize(geometry_.planars.size() + PLANAR_FLOATS * block, 0.0f);
+  float* first = geometry_.planars.data() + (index / block) * PLANAR_FLOATS * block + slot;
+  for (std::size_t k = 0; k < values.size(); ++k) first[k * block] = values[k];
+}
+
+void TableWriter::add_corners(Reference reference) {
+  if (geometry_.vertex_normals.empty()) return;
+  const bool smooth =
+      reference.kind == Reference::Kind::mesh && !scene_.meshes[reference.object].normals.empty();
+  for (std::size_t i = 0; i < 3; ++i) {
+    std::int64_t corner = -1;
+    if (smooth)
+      corner = static_cast<std::int64_t>(first_normal_of_mesh_[reference.object]) +
+               scene_.meshes[reference.object].triangles[reference.element][i];
+    geometry_.corners.push_back(static_cast<int>(corner));
+  }
+}
+
+bool TableWriter::add_planar(Reference reference) {
+  const Flat f = flat(scene_, geometry_.origin, reference);
+  const Vec3 cross = glm::cross(f.edge_u, f.edge_v);
+  const double length = glm::length(cross);
+  if (!(length > 0.0) || !std::isfinite(static_cast<float>(1.0 / length))) return false;
+  const Vec3 edge_v = f.edge_v / length, minus_u = -f.edge_u / length, normal = cross / length;
+  std::array<float, PLANAR_FLOATS> values{};
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<std::size_t>(axis);
+    values[PLANAR_ORIGIN + i] = static_cast<float>(f.origin[axis]);
+    values[PLANAR_EDGE_V + i] = static_cast<float>(edge_v[axis]);
+    values[PLANAR_MINUS_U + i] = static_cast<float>(minus_u[axis]);
+    values[PLANAR_NORMAL + i] = static_cast<float>(normal[axis]);
+  }
+  write_planar(values);
+  geometry_.primitives.push_back({f.surface.material, -1, f.region});
+  geometry_.emitters.push_back(f.surface.area_emitter);
+  if (f.surface.area_emitter >= 0) geometry_.areas.push_back(area_of(f.region, length));
+  add_corners(reference);
+  geometry_.has_triangles |= f.region == REGION_TRIANGLE;
+  geometry_.has_parallelograms |= f.region == REGION_PARALLELOGRAM;
+  geometry_.has_ellipses |= f.region == REGION_ELLIPSE;
+  ++geometry_.primitive_count;
+  return true;
+}
+
+int TableWriter::finish_planar_block() {
+  while (geometry_.primitives.size() % static_cast<std::size_t>(geometry_.block) != 0) {
+    write_planar({}); // a normal of 0 faces no ray
+    geometry_.primitives.push_back({0, -1, REGION_NONE});
+    geometry_.emitters.push_back(-1);
+    if (!geometry_.vertex_normals.empty()) geometry_.corners.insert(geometry_.corners.end(), 3, -1);
+  }
+  return static_cast<int>(geometry_.primitives.size());
+}
+
+void TableWriter::add_sphere(Reference reference) {
+  const scene::Sphere& sphere = scene_.spheres[reference.object];
+  const Vec3 center = sphere.center - geometry_.origin;
+  const auto block = static_cast<std::size_t>(geometry_.block);
+  const std::size_t index = sphere_records_.size(), slot = index % block;
+  if (slot == 0) geometry_.spheres.resize(geometry_.spheres.size() + SPHERE_FLOATS * block, 0.0f);
+  float* first = geometry_.spheres.data() + (index / block) * SPHERE_FLOATS * block + slot;
+  for (int axis = 0; axis < 3; ++axis)
+    first[static_cast<std::size_t>(SPHERE_CENTER + axis) * block] = static_cast<float>(center[axis]);
+  first[SPHERE_RADIUS * block] = static_cast<float>(sphere.radius);
+  sphere_records_.push_back({sphere.surface.material, -1, sphere.front_is_inside ? 1 : 0});
+  sphere_emitters_.push_back(sphere.surface.area_emitter);
+  if (sphere.surface.area_emitter >= 0)
+    sphere_areas_.push_back(4.0 * std::numbers::pi * sphere.radius * sphere.radius);
+  ++geometry_.primitive_count;
+}
+
+int TableWriter::finish_sphere_block() {
+  const auto block = static_cast<std::size_t>(geometry_.block);
+  while (sphere_records_.size() % block != 0) {
+    // A negative squared radius would need a root; a radius of 0 at infinity is simply never met.
+    const std::size_t index = sphere_records_.size();
+    float* first = geometry_.spheres.data() + (index / block) * SPHERE_FLOATS * block + index % block;
+    for (std::size_t axis = 0; axis < 3; ++axis) first[axis * block] = 1e18f;
+    sphere_records_.push_back({0, -1, 0});
+    sphere_emitters_.push_back(-1);
+  }
+  return static_cast<int>(sphere_records_.size());
+}
+
+void TableWriter::finish() {
+  geometry_.first_sphere = static_cast<int>(geometry_.primitives.size());
+  geometry_.sphere_count = static_cast<int>(sphere_records_.size());
+  geometry_.primitives.insert(geometry_.primitives.end(), sphere_records_.begin(), sphere_records_.end());
+  geometry_.emitters.insert(geometry_.emitters.end(), sphere_emitters_.begin(), sphere_emitters_.end());
+  geometry_.areas.insert(geometry_.areas.end(), sphere_areas_.begin(), sphere_areas_.end());
+}
+
+} // namespace phlux::accel

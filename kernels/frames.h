@@ -1,0 +1,44 @@
+// Orthonormal frames. A direction in a frame has its component along the normal in z.
+#ifndef PHLUX_FRAMES_H
+#define PHLUX_FRAMES_H
+
+#include "lanes.h"
+
+typedef struct {
+  Vec3 x, y, z;
+} Frame;
+
+// A right-handed frame about the unit vector z, by Duff et al., "Building an Orthonormal Basis, Revisited" (2017);
+// orthonormal to a few ulp for every z.
+static inline Frame frame_about(Vec3 z) {
+  const Real sign = times_sign((Real)(1.0f), z.z);
+  const Real a = -1.0f / (sign + z.z);
+  const Real b = z.x * z.y * a;
+  Frame f;
+  f.x = vec3(fma(sign * z.x * z.x, a, (Real)(1.0f)), sign * b, -sign * z.x);
+  f.y = vec3(b, fma(z.y * z.y, a, sign), -z.y);
+  f.z = z;
+  return f;
+}
+
+// A right-handed frame about the unit vector z whose x lies along `tangent`, which need be neither unit nor quite
+// perpendicular; where it is (nearly) parallel to z or 0, any frame about z.
+static inline Frame frame_along(Vec3 z, Vec3 tangent) {
+  const Vec3 x = vec_along(tangent, -vec_dot(tangent, z), z);
+  const Real length2 = vec_dot(x, x);
+  const Frame any_frame = frame_about(z);
+  const Mask usable = length2 > 1e-8f * vec_dot(tangent, tangent);
+  Frame f;
+  f.x = vec_select(usable, vec_scale((Real)(1.0f) / sqrt(length2), x), any_frame.x);
+  f.z = z;
+  f.y = vec_cross(f.z, f.x);
+  return f;
+}
+
+static inline Vec3 to_frame(Frame f, Vec3 v) { return vec3(vec_dot(f.x, v), vec_dot(f.y, v), vec_dot(f.z, v)); }
+
+static inline Vec3 from_frame(Frame f, Vec3 v) {
+  return vec_along(vec_along(vec_scale(v.x, f.x), v.y, f.y), v.z, f.z);
+}
+
+#endif

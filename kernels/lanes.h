@@ -1,0 +1,311 @@
+// Lanes: the arithmetic types in which every other kernel file is written. WIDTH paths travel together in one
+// work-item: 4, 8 or 16 on a CPU, whose vector registers they fill, and 1 on a GPU, where each type is a plain scalar.
+// This is the only file that knows WIDTH.
+//
+// Operators and the built-in functions of OpenCL C work on Real, Int and Uint as they are. A comparison gives a Mask;
+// masks combine with & | ! and select with ?: (for a Real, an Int or a Uint) or vec_select (for a Vec3).
+// A lane whose mask is off may hold anything, NaN included: select results, never multiply them by 0.
+#ifndef PHLUX_LANES_H
+#define PHLUX_LANES_H
+
+#if WIDTH == 1
+typedef float Real;
+typedef int Int;
+typedef uint Uint;
+typedef int Mask;
+#define LANE_NUMBERS 0
+#define ALL_LANES 1
+#define LANE_CONVERT(type) convert_##type
+#define LANE_AS(type) as_##type
+#elif WIDTH == 4 || WIDTH == 8 || WIDTH == 16
+#define LANE_JOIN_(a, b) a##b
+#define LANE_JOIN(a, b) LANE_JOIN_(a, b)
+typedef LANE_JOIN(float, WIDTH) Real;
+typedef LANE_JOIN(int, WIDTH) Int;
+typedef LANE_JOIN(uint, WIDTH) Uint;
+typedef LANE_JOIN(int, WIDTH) Mask;
+#define ALL_LANES ((Mask)(-1))
+#define LANE_CONVERT(type) LANE_JOIN(convert_##type, WIDTH)
+#define LANE_AS(type) LANE_JOIN(as_##type, WIDTH)
+#if WIDTH == 4
+#define LANE_NUMBERS ((Int)(0, 1, 2, 3))
+#elif WIDTH == 8
+#define LANE_NUMBERS ((Int)(0, 1, 2, 3, 4, 5, 6, 7))
+#else
+#define LANE_NUMBERS ((Int)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
+#endif
+#else
+#error "WIDTH must be 1, 4, 8 or 16"
+#endif
+
+#define LANES WIDTH
+#define NO_LANES ((Mask)(0))
+
+// AVX-512 has single instructions for what the portable forms below spell out; LANES_PORTABLE tests those forms.
+#if WIDTH == 16 && defined(__AVX512F__) && !defined(LANES_PORTABLE) && defined(__has_builtin)
+#if __has_builtin(__builtin_ia32_gathersiv16sf) && __has_builtin(__builtin_ia32_cmpd512_mask) &&                       \
+    __has_builtin(__builtin_ia32_compresssf512_mask)
+#define LANES_AVX512
+typedef float LaneNativeFloats __attribute__((vector_size(64)));
+typedef int LaneNativeInts __attribute__((vector_size(64)));
+#endif
+#endif
+
+static inline Int to_int(Real x) { return LANE_CONVERT(int)(x); }
+static inline Int uint_to_int(Uint x) { return LANE_AS(int)(x); }
+static inline Uint int_to_uint(Int x) { return LANE_AS(uint)(x); }
+static inline Real to_real(Int x) { return LANE_CONVERT(float)(x); }
+static inline Real uint_to_real(Uint x) { return LANE_CONVERT(float)(x); }
+static inline Int real_bits(Real x) { return LANE_AS(int)(x); }
+static inline Real bits_real(Int x) { return LANE_AS(float)(x); }
+
+// As fmax and fmin but for NaN, which costs them two more instructions.
+static inline Real larger(Real a, Real b) { return a > b ? a : b; }
+static inline Real smaller(Real a, Real b) { return a < b ? a : b; }
+
+// x with the sign of `sign` multiplied in: two bit operations.
+static inline Real times_sign(Real x, Real sign) {
+  return bits_real(real_bits(x) ^ (real_bits(sign) & (Int)(int)0x80000000u));
+}
+
+// ---- Questions about a mask
+
+#ifdef LANES_AVX512
+static inline uint lane_bits(Mask m) {
+  return (ushort)__builtin_ia32_cmpd512_mask((LaneNativeInts)m, (LaneNativeInts)(Int)(0), 4, (ushort)0xffff);
+}
+static inline int any_lane(Mask m) { return lane_bits(m) != 0; }
+static inline int all_lanes(Mask m) { return lane_bits(m) == 0xffff; }
+#elif WIDTH == 1
+static inline int any_lane(Mask m) { return m != 0; }
+static inline int all_lanes(Mask m) { return m != 0; }
+#else
+static inline int any_lane(Mask m) { return any(m); }
+static inline int all_lanes(Mask m) { return all(m); }
+#endif
+
+// ---- Between lanes and memory
+
+#if WIDTH == 4
+#define LANE_EACH(per_lane) per_lane(0), per_lane(1), per_lane(2), per_lane(3)
+#elif WIDTH == 8
+#define LANE_EACH(per_lane) per_lane(0), per_lane(1), per_lane(2), per_lane(3), per_lane(4), per_lane(5), per_lane(6), per_lane(7)
+#elif WIDTH == 16
+#define LANE_EACH(per_lane)                                                                                                   \
+  per_lane(0), per_lane(1), per_lane(2), per_lane(3), per_lane(4), per_lane(5), per_lane(6), per_lane(7), per_lane(8), per_lane(9), per_lane(a), per_lane(b), per_lane(c), per_lane(d), per_lane(e), per_lane(f)
+#endif
+
+// base[index] in every lane; index counts 4-byte words and must be valid in every lane, whatever its mask.
+static inline Real gather_real(const __global float* base, Int index) {
+#ifdef LANES_AVX512
+  return (Real)__builtin_ia32_gathersiv16sf((LaneNativeFloats)(Real)(0.0f), (const void*)(size_t)base,
+                                            (LaneNativeInts)index, (ushort)0xffff, 4);
+#elif WIDTH == 1
+  return base[index];
+#else
+#define LANE_LOAD(k) base[index.s##k]
+  return (Real)(LANE_EACH(LANE_LOAD));
+#endif
+}
+
+static inline Int gather_int(const __global int* base, Int index) {
+#ifdef LANES_AVX512
+  return (Int)__builtin_ia32_gathersiv16si((LaneNativeInts)(Int)(0), (const void*)(size_t)base, (LaneNativeInts)index,
+                                           (ushort)0xffff, 4);
+#elif WIDTH == 1
+  return base[index];
+#else
+  return (Int)(LANE_EACH(LANE_LOAD));
+#endif
+}
+
+// table[index].member in every lane, for a __global array of structs of 4-byte members.
+#define GATHER_REAL(table, index, member) gather_real(&(table)->member, (index) * (int)(sizeof(*(table)) / 4))
+#define GATHER_INT(table, index, member) gather_int(&(table)->member, (index) * (int)(sizeof(*(table)) / 4))
+
+// base[index] = value in the lanes of m, in lane order.
+static inline void scatter_real(__global float* base, Int index, Real value, Mask m) {
+#if WIDTH == 1
+  if (m) base[index] = value;
+#else
+#define LANE_STORE(k) (m.s##k ? (void)(base[index.s##k] = value.s##k) : (void)0)
+  LANE_EACH(LANE_STORE);
+#endif
+}
+
+// Private copies, for loops over lanes.
+static inline void lanes_to_array(Real v, float* array) {
+#if WIDTH == 1
+  *array = v;
+#else
+  LANE_JOIN(vstore, WIDTH)(v, 0, array);
+#endif
+}
+static inline void int_lanes_to_array(Int v, int* array) {
+#if WIDTH == 1
+  *array = v;
+#else
+  LANE_JOIN(vstore, WIDTH)(v, 0, array);
+#endif
+}
+static inline Real lanes_from_array(const float* array) {
+#if WIDTH == 1
+  return *array;
+#else
+  return LANE_JOIN(vload, WIDTH)(0, array);
+#endif
+}
+static inline Int int_lanes_from_array(const int* array) {
+#if WIDTH == 1
+  return *array;
+#else
+  return LANE_JOIN(vload, WIDTH)(0, array);
+#endif
+}
+
+// WIDTH consecutive words from `base`.
+static inline Real load_reals(const __global float* base) {
+#if WIDTH == 1
+  return *base;
+#else
+  return LANE_JOIN(vload, WIDTH)(0, base);
+#endif
+}
+static inline Int load_ints(const __global int* base) {
+#if WIDTH == 1
+  return *base;
+#else
+  return LANE_JOIN(vload, WIDTH)(0, base);
+#endif
+}
+
+// ---- Across lanes
+
+// The smallest of all lanes.
+static inline float min_of_lanes(Real v) {
+#if WIDTH == 16
+  const float8 v8 = fmin(v.lo, v.hi);
+  const float4 v4 = fmin(v8.lo, v8.hi);
+#elif WIDTH == 8
+  const float4 v4 = fmin(v.lo, v.hi);
+#elif WIDTH == 4
+  const float4 v4 = v;
+#endif
+#if WIDTH == 1
+  return v;
+#else
+  const float2 v2 = fmin(v4.lo, v4.hi);
+  return fmin(v2.x, v2.y);
+#endif
+}
+
+static inline uint sum_of_lanes(Uint v) {
+#if WIDTH == 1
+  return v;
+#elif WIDTH == 4
+  return v.s0 + v.s1 + v.s2 + v.s3;
+#elif WIDTH == 8
+  return v.s0 + v.s1 + v.s2 + v.s3 + v.s4 + v.s5 + v.s6 + v.s7;
+#else
+  return v.s0 + v.s1 + v.s2 + v.s3 + v.s4 + v.s5 + v.s6 + v.s7 + v.s8 + v.s9 + v.sa + v.sb + v.sc + v.sd + v.se + v.sf;
+#endif
+}
+
+// The number of the first lane in m; some lane must be in it.
+static inline int first_lane(Mask m) {
+#if WIDTH == 1
+  return 0;
+#elif defined(LANES_AVX512)
+  return (int)(31 - clz(lane_bits(m) & (0u - lane_bits(m))));
+#else
+  int array[WIDTH];
+  int_lanes_to_array(m, array);
+  int lane = 0;
+  while (array[lane] == 0) ++lane;
+  return lane;
+#endif
+}
+
+// Appends the keys and values of the lanes in m to two arrays, in lane order; the arrays have room for WIDTH more.
+// Returns how many.
+static inline int append_lanes(Mask m, Real key, Int value, float* keys, int* values) {
+#ifdef LANES_AVX512
+  const ushort bits = (ushort)lane_bits(m);
+  vstore16((Real)__builtin_ia32_compresssf512_mask((LaneNativeFloats)key, (LaneNativeFloats)(Real)(0.0f), bits), 0,
+           keys);
+  vstore16((Int)__builtin_ia32_compresssi512_mask((LaneNativeInts)value, (LaneNativeInts)(Int)(0), bits), 0, values);
+  return popcount((int)bits);
+#elif WIDTH == 1
+  *keys = key;
+  *values = value;
+  return m != 0;
+#else
+  float key_of[WIDTH];
+  int value_of[WIDTH], chosen[WIDTH];
+  lanes_to_array(key, key_of);
+  int_lanes_to_array(value, value_of);
+  int_lanes_to_array(m, chosen);
+  int count = 0;
+  for (int lane = 0; lane < WIDTH; ++lane) {
+    keys[count] = key_of[lane];
+    values[count] = value_of[lane];
+    count += chosen[lane] != 0;
+  }
+  return count;
+#endif
+}
+
+// ---- Vectors
+
+typedef struct {
+  Real x, y, z;
+} Vec3;
+
+static inline Vec3 vec3(Real x, Real y, Real z) {
+  Vec3 v;
+  v.x = x;
+  v.y = y;
+  v.z = z;
+  return v;
+}
+static inline Vec3 vec_all(Real s) { return vec3(s, s, s); }
+static inline Vec3 vec_add(Vec3 a, Vec3 b) { return vec3(a.x + b.x, a.y + b.y, a.z + b.z); }
+static inline Vec3 vec_sub(Vec3 a, Vec3 b) { return vec3(a.x - b.x, a.y - b.y, a.z - b.z); }
+static inline Vec3 vec_mul(Vec3 a, Vec3 b) { return vec3(a.x * b.x, a.y * b.y, a.z * b.z); }
+static inline Vec3 vec_scale(Real s, Vec3 a) { return vec3(s * a.x, s * a.y, s * a.z); }
+// a + s b
+static inline Vec3 vec_along(Vec3 a, Real s, Vec3 b) {
+  return vec3(fma(s, b.x, a.x), fma(s, b.y, a.y), fma(s, b.z, a.z));
+}
+static inline Real vec_dot(Vec3 a, Vec3 b) { return fma(a.x, b.x, fma(a.y, b.y, a.z * b.z)); }
+static inline Vec3 vec_cross(Vec3 a, Vec3 b) {
+  return vec3(fma(a.y, b.z, -(a.z * b.y)), fma(a.z, b.x, -(a.x * b.z)), fma(a.x, b.y, -(a.y * b.x)));
+}
+static inline Vec3 vec_select(Mask m, Vec3 yes, Vec3 no) {
+  return vec3(m ? yes.x : no.x, m ? yes.y : no.y, m ? yes.z : no.z);
+}
+static inline Vec3 vec_normalize(Vec3 a) { return vec_scale((Real)(1.0f) / sqrt(vec_dot(a, a)), a); }
+static inline Real vec_max(Vec3 a) { return fmax(a.x, fmax(a.y, a.z)); }
+static inline Real vec_mean(Vec3 a) { return (a.x + a.y + a.z) * (1.0f / 3.0f); }
+static inline Real vec_largest(Vec3 a) { return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z))); }
+
+// Cosine and sine of 2 pi turns, for turns in [0, 1]; both within 2 ulp of the larger. Polynomials fitted for the
+// least relative error over an eighth of a turn to either side of the nearest quarter.
+static inline void cos_sin_turns(Real turns, Real* cosine, Real* sine) {
+  const Real quarters = rint(4.0f * turns);
+  const Real r = fma((Real)(4.0f), turns, -quarters);
+  const Real r2 = r * r;
+  const Real s =
+      r * fma(r2, fma(r2, fma(r2, (Real)(-4.601663e-03f), (Real)(7.968003e-02f)), (Real)(-6.4596346e-01f)),
+              (Real)(1.57079632f));
+  const Real c = fma(
+      r2, fma(r2, fma(r2, fma(r2, (Real)(9.0336298e-04f), (Real)(-2.08599360e-02f)), (Real)(2.53669183e-01f)), (Real)(-1.23370054f)),
+      (Real)(1.0f));
+  const Int quadrant = to_int(quarters);
+  const Mask odd = (quadrant & 1) != 0;
+  const Real cosine_here = odd ? s : c, sine_here = odd ? c : s;
+  *cosine = ((quadrant + 1) & 2) != 0 ? -cosine_here : cosine_here;
+  *sine = (quadrant & 2) != 0 ? -sine_here : sine_here;
+}
+
+#endif

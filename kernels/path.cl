@@ -1,0 +1,219 @@
+// Path tracing (CW 197, 3.3.2): from the eye, reflecting at every surface, until roulette, the depth or the dark ends
+// the path. What reaches the lights: hits alone, light samples, or both with weights (PHLUX_CONNECT).
+#include "camera.cl"
+#include "lights.cl"
+#include "material.cl"
+#include "random.h"
+#include "surface.cl"
+#include "traverse.cl"
+
+// A path may reflect without loss where the reflectivity is 1; this lets roulette end it all the same.
+#define LARGEST_SURVIVAL 0.999f
+
+// Purposes of random words: dimension 0 is the place in the pixel, then two for every edge.
+#define DIMENSION_REFLECTION(edges) (2 * (edges))
+#define DIMENSION_LIGHT(edges) (2 * (edges) + 1)
+
+// The path that each lane is on.
+typedef struct {
+  Ray ray;
+  Vec3 throughput, radiance;
+  Int edges;                // of the path so far
+  Real density;             // of ray.direction, per solid angle where the ray starts
+  Real sky_density;         // with which light_sample chooses that direction for a constant light
+  RandomSequence sequence;
+} Path;
+
+// Each lane works through jobs: a job is one pixel and one block of its samples, whose sums are handed to the host.
+// Jobs count pixel by pixel, then block by block; lane l of the launch takes jobs l, l + stride, ...
+typedef struct {
+  Int job;          // counted from the launch's first
+  Int pixel, block; // what it stands for
+  Int samples;      // done
+  Vec3 sum, sum_of_squares;
+} Job;
+
+static inline void start_path(const Scene* scene, Path* path, Job job, Int sample, uint2 seed, Mask starting) {
+  RandomSequence sequence;
+  sequence.pixel = int_to_uint(job.pixel);
+  sequence.sample = int_to_uint(sample);
+  sequence.seed = seed;
+  const RandomWords words = random_words(sequence, (Uint)(0), 0);
+  const Ray ray = camera_ray(scene, sequence.pixel, uniform_real(words.x), uniform_real(words.y));
+  path->ray.origin = vec_select(starting, ray.origin, path->ray.origin);
+  path->ray.direction = vec_select(starting, ray.direction, path->ray.direction);
+  path->throughput = vec_select(starting, vec_all((Real)(1.0f)), path->throughput);
+  path->radiance = vec_select(starting, vec_all((Real)(0.0f)), path->radiance);
+  path->edges = starting ? (Int)(0) : path->edges;
+  path->sequence.pixel = starting ? sequence.pixel : path->sequence.pixel;
+  path->sequence.sample = starting ? sequence.sample : path->sequence.sample;
+  path->sequence.seed = seed;
+}
+
+// Adds what a hit light sends along the ray in the lanes of m, weighted against light_sample.
+static inline void add_emission(const Scene* scene, Path* path, Hit hit, SurfacePoint point, Mask m) {
+#ifdef PHLUX_EMISSION
+  const Mask emits = m & point.front & (point.light >= 0);
+  if (!any_lane(emits)) return;
+  const Int light = max(point.light, (Int)(0));
+  Vec3 arriving = vec_mul(path->throughput, vec3(GATHER_REAL(scene->lights, light, power[0]),
+                                                 GATHER_REAL(scene->lights, light, power[1]),
+                                                 GATHER_REAL(scene->lights, light, power[2])));
+#if PHLUX_CONNECT == CONNECT_LIGHT
+  const Mask counts = emits & (path->edges == 1);
+#else
+  const Mask counts = emits;
+#endif
+#if PHLUX_CONNECT == CONNECT_MIS
+  const Real other = light_density_of_hit(scene, path->ray.origin, path->ray, hit.distance, point, light);
+  const Real weight = path->edges == 1 ? (Real)(1.0f) : path->density / (path->density + other);
+  arriving = vec_scale(weight, arriving);
+#endif
+  path->radiance = vec_select(counts, vec_add(path->radiance, arriving), path->radiance);
+#endif
+}
+
+// Adds the constant light in the lanes of m, whose rays left the scene.
+static inline void add_sky(Path* path, Mask m, float4 sky, float sky_choice) {
+#ifdef PHLUX_LIGHT_CONSTANT
+  Vec3 arriving = vec_mul(path->throughput, vec3((Real)(sky.x), (Real)(sky.y), (Real)(sky.z)));
+#if PHLUX_CONNECT == CONNECT_LIGHT
+  const Mask counts = m & (path->edges == 1);
+#else
+  const Mask counts = m;
+#endif
+#if PHLUX_CONNECT == CONNECT_MIS
+  const Real weight =
+      path->edges == 1 ? (Real)(1.0f) : path->density / (path->density + sky_choice * path->sky_density);
+  arriving = vec_scale(weight, arriving);
+#endif
+  path->radiance = vec_select(counts, vec_add(path->radiance, arriving), path->radiance);
+#endif
+}
+
+#if PHLUX_CONNECT != CONNECT_NONE
+// Adds one light sample in the lanes of m; returns the lanes that sent a shadow ray.
+static inline Mask add_light_sample(const Scene* scene, Path* path, SurfacePoint point, Material material, Vec3 fixed,
+                                    Mask m) {
+  const RandomWords words =
+      random_words(path->sequence, int_to_uint(DIMENSION_LIGHT(path->edges)), 0);
+  const LightSample light = light_sample(scene, point, words);
+  const Vec3 generated = to_frame(point.frame, light.ray.direction);
+  // Both normals must agree that the light is on this side: nothing shines through.
+  const Mask reaches =
+      m & light.valid & (generated.z > 0.0f) & (vec_dot(point.normal, light.ray.direction) > 0.0f);
+  if (!any_lane(reaches)) return reaches;
+  const Mask lit = reaches & !scene_occluded(scene, light.ray, light.distance, reaches);
+  Vec3 arriving = vec_scale(generated.z / light.density,
+                            vec_mul(light.radiance, vec_mul(path->throughput, material_eval(material, fixed, generated))));
+#if PHLUX_CONNECT == CONNECT_MIS && defined(PHLUX_HITTABLE_LIGHTS)
+  const Real other = material_density(material, fixed, generated);
+  arriving = vec_scale(light.hittable ? light.density / (light.density + other) : (Real)(1.0f), arriving);
+#endif
+  path->radiance = vec_select(lit, vec_add(path->radiance, arriving), path->radiance);
+  return reaches;
+}
+#endif
+
+// Reflects the paths of m; returns those that go on: not absorbed by roulette, and above the surface.
+static inline Mask reflect(Path* path, SurfacePoint point, Material material, Vec3 fixed, int roulette_edges, Mask m) {
+  RandomWords words =
+      random_words(path->sequence, int_to_uint(DIMENSION_REFLECTION(path->edges)), 0);
+  const Real survival = path->edges >= roulette_edges
+                            ? fmin(material_survival(material, fixed), (Real)(LARGEST_SURVIVAL))
+                            : (Real)(1.0f);
+  const Mask survives = uniform_real(words.w) < survival;
+  const PhongSample sample = material_sample(material, fixed, words);
+  const Vec3 direction = from_frame(point.frame, sample.direction);
+  const Mask goes_on =
+      m & survives & (sample.direction.z > 0.0f) & (vec_dot(point.normal, direction) > 0.0f);
+  path->throughput =
+      vec_select(goes_on, vec_scale(1.0f / survival, vec_mul(path->throughput, sample.weight)), path->throughput);
+  path->density = sample.density;
+  path->sky_density = sample.direction.z * PHONG_INV_PI;
+  path->ray.origin = step_off(point.position, point.normal, point.error, direction);
+  path->ray.direction = direction;
+  return goes_on & (vec_max(path->throughput) > 0.0f);
+}
+
+__kernel void trace_paths(SCENE_PARAMETERS, int pixel_count, int first_pixel, int job_count, int first_sample,
+                          int block_samples, int end_sample, uint2 seed, int max_edges, int roulette_edges,
+                          float4 sky, float sky_choice, __global float* sums, __global uint* counters) {
+  SCENE_FROM_PARAMETERS
+  const int stride = (int)get_global_size(0) * LANES;
+  const int stride_blocks = stride / pixel_count, stride_pixels = stride % pixel_count;
+  Job job;
+  job.job = (int)get_global_id(0) * LANES + LANE_NUMBERS;
+  job.block = (first_pixel + job.job) / pixel_count;
+  job.pixel = first_pixel + job.job - job.block * pixel_count;
+  job.samples = (Int)(0);
+  job.sum = job.sum_of_squares = vec_all((Real)(0.0f));
+  Path path;
+  path.ray.origin = path.ray.direction = path.throughput = path.radiance = vec_all((Real)(0.0f));
+  path.edges = (Int)(0);
+  path.density = path.sky_density = (Real)(0.0f);
+  path.sequence.pixel = path.sequence.sample = (Uint)(0u);
+  path.sequence.seed = seed;
+  Uint rays = (Uint)(0u), shadow_rays = (Uint)(0u), nonfinite = (Uint)(0u);
+  Mask alive = NO_LANES, working = job.job < job_count;
+
+  while (any_lane(working)) {
+    const Mask starting = working & !alive;
+    const Int sample = first_sample + job.block * block_samples + job.samples;
+    if (any_lane(starting)) start_path(&scene, &path, job, sample, seed, starting);
+    alive = working;
+
+    const Hit hit = scene_intersect(&scene, path.ray, alive);
+    rays += alive ? (Uint)(1u) : (Uint)(0u);
+    path.edges += alive ? (Int)(1) : (Int)(0);
+    const Mask hits = alive & (hit.primitive >= 0);
+    add_sky(&path, alive & !hits, sky, sky_choice);
+    const SurfacePoint point = surface_point(&scene, path.ray, hit);
+    add_emission(&scene, &path, hit, point, hits);
+
+    const Material material = material_at(&scene, point.material);
+    const Vec3 fixed = to_frame(point.frame, vec_scale((Real)(-1.0f), path.ray.direction));
+    Mask reflecting = hits & (path.edges < max_edges) & (fixed.z > 0.0f) & reflects(&scene, point.material, point.front);
+#if PHLUX_CONNECT != CONNECT_NONE
+    const Mask asked = add_light_sample(&scene, &path, point, material, fixed, reflecting);
+    shadow_rays += asked ? (Uint)(1u) : (Uint)(0u);
+#endif
+    reflecting = reflect(&path, point, material, fixed, roulette_edges, reflecting);
+
+    const Mask ended = alive & !reflecting;
+    alive = reflecting;
+    if (any_lane(ended)) {
+      const Real total = path.radiance.x + path.radiance.y + path.radiance.z;
+      const Mask finite = total - total == 0.0f;
+      const Mask counts = ended & finite;
+      nonfinite += (ended & !finite) ? (Uint)(1u) : (Uint)(0u);
+      job.sum = vec_select(counts, vec_add(job.sum, path.radiance), job.sum);
+      job.sum_of_squares = vec_select(
+          counts, vec_add(job.sum_of_squares, vec_mul(path.radiance, path.radiance)), job.sum_of_squares);
+      job.samples += ended ? (Int)(1) : (Int)(0);
+      const Mask complete = ended & ((job.samples == block_samples) | (sample + 1 >= end_sample));
+      if (any_lane(complete)) {
+        const Int slot = job.job * 6;
+        scatter_real(sums, slot, job.sum.x, complete);
+        scatter_real(sums, slot + 1, job.sum.y, complete);
+        scatter_real(sums, slot + 2, job.sum.z, complete);
+        scatter_real(sums, slot + 3, job.sum_of_squares.x, complete);
+        scatter_real(sums, slot + 4, job.sum_of_squares.y, complete);
+        scatter_real(sums, slot + 5, job.sum_of_squares.z, complete);
+        job.sum = vec_select(complete, vec_all((Real)(0.0f)), job.sum);
+        job.sum_of_squares = vec_select(complete, vec_all((Real)(0.0f)), job.sum_of_squares);
+        job.samples = complete ? (Int)(0) : job.samples;
+        const Int next_pixel = job.pixel + stride_pixels;
+        const Mask wraps = next_pixel >= pixel_count;
+        job.pixel = complete ? (wraps ? next_pixel - pixel_count : next_pixel) : job.pixel;
+        job.block = complete ? job.block + stride_blocks + (wraps ? (Int)(1) : (Int)(0)) : job.block;
+        job.job += complete ? (Int)(stride) : (Int)(0);
+        working = job.job < job_count;
+      }
+    }
+  }
+  const int item = (int)get_global_id(0) * 3;
+  counters[item] = sum_of_lanes(rays);
+  counters[item + 1] = sum_of_lanes(shadow_rays);
+  counters[item + 2] = sum_of_lanes(nonfinite);
+}

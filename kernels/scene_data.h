@@ -1,0 +1,79 @@
+// The tables that the host writes and the kernels read, in types that both compilers lay out alike: 4-byte floats and
+// ints only, no vectors. Included by host code and by kernels.
+#ifndef PHLUX_SCENE_DATA_H
+#define PHLUX_SCENE_DATA_H
+
+// A flat primitive is {origin + u edge_u + v edge_v} over a region of (u, v). Twelve floats, stored as blocks of BLOCK
+// primitives: value k of primitive i is at [(i / BLOCK) * 12 * BLOCK + k * BLOCK + i % BLOCK].
+enum PlanarValues {
+  PLANAR_ORIGIN = 0,   // origin
+  PLANAR_EDGE_V = 3,   // edge_v / |edge_u x edge_v|
+  PLANAR_MINUS_U = 6,  // -edge_u / |edge_u x edge_v|
+  PLANAR_NORMAL = 9,   // unit, front side
+  PLANAR_FLOATS = 12
+};
+
+enum PlanarRegions {
+  REGION_TRIANGLE = 0,      // u >= 0, v >= 0, u + v <= 1; origin is a vertex
+  REGION_PARALLELOGRAM = 1, // |u| <= 1, |v| <= 1; origin is the centre
+  REGION_ELLIPSE = 2,       // u^2 + v^2 <= 1; origin is the centre
+  REGION_NONE = 3           // fills up a block: never hit
+};
+
+// Spheres, in blocks like the flat primitives.
+// How PHLUX_CONNECT says what reaches the lights.
+#define CONNECT_NONE 0
+#define CONNECT_LIGHT 1
+#define CONNECT_MIS 2
+
+enum SphereValues { SPHERE_CENTER = 0, SPHERE_RADIUS = 3, SPHERE_FLOATS = 4 };
+
+// What a primitive refers to. Flat primitives come first, then spheres.
+typedef struct {
+  int material;
+  int light;  // index of its LightRecord, -1: emits nothing
+  int region; // flat: enum PlanarRegions; sphere: 1 where the front side is inside
+} PrimitiveRecord;
+
+enum MaterialFlags { MATERIAL_TWO_SIDED = 1, MATERIAL_ANISOTROPIC = 2 };
+
+typedef struct {
+  float diffuse[3], specular[3];
+  float exponent, exponent_v; // exponent_v: anisotropic only
+  float diffuse_mean, specular_mean;
+  float table_scale; // see phong.cl
+  int table_row;
+  int flags;
+} MaterialRecord;
+
+enum LightKinds { LIGHT_PLANAR = 0, LIGHT_SPHERE = 1, LIGHT_POINT = 2, LIGHT_SPOT = 3, LIGHT_DIRECTIONAL = 4, LIGHT_CONSTANT = 5 };
+
+// One light: an emitting primitive, or a light without a surface. Selected with the alias method (Walker 1974; Vose
+// 1991): cell i gives light i with probability `alias_threshold`, else light `alias`.
+typedef struct {
+  int kind;       // enum LightKinds
+  int primitive;  // planar, sphere: index of the primitive
+  float power[3]; // radiance (area, constant), intensity (point, spot) or irradiance (directional)
+  float area;     // planar, sphere: m^2
+  float position[3];
+  float direction[3];
+  float cos_cutoff, cutoff, inv_transition; // spot: cutoff and 1 / (cutoff - beam width) in radians
+  float probability;                        // of being selected
+  float alias_threshold;
+  int alias;
+} LightRecord;
+
+// The pinhole: the direction through film position (x, y) in [0, 1]^2, y downwards, is
+// forward + (1 - 2 (x + principal_x)) left + (1 - 2 (y + principal_y)) up, not normalised.
+typedef struct {
+  float position[3];
+  float forward[3], left[3], up[3]; // left and up carry the tangents of half the fields of view
+  float principal_x, principal_y;
+  int width, height;
+} CameraRecord;
+
+// One node of the hierarchy: the boxes of CHILDREN children, then the children. A child >= 0 is a node; one < 0 is a
+// leaf: ~child = first block << 5 | (blocks - 1) << 1 | (1 where the blocks hold spheres).
+enum NodeValues { NODE_LOW_X = 0, NODE_LOW_Y, NODE_LOW_Z, NODE_HIGH_X, NODE_HIGH_Y, NODE_HIGH_Z, NODE_CHILD, NODE_WORDS };
+
+#endif

@@ -1,0 +1,97 @@
+// Traversal for a few dozen primitives: WIDTH rays against each in turn.
+#ifndef PHLUX_TRAVERSE_BRUTE_CL
+#define PHLUX_TRAVERSE_BRUTE_CL
+
+#include "intersect.cl"
+#include "scene.cl"
+
+#ifndef PHLUX_BVH
+
+#define SCENE_BLOCK 1 // primitives stand one after another
+
+#ifdef PHLUX_PLANARS
+static inline Planar planar_at(const __global float* values) {
+  Planar p;
+  p.origin = vec3((Real)(values[0]), (Real)(values[1]), (Real)(values[2]));
+  p.edge_v = vec3((Real)(values[3]), (Real)(values[4]), (Real)(values[5]));
+  p.minus_u = vec3((Real)(values[6]), (Real)(values[7]), (Real)(values[8]));
+  p.normal = vec3((Real)(values[9]), (Real)(values[10]), (Real)(values[11]));
+  return p;
+}
+
+#define CLOSEST_OF(inside, first, end)                                                                                 \
+  for (int i = (first); i < (end); ++i) {                                                                              \
+    const PlaneCrossing c = cross_plane(ray, planar_at(scene->planars + i * PLANAR_FLOATS));                           \
+    const Mask closer = inside(c) & crosses_before(c, closest);                                                        \
+    closest.numerator = closer ? c.distance : closest.numerator;                                                       \
+    closest.denominator = closer ? c.facing : closest.denominator;                                                     \
+    closest.primitive = closer ? (Int)(i) : closest.primitive;                                                         \
+  }
+
+#define ANY_OF(inside, first, end)                                                                                     \
+  for (int i = (first); i < (end) && !all_lanes(blocked); ++i) {                                                       \
+    const PlaneCrossing c = cross_plane(ray, planar_at(scene->planars + i * PLANAR_FLOATS));                           \
+    blocked |= inside(c) & crosses_before(c, limit);                                                                   \
+  }
+#endif
+
+#ifdef PHLUX_SPHERES
+static inline SphereShape sphere_at(const __global float* values) {
+  SphereShape s;
+  s.center = vec3((Real)(values[0]), (Real)(values[1]), (Real)(values[2]));
+  s.radius = (Real)(values[3]);
+  return s;
+}
+#endif
+
+// The closest primitive along each ray, from either side. All lanes.
+static inline Hit scene_intersect(const Scene* scene, Ray ray, Mask alive) {
+  ClosestHit closest = no_hit_within((Real)(INFINITY));
+#ifdef PHLUX_TRIANGLES
+  CLOSEST_OF(in_triangle, 0, scene->triangle_end)
+#endif
+#ifdef PHLUX_PARALLELOGRAMS
+  CLOSEST_OF(in_parallelogram, scene->triangle_end, scene->parallelogram_end)
+#endif
+#ifdef PHLUX_ELLIPSES
+  CLOSEST_OF(in_ellipse, scene->parallelogram_end, scene->ellipse_end)
+#endif
+#ifdef PHLUX_SPHERES
+  for (int i = 0; i < scene->sphere_count; ++i) {
+    const Real distance = cross_sphere(ray, sphere_at(scene->spheres + i * SPHERE_FLOATS));
+    const Mask closer = (distance > 0.0f) & (distance * closest.denominator < closest.numerator);
+    closest.numerator = closer ? distance : closest.numerator;
+    closest.denominator = closer ? (Real)(1.0f) : closest.denominator;
+    closest.primitive = closer ? (Int)(scene->first_sphere + i) : closest.primitive;
+  }
+#endif
+  Hit hit;
+  hit.distance = closest.numerator / closest.denominator;
+  hit.primitive = closest.primitive;
+  return hit;
+}
+
+// Lanes of `asking` whose ray meets something before `distance`.
+static inline Mask scene_occluded(const Scene* scene, Ray ray, Real distance, Mask asking) {
+  const ClosestHit limit = no_hit_within(distance);
+  Mask blocked = !asking;
+#ifdef PHLUX_TRIANGLES
+  ANY_OF(in_triangle, 0, scene->triangle_end)
+#endif
+#ifdef PHLUX_PARALLELOGRAMS
+  ANY_OF(in_parallelogram, scene->triangle_end, scene->parallelogram_end)
+#endif
+#ifdef PHLUX_ELLIPSES
+  ANY_OF(in_ellipse, scene->parallelogram_end, scene->ellipse_end)
+#endif
+#ifdef PHLUX_SPHERES
+  for (int i = 0; i < scene->sphere_count && !all_lanes(blocked); ++i) {
+    const Real crossing = cross_sphere(ray, sphere_at(scene->spheres + i * SPHERE_FLOATS));
+    blocked |= (crossing > 0.0f) & (crossing < distance);
+  }
+#endif
+  return blocked & asking;
+}
+
+#endif
+#endif
