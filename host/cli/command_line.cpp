@@ -15,16 +15,16 @@
 namespace phlux::cli {
 namespace {
 
-// The help's second column starts at kNames and ends at kColumns.
-constexpr std::size_t kNames = 30, kColumns = 100;
+// The help's second column starts at first_column and ends at last_column.
+constexpr std::size_t first_column = 30, last_column = 100;
 
 std::string wrapped(const std::string& text) {
   std::string lines;
-  std::size_t column = kNames;
+  std::size_t column = first_column;
   std::istringstream words(text);
   for (std::string word; words >> word; column += word.size() + 1) {
-    if (!lines.empty()) lines += column + word.size() > kColumns ? '\n' : ' ';
-    if (lines.ends_with('\n')) column = kNames;
+    if (!lines.empty()) lines += column + word.size() > last_column ? '\n' : ' ';
+    if (lines.ends_with('\n')) column = first_column;
     lines += word;
   }
   return lines;
@@ -87,10 +87,10 @@ void add_method(CLI::App& app, RenderOptions& options) {
 }
 
 void add_amount(CLI::App& app, RenderOptions& options) {
-  constexpr std::uint64_t kMostSamples = std::numeric_limits<int>::max();
+  constexpr std::uint64_t most_samples = std::numeric_limits<int>::max();
   app.option_defaults()->group("How much");
   add_value(app, "-n,--spp", "N", "samples a pixel; default: the scene's", [&](const std::string& text) {
-    options.samples_per_pixel = static_cast<int>(whole_number("--spp", text, 1, kMostSamples));
+    options.samples_per_pixel = static_cast<int>(whole_number("--spp", text, 1, most_samples));
   });
   add_value(app, "--time", "SECONDS", "render for so long instead",
             [&](const std::string& text) { options.time_limit = positive_number("--time", text); });

@@ -49,8 +49,8 @@ std::string gibibytes(std::uint64_t bytes) {
 }
 
 using Row = std::array<std::string, 11>;
-const Row kHeadings = {"DEVICE", "TYPE",   "NAME",           "PLATFORM",     "DRIVER", "OPENCL C",
-                       "UNITS",  "MEMORY", "LARGEST BUFFER", "NATIVE WIDTH", "WIDTH"};
+const Row headings = {"DEVICE", "TYPE",   "NAME",           "PLATFORM",     "DRIVER", "OPENCL C",
+                      "UNITS",  "MEMORY", "LARGEST BUFFER", "NATIVE WIDTH", "WIDTH"};
 
 Row to_row(const device::DeviceInfo& info, bool is_default) {
   return {specification(info) + (is_default ? " *" : ""),
@@ -86,7 +86,7 @@ int list_devices(const DevicesOptions& options) {
   const std::vector<device::DeviceInfo> devices = device::list_devices();
   const std::vector<std::string> defaults = default_specifications();
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
-  std::vector<Row> rows = {kHeadings};
+  std::vector<Row> rows = {headings};
   for (const device::DeviceInfo& info : devices) {
     const bool is_default = std::ranges::find(defaults, specification(info)) != defaults.end();
     json.push_back(to_json(info, is_default));

@@ -16,7 +16,7 @@ namespace phlux::cli {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr double kPreviewShareOfTime = 0.02;
+constexpr double preview_share_of_time = 0.02;
 
 std::string lower_case_extension(const fs::path& file) {
   std::string extension = file.extension().string();
@@ -75,7 +75,7 @@ void PreviewRefresher::update(const film::Film& film, double seconds) {
   } catch (const WriteError& error) {
     spdlog::info("{}", error.what());
   }
-  next_ = seconds + std::max(kSecondsBetween, watch.elapsed().count() / kPreviewShareOfTime);
+  next_ = seconds + std::max(seconds_between, watch.elapsed().count() / preview_share_of_time);
 }
 
 } // namespace phlux::cli

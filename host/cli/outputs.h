@@ -30,8 +30,8 @@ public:
 
 private:
   std::filesystem::path file_;
-  double next_ = kSecondsBetween;
-  static constexpr double kSecondsBetween = 3.0;
+  double next_ = seconds_between;
+  static constexpr double seconds_between = 3.0;
 };
 
 } // namespace phlux::cli

@@ -13,14 +13,14 @@
 namespace phlux::cli {
 namespace {
 
-constexpr double kSecondsBetweenBars = 0.1;
-constexpr double kSecondsBetweenLines = 10.0;
-constexpr std::size_t kUsualColumns = 80;
-constexpr std::size_t kNarrowestBar = 6, kWidestBar = 32;
+constexpr double seconds_between_bars = 0.1;
+constexpr double seconds_between_lines = 10.0;
+constexpr std::size_t usual_columns = 80;
+constexpr std::size_t narrowest_bar = 6, widest_bar = 32;
 
 std::size_t terminal_columns() {
   winsize window{};
-  if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &window) != 0 || window.ws_col == 0) return kUsualColumns;
+  if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &window) != 0 || window.ws_col == 0) return usual_columns;
   return window.ws_col;
 }
 
@@ -32,9 +32,9 @@ std::string clock_text(double seconds) {
 
 // "[####    ] TEXT" in at most `columns`; the bar takes what the text leaves.
 std::string bar_line(double fraction, const std::string& text, std::size_t columns) {
-  constexpr std::size_t kAroundBar = 3;
-  if (text.size() + kAroundBar + kNarrowestBar > columns) return text.substr(0, columns);
-  const std::size_t width = std::min(kWidestBar, columns - text.size() - kAroundBar);
+  constexpr std::size_t around_bar = 3;
+  if (text.size() + around_bar + narrowest_bar > columns) return text.substr(0, columns);
+  const std::size_t width = std::min(widest_bar, columns - text.size() - around_bar);
   const auto filled = static_cast<std::size_t>(fraction * static_cast<double>(width));
   return fmt::format("[{:<{}}] {}", std::string(filled, '#'), width, text);
 }
@@ -68,7 +68,7 @@ std::string progress_text(const render::Progress& progress, double fraction, dou
 ProgressDisplay::ProgressDisplay(bool quiet, std::optional<double> time_limit,
                                  std::optional<double> target_error)
     : quiet_(quiet), terminal_(::isatty(STDERR_FILENO) == 1), time_limit_(time_limit),
-      target_error_(target_error), next_update_(terminal_ ? kSecondsBetweenBars : kSecondsBetweenLines) {}
+      target_error_(target_error), next_update_(terminal_ ? seconds_between_bars : seconds_between_lines) {}
 
 void ProgressDisplay::building_kernels() {
   if (!quiet_) show("building kernels");
@@ -76,7 +76,7 @@ void ProgressDisplay::building_kernels() {
 
 void ProgressDisplay::update(const render::Progress& progress, const std::function<double()>& error) {
   if (quiet_ || progress.seconds < next_update_) return;
-  next_update_ = progress.seconds + (terminal_ ? kSecondsBetweenBars : kSecondsBetweenLines);
+  next_update_ = progress.seconds + (terminal_ ? seconds_between_bars : seconds_between_lines);
   const double error_so_far = error();
   const double fraction = fraction_done(progress, time_limit_, target_error_, error_so_far);
   const std::string text = progress_text(progress, fraction, error_so_far);

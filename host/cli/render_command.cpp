@@ -22,7 +22,7 @@
 namespace phlux::cli {
 namespace {
 
-constexpr int kInterrupted = 130;
+constexpr int interrupted_exit_code = 130;
 
 // A scene rendered at another size keeps its horizontal field of view.
 scene::Scene load_scene(const RenderOptions& options) {
@@ -143,11 +143,11 @@ int render(const RenderOptions& options) {
     spdlog::warn("{} samples were not finite and count as black", statistics.nonfinite);
   if (film.samples_per_pixel() == 0.0) { // an older image is worth more than a black one
     spdlog::warn("interrupted before the first sample: nothing is written");
-    return kInterrupted;
+    return interrupted_exit_code;
   }
   write(outputs, info_of(options, settings, film, statistics), film, statistics, options.moments);
   if (!options.quiet) fmt::print("{}\n", summary(outputs, film, statistics));
-  return statistics.interrupted ? kInterrupted : 0;
+  return statistics.interrupted ? interrupted_exit_code : 0;
 }
 
 } // namespace phlux::cli

@@ -16,7 +16,7 @@
 namespace phlux::cli {
 namespace {
 
-constexpr int kDefect = 70; // EX_SOFTWARE of sysexits.h
+constexpr int defect_exit_code = 70; // EX_SOFTWARE of sysexits.h
 
 void set_up_log() {
   spdlog::set_default_logger(spdlog::stderr_logger_mt("phlux"));
@@ -48,9 +48,9 @@ int run(int argc, char** argv) {
   } catch (const Error& error) {
     return report(error.what(), error.exit_code());
   } catch (const std::bad_alloc&) {
-    return report("out of memory: a smaller --size or scene needs less", kDefect);
+    return report("out of memory: a smaller --size or scene needs less", defect_exit_code);
   } catch (const std::exception& error) {
-    return report(fmt::format("internal error: {}", error.what()), kDefect);
+    return report(fmt::format("internal error: {}", error.what()), defect_exit_code);
   }
 }
 

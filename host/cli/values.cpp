@@ -68,11 +68,11 @@ double positive_number(const std::string& option, const std::string& text) {
 }
 
 std::array<int, 2> size(const std::string& option, const std::string& text) {
-  constexpr std::int64_t kMostPixels = std::int64_t{1} << 28;
+  constexpr std::int64_t most_pixels = std::int64_t{1} << 28;
   const std::size_t x = text.find_first_of("xX");
   if (x != std::string::npos) {
     const std::optional<int> width = parse<int>(text.substr(0, x)), height = parse<int>(text.substr(x + 1));
-    if (width && height && *width > 0 && *height > 0 && *width <= kMostPixels / *height)
+    if (width && height && *width > 0 && *height > 0 && *width <= most_pixels / *height)
       return {*width, *height};
   }
   wrong(option, text, "must be WIDTHxHEIGHT in pixels, such as 640x480, of at most 2^28 pixels");

@@ -13,11 +13,11 @@
 namespace phlux::files {
 namespace {
 
-constexpr std::array<const char*, 3> kRadiance = {"R", "G", "B"};
-constexpr std::array<const char*, 3> kVariance = {"variance.R", "variance.G", "variance.B"};
-constexpr double kDarkness = 1e-4;    // what relmse adds to b^2, so that black pixels do not divide by 0
-constexpr double kRounding = 0x1p-16; // 256 x 2^-24: a float32 sum of 256 equal samples
-constexpr std::size_t kTrimOneIn = 1000;
+constexpr std::array<const char*, 3> radiance_names = {"R", "G", "B"};
+constexpr std::array<const char*, 3> variance_names = {"variance.R", "variance.G", "variance.B"};
+constexpr double darkness = 1e-4;          // what relmse adds to b^2, so that black pixels do not divide by 0
+constexpr double rounding_share = 0x1p-16; // 256 x 2^-24: a float32 sum of 256 equal samples
+constexpr std::size_t trim_one_in = 1000;
 
 using Channels = std::array<const std::vector<float>*, 3>;
 
@@ -58,7 +58,7 @@ struct Sums {
       a += value_a;
       b += value_b;
       squares += square;
-      relative += square / (value_b * value_b + kDarkness) / 3.0;
+      relative += square / (value_b * value_b + darkness) / 3.0;
     }
     relative_squares.push_back(relative);
   }
@@ -69,7 +69,7 @@ struct Sums {
       const double value_a = (*groups[0][channel])[pixel], value_b = (*groups[1][channel])[pixel];
       const double variance =
           static_cast<double>((*groups[2][channel])[pixel]) + (*groups[3][channel])[pixel];
-      const double rounding = kRounding * std::max(std::abs(value_a), std::abs(value_b));
+      const double rounding = rounding_share * std::max(std::abs(value_a), std::abs(value_b));
       const double difference = std::abs(value_a - value_b);
       const double z = difference == 0.0 ? 0.0 : difference / std::sqrt(variance + rounding * rounding);
       max_z = std::max(max_z, z);
@@ -91,7 +91,7 @@ Comparison figures(Sums& sums, bool with_z) {
   result.mean_ratio = result.mean_a / result.mean_b;
   result.rmse = std::sqrt(sums.squares / values);
   std::ranges::sort(sums.relative_squares);
-  const auto trimmed = static_cast<std::ptrdiff_t>(pixels / kTrimOneIn);
+  const auto trimmed = static_cast<std::ptrdiff_t>(pixels / trim_one_in);
   result.relmse = mean(sums.relative_squares.cbegin(), sums.relative_squares.cend());
   result.relmse_trimmed = mean(sums.relative_squares.cbegin(), sums.relative_squares.cend() - trimmed);
   if (with_z) {
@@ -108,11 +108,12 @@ Comparison compare(const Image& a, const Image& b, const std::string& name_a, co
     throw SceneError(
         fmt::format("{}: is {}x{} pixels, but {} is {}x{}: only images of one size can be compared", name_a,
                     a.width, a.height, name_b, b.width, b.height));
-  std::vector<Channels> groups = {channels_of(a, kRadiance, name_a), channels_of(b, kRadiance, name_b)};
-  const bool with_z = has(a, kVariance) && has(b, kVariance);
+  std::vector<Channels> groups = {channels_of(a, radiance_names, name_a),
+                                  channels_of(b, radiance_names, name_b)};
+  const bool with_z = has(a, variance_names) && has(b, variance_names);
   if (with_z) {
-    groups.push_back(channels_of(a, kVariance, name_a));
-    groups.push_back(channels_of(b, kVariance, name_b));
+    groups.push_back(channels_of(a, variance_names, name_a));
+    groups.push_back(channels_of(b, variance_names, name_b));
   }
   Sums sums;
   std::uint64_t nonfinite = 0;

@@ -84,14 +84,14 @@ RenderInfo find_attributes(const Imf::Header& header) {
 }
 
 // A damaged header may claim any size; 2^29 pixels in one channel are 2 GiB.
-constexpr std::int64_t kMostPixels = std::int64_t{1} << 29;
+constexpr std::int64_t most_pixels = std::int64_t{1} << 29;
 
 Image read_pixels(Imf::InputFile& file) {
   const Imf::Header& header = file.header();
   const Imath::Box2i window = header.dataWindow();
   const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
   const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
-  if (width <= 0 || height <= 0 || width > kMostPixels / height)
+  if (width <= 0 || height <= 0 || width > most_pixels / height)
     throw std::runtime_error(fmt::format("an image of {}x{} pixels", width, height));
 
   Image image{.width = static_cast<int>(width),

@@ -5,8 +5,8 @@
 namespace phlux::files {
 namespace {
 
-constexpr std::array<const char*, 3> kRadiance = {"R", "G", "B"};
-constexpr std::array<const char*, 3> kVariance = {"variance.R", "variance.G", "variance.B"};
+constexpr std::array<const char*, 3> radiance_names = {"R", "G", "B"};
+constexpr std::array<const char*, 3> variance_names = {"variance.R", "variance.G", "variance.B"};
 
 template<class Function>
 void add_channels(Image& image, const std::array<const char*, 3>& names, std::size_t pixels,
@@ -26,9 +26,10 @@ void add_channels(Image& image, const std::array<const char*, 3>& names, std::si
 Image image_of(const film::Film& film, const RenderInfo& info, bool moments) {
   Image image{.width = film.width(), .height = film.height(), .channels = {}, .info = info};
   const std::size_t pixels = film.pixels().size();
-  add_channels(image, kRadiance, pixels, [&](std::size_t pixel) { return film.mean(pixel); });
+  add_channels(image, radiance_names, pixels, [&](std::size_t pixel) { return film.mean(pixel); });
   if (moments)
-    add_channels(image, kVariance, pixels, [&](std::size_t pixel) { return film.variance_of_mean(pixel); });
+    add_channels(image, variance_names, pixels,
+                 [&](std::size_t pixel) { return film.variance_of_mean(pixel); });
   return image;
 }
 

@@ -8,9 +8,9 @@
 namespace phlux::files {
 namespace {
 
-constexpr float kMiddleGrey = 0.18F;
-constexpr float kShoulder = 0.6F;          // where the curve leaves the identity
-constexpr std::size_t kOutliersOneIn = 20; // 5% at either end
+constexpr float middle_grey = 0.18F;
+constexpr float shoulder = 0.6F;            // where the curve leaves the identity
+constexpr std::size_t outliers_one_in = 20; // 5% at either end
 
 std::vector<float> lit_luminances(const Image& image) {
   const std::vector<float>& red = image.channels.at("R");
@@ -31,20 +31,20 @@ std::vector<float> lit_luminances(const Image& image) {
 float exposure(const Image& image) {
   std::vector<float> luminances = lit_luminances(image);
   if (luminances.empty()) return 1.0F;
-  const auto outliers = static_cast<std::ptrdiff_t>(luminances.size() / kOutliersOneIn);
+  const auto outliers = static_cast<std::ptrdiff_t>(luminances.size() / outliers_one_in);
   const auto first = luminances.begin() + outliers, last = luminances.end() - outliers;
   std::nth_element(luminances.begin(), first, luminances.end());
   std::nth_element(first, last - 1, luminances.end());
   double sum = 0.0;
   for (auto luminance = first; luminance != last; ++luminance)
     sum += std::log(static_cast<double>(*luminance));
-  return static_cast<float>(kMiddleGrey / std::exp(sum / static_cast<double>(last - first)));
+  return static_cast<float>(middle_grey / std::exp(sum / static_cast<double>(last - first)));
 }
 
 float compress_highlights(float value) {
   if (!(value > 0.0F)) return 0.0F;
-  if (value <= kShoulder) return value;
-  return 1.0F - (1.0F - kShoulder) * std::exp((kShoulder - value) / (1.0F - kShoulder));
+  if (value <= shoulder) return value;
+  return 1.0F - (1.0F - shoulder) * std::exp((shoulder - value) / (1.0F - shoulder));
 }
 
 std::uint8_t srgb_code(float linear) {

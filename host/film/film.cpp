@@ -8,7 +8,7 @@
 namespace phlux::film {
 namespace {
 
-constexpr std::size_t kChannels = 3;
+constexpr std::size_t channel_count = 3;
 
 // Variance of the mean / mean^2, from the sums S of x and Q of x^2 over n >= 2 samples, S > 0:
 // the unbiased variance of one sample is (Q - S^2/n) / (n - 1), of the mean 1/n of it, and mean^2 is S^2/n^2,
@@ -27,7 +27,7 @@ double mean_where_not_black(std::span<const Pixel> pixels, Function f) {
   std::uint64_t count = 0;
   for (const Pixel& pixel : pixels) {
     if (pixel.samples < 2) continue;
-    for (std::size_t channel = 0; channel < kChannels; ++channel) {
+    for (std::size_t channel = 0; channel < channel_count; ++channel) {
       if (!(pixel.sum[channel] > 0.0)) continue;
       total += f(pixel, channel);
       ++count;
@@ -46,7 +46,7 @@ Film::Film(int width, int height) : width_(width), height_(height) {
 void Film::add(std::size_t pixel, const BlockSum& block, std::uint32_t samples) {
   assert(pixel < pixels_.size());
   Pixel& sums = pixels_[pixel];
-  for (std::size_t channel = 0; channel < kChannels; ++channel) {
+  for (std::size_t channel = 0; channel < channel_count; ++channel) {
     sums.sum[channel] += static_cast<double>(block.radiance[channel]);
     sums.sum_of_squares[channel] += static_cast<double>(block.radiance_squared[channel]);
   }
@@ -57,7 +57,7 @@ std::array<double, 3> Film::mean(std::size_t pixel) const {
   const Pixel& sums = pixels_[pixel];
   if (sums.samples == 0) return {};
   std::array<double, 3> result;
-  for (std::size_t channel = 0; channel < kChannels; ++channel)
+  for (std::size_t channel = 0; channel < channel_count; ++channel)
     result[channel] = sums.sum[channel] / static_cast<double>(sums.samples);
   return result;
 }
@@ -67,7 +67,7 @@ std::array<double, 3> Film::variance_of_mean(std::size_t pixel) const {
   if (sums.samples < 2) return {};
   const double n = static_cast<double>(sums.samples);
   std::array<double, 3> result;
-  for (std::size_t channel = 0; channel < kChannels; ++channel) {
+  for (std::size_t channel = 0; channel < channel_count; ++channel) {
     const double mean = sums.sum[channel] / n;
     result[channel] = std::max(0.0, (sums.sum_of_squares[channel] / n - mean * mean) / (n - 1.0));
   }

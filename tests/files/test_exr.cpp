@@ -1,6 +1,5 @@
 #include "files/exr.h"
 
-#include <fstream>
 #include <limits>
 
 #include <ImfChannelList.h>
@@ -15,7 +14,7 @@
 
 #include "errors.h"
 #include "files/output.h"
-#include "files/temporary_folder.h"
+#include "temporary_folder.h"
 
 using phlux::SceneError;
 using phlux::film::Film;
@@ -23,15 +22,15 @@ using namespace phlux::files;
 
 namespace {
 
-const RenderInfo kInfo{.version = "0.1.0",
-                       .scene = "scenes/box.xml",
-                       .integrator = "path",
-                       .strategy = "mixture",
-                       .samples = 64.0,
-                       .seed = std::numeric_limits<std::uint64_t>::max(),
-                       .device = "a device",
-                       .driver = "3.1",
-                       .seconds = 1.5};
+const RenderInfo render_info{.version = "0.1.0",
+                             .scene = "scenes/box.xml",
+                             .integrator = "path",
+                             .strategy = "mixture",
+                             .samples = 64.0,
+                             .seed = std::numeric_limits<std::uint64_t>::max(),
+                             .device = "a device",
+                             .driver = "3.1",
+                             .seconds = 1.5};
 
 Film numbered_film() {
   Film film(3, 2);
@@ -46,7 +45,7 @@ Film numbered_film() {
 
 TEST_CASE("An image comes back from an EXR file bit for bit") {
   const TemporaryFolder folder;
-  const Image image = image_of(numbered_film(), kInfo, true);
+  const Image image = image_of(numbered_film(), render_info, true);
   write_exr(folder / "a.exr", image);
   const Image back = read_exr(folder / "a.exr");
   CHECK(back.width == 3);
@@ -61,7 +60,7 @@ TEST_CASE("An image comes back from an EXR file bit for bit") {
 TEST_CASE("An EXR file has the channels and attributes of the contract") {
   const TemporaryFolder folder;
   const bool moments = GENERATE(false, true);
-  write_exr(folder / "a.exr", image_of(numbered_film(), kInfo, moments));
+  write_exr(folder / "a.exr", image_of(numbered_film(), render_info, moments));
   const Imf::InputFile file((folder / "a.exr").c_str());
   const Imf::Header& header = file.header();
 
@@ -89,12 +88,12 @@ TEST_CASE("An EXR file has the channels and attributes of the contract") {
   CHECK(number("seconds") == 1.5);
 
   const RenderInfo info = read_exr(folder / "a.exr").info;
-  CHECK(info.version == kInfo.version);
-  CHECK(info.scene == kInfo.scene);
-  CHECK(info.strategy == kInfo.strategy);
-  CHECK(info.samples == kInfo.samples);
-  CHECK(info.seed == kInfo.seed);
-  CHECK(info.seconds == kInfo.seconds);
+  CHECK(info.version == render_info.version);
+  CHECK(info.scene == render_info.scene);
+  CHECK(info.strategy == render_info.strategy);
+  CHECK(info.samples == render_info.samples);
+  CHECK(info.seed == render_info.seed);
+  CHECK(info.seconds == render_info.seconds);
 }
 
 TEST_CASE("Other programs' files are read: half channels, an offset data window, no attributes") {
@@ -126,11 +125,11 @@ TEST_CASE("What is no EXR image is a SceneError of one line that names the file"
     write_file(file, "not an image at all");
   }
   SECTION("cut off") {
-    const std::string bytes = encode_exr(image_of(numbered_film(), kInfo, true));
+    const std::string bytes = encode_exr(image_of(numbered_film(), render_info, true));
     write_file(file, bytes.substr(0, bytes.size() - 20));
   }
   SECTION("damaged header") {
-    std::string bytes = encode_exr(image_of(numbered_film(), kInfo, true));
+    std::string bytes = encode_exr(image_of(numbered_film(), render_info, true));
     const std::size_t window = bytes.find("dataWindow");
     bytes.replace(window + 31, 8, "\x7f\x7f\x7f\x7f\x7f\x7f\x7f\x7f", 8);
     write_file(file, bytes);

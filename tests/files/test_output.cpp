@@ -1,8 +1,6 @@
 #include "files/output.h"
 
 #include <csignal>
-#include <fstream>
-#include <iterator>
 #include <vector>
 
 #include <sys/resource.h>
@@ -11,7 +9,7 @@
 #include <catch2/catch.hpp>
 
 #include "errors.h"
-#include "files/temporary_folder.h"
+#include "temporary_folder.h"
 
 namespace fs = std::filesystem;
 using phlux::WriteError;
@@ -19,15 +17,6 @@ using phlux::files::check_writable;
 using phlux::files::write_file;
 
 namespace {
-
-std::string contents(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-std::ptrdiff_t entries(const TemporaryFolder& folder) {
-  return std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator());
-}
 
 // Writes beyond 1000 bytes fail, as on a full disk.
 class FullDisk {
@@ -53,18 +42,18 @@ TEST_CASE("Files are written whole, over what was there") {
   const TemporaryFolder folder;
   write_file(folder / "a", "one");
   write_file(folder / "a", std::string("two\0three", 9));
-  CHECK(contents(folder / "a") == std::string("two\0three", 9));
-  CHECK(entries(folder) == 1);
+  CHECK(TemporaryFolder::read(folder / "a") == std::string("two\0three", 9));
+  CHECK(folder.names().size() == 1);
 }
 
 TEST_CASE("Checking leaves everything as it is") {
   const TemporaryFolder folder;
   check_writable(folder / "new");
-  CHECK(folder.is_empty());
+  CHECK(folder.names().empty());
   write_file(folder / "old", "old");
   check_writable(folder / "old");
-  CHECK(contents(folder / "old") == "old");
-  CHECK(entries(folder) == 1);
+  CHECK(TemporaryFolder::read(folder / "old") == "old");
+  CHECK(folder.names().size() == 1);
 }
 
 TEST_CASE("What cannot be written is a WriteError that names the file") {
@@ -77,7 +66,7 @@ TEST_CASE("What cannot be written is a WriteError that names the file") {
   CHECK_THROWS_AS(check_writable(path), WriteError);
   CHECK_THROWS_AS(write_file(path, "bytes"), WriteError);
   CHECK_THROWS_WITH(check_writable(path), Catch::StartsWith(path.string() + ": cannot be written: "));
-  CHECK(entries(folder) == 1);
+  CHECK(folder.names().size() == 1);
 }
 
 TEST_CASE("A write that fails half-way keeps the old file and leaves no partial one") {
@@ -88,8 +77,8 @@ TEST_CASE("A write that fails half-way keeps the old file and leaves no partial 
     CHECK_THROWS_AS(write_file(folder / "a", std::string(5000, 'x')), WriteError);
     CHECK_THROWS_AS(write_file(folder / "b", std::string(5000, 'x')), WriteError);
   }
-  CHECK(contents(folder / "a") == "old");
-  CHECK(entries(folder) == 1);
+  CHECK(TemporaryFolder::read(folder / "a") == "old");
+  CHECK(folder.names().size() == 1);
 }
 
 TEST_CASE("A folder that vanishes after the check is an error, not a crash") {
@@ -106,7 +95,7 @@ TEST_CASE("Links stay links, and special files stay special") {
   fs::create_symlink("target", folder / "link");
   write_file(folder / "link", "new");
   CHECK(fs::is_symlink(folder / "link"));
-  CHECK(contents(folder / "target") == "new");
+  CHECK(TemporaryFolder::read(folder / "target") == "new");
 
   check_writable("/dev/null");
   write_file("/dev/null", "bytes");

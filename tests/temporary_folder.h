@@ -1,8 +1,11 @@
-// A folder of its own for each test, removed in the end.
+// A folder of its own for each test, gone afterwards.
 #pragma once
 
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
 #include <stdexcept>
 #include <string>
 
@@ -22,7 +25,22 @@ public:
 
   [[nodiscard]] std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  [[nodiscard]] bool is_empty() const { return std::filesystem::is_empty(path_); }
+
+  [[nodiscard]] std::set<std::string> names() const {
+    std::set<std::string> result;
+    for (const auto& entry : std::filesystem::directory_iterator(path_))
+      result.insert(entry.path().filename());
+    return result;
+  }
+
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(path_ / name, std::ios::binary) << text;
+  }
+
+  [[nodiscard]] static std::string read(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
 
 private:
   std::filesystem::path path_;

@@ -114,17 +114,17 @@ TEST_CASE("Variance is never negative") {
 
 TEST_CASE("A mean does not stall where float32 sums do", "[exactness]") {
   // MATH.md 6: an average of 0.505. A float32 sum of it stands still once half its spacing exceeds 0.505.
-  constexpr std::uint32_t kBlock = 250;
+  constexpr std::uint32_t block_length = 250;
   const float value = 0.505F;
   const auto samples = GENERATE(std::uint64_t{1'000'000}, std::uint64_t{100'000'000});
   Film film(1, 1);
-  const BlockSum block = sum_block(std::vector<float>(kBlock, value));
-  for (std::uint64_t n = 0; n < samples; n += kBlock) film.add(0, block, kBlock);
+  const BlockSum block = sum_block(std::vector<float>(block_length, value));
+  for (std::uint64_t n = 0; n < samples; n += block_length) film.add(0, block, block_length);
   CHECK(film.pixels()[0].samples == samples);
-  CHECK(film.mean(0)[0] == Approx(static_cast<double>(value)).epsilon(kBlock * 0x1p-24));
+  CHECK(film.mean(0)[0] == Approx(static_cast<double>(value)).epsilon(block_length * 0x1p-24));
 
   // Every block is the same, so the closed form is the block's own mean, to float64 rounding.
-  CHECK(film.mean(0)[0] == Approx(static_cast<double>(block.radiance[0]) / kBlock).epsilon(1e-10));
+  CHECK(film.mean(0)[0] == Approx(static_cast<double>(block.radiance[0]) / block_length).epsilon(1e-10));
 
   float stalled = 0.0F;
   for (std::uint64_t n = 0; n < samples; ++n) stalled += value;
@@ -135,14 +135,14 @@ TEST_CASE("Two-valued samples have their closed-form variance at 1e8 samples", "
   // 0 and 1 in turn: mean 1/2, variance of one sample n/(4(n-1)), of the mean 1/(4(n-1)); every float32 sum
   // is exact.
   Film film(1, 1);
-  constexpr std::uint32_t kBlock = 1000;
-  constexpr double kSamples = 1e8;
+  constexpr std::uint32_t block_length = 1000;
+  constexpr double sample_count = 1e8;
   const BlockSum block{{500.0F, 500.0F, 500.0F}, {500.0F, 500.0F, 500.0F}};
-  for (int i = 0; i < 100'000; ++i) film.add(0, block, kBlock);
+  for (int i = 0; i < 100'000; ++i) film.add(0, block, block_length);
   CHECK(film.mean(0)[0] == 0.5);
-  CHECK(film.variance_of_mean(0)[0] == Approx(0.25 / (kSamples - 1.0)).epsilon(1e-12));
-  CHECK(film.relative_variance() == Approx(kSamples / (kSamples - 1.0)).epsilon(1e-12));
-  CHECK(film.relative_standard_error() == Approx(1.0 / std::sqrt(kSamples - 1.0)).epsilon(1e-12));
+  CHECK(film.variance_of_mean(0)[0] == Approx(0.25 / (sample_count - 1.0)).epsilon(1e-12));
+  CHECK(film.relative_variance() == Approx(sample_count / (sample_count - 1.0)).epsilon(1e-12));
+  CHECK(film.relative_standard_error() == Approx(1.0 / std::sqrt(sample_count - 1.0)).epsilon(1e-12));
 }
 
 TEST_CASE("Black pixels count neither as exact nor as noisy") {

@@ -8,15 +8,15 @@
 #include <catch2/catch.hpp>
 
 #include "files/output.h"
-#include "files/temporary_folder.h"
 #include "files/tone_map.h"
+#include "temporary_folder.h"
 
 using namespace phlux::files;
 
 namespace {
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
+constexpr float infinite = std::numeric_limits<float>::infinity();
 
 Image grey(int width, int height, std::vector<float> values) {
   return {width, height, {{"R", values}, {"G", values}, {"B", values}}, {}};
@@ -57,8 +57,8 @@ TEST_CASE("Highlights are compressed smoothly and stay in range") {
   CHECK(compress_highlights(0.601F) == Approx(0.601F).margin(1e-5)); // continuous slope
   CHECK(compress_highlights(1.0F) == Approx(1.0 - 0.4 * std::exp(-1.0)));
   CHECK(compress_highlights(1e30F) == 1.0F);
-  CHECK(compress_highlights(kInfinity) == 1.0F);
-  CHECK(compress_highlights(kNan) == 0.0F);
+  CHECK(compress_highlights(infinite) == 1.0F);
+  CHECK(compress_highlights(not_a_number) == 0.0F);
   CHECK(compress_highlights(-1.0F) == 0.0F);
   for (float x = 0.0F; x < 5.0F; x += 0.01F) CHECK(compress_highlights(x + 0.01F) > compress_highlights(x));
 }
@@ -74,11 +74,11 @@ TEST_CASE("Neither a dark background, a light in view nor what is not finite dec
   for (std::size_t i = 0; i < 40; ++i) values[i] = 1e6F;
   for (std::size_t i = 40; i < 80; ++i) values[i] = 1e-20F;
   for (std::size_t i = 80; i < 200; ++i) values[i] = 0.0F;
-  values[300] = kNan;
-  values[301] = kInfinity;
+  values[300] = not_a_number;
+  values[301] = infinite;
   CHECK(exposure(grey(1000, 1, values)) == Approx(plain));
   CHECK(exposure(grey(2, 1, {0.0F, 0.0F})) == 1.0F);
-  CHECK(exposure(grey(2, 1, {kNan, kNan})) == 1.0F);
+  CHECK(exposure(grey(2, 1, {not_a_number, not_a_number})) == 1.0F);
 }
 
 TEST_CASE("A preview is an 8-bit sRGB file with the codes that its parts give") {
@@ -104,6 +104,6 @@ TEST_CASE("Rows run from the top") {
 
 TEST_CASE("Black, NaN and infinite images still are pictures") {
   CHECK(decode(encode_png(grey(1, 2, {0.0F, 0.0F}))).codes == std::vector<unsigned char>(6, 0));
-  const Decoded odd = decode(encode_png(grey(1, 2, {kNan, kInfinity})));
+  const Decoded odd = decode(encode_png(grey(1, 2, {not_a_number, infinite})));
   CHECK(odd.codes == std::vector<unsigned char>{0, 0, 0, 255, 255, 255});
 }

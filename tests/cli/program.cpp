@@ -1,0 +1,56 @@
+#include "cli/program.h"
+
+#include <algorithm>
+#include <csignal>
+#include <cstdlib>
+#include <stdexcept>
+#include <thread>
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "temporary_folder.h"
+
+namespace {
+
+void redirect(int descriptor, const std::filesystem::path& file) {
+  const int opened = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  if (opened < 0 || ::dup2(opened, descriptor) < 0) ::_exit(126);
+}
+
+[[noreturn]] void become(const Invocation& invocation, const TemporaryFolder& streams) {
+  redirect(STDOUT_FILENO, streams / "out");
+  redirect(STDERR_FILENO, streams / "err");
+  if (::chdir(invocation.folder.c_str()) != 0) ::_exit(126);
+  for (const auto& [name, value] : invocation.environment) ::setenv(name.c_str(), value.c_str(), 1);
+  std::vector<std::string> texts = {PHLUX_PROGRAM};
+  texts.insert(texts.end(), invocation.arguments.begin(), invocation.arguments.end());
+  std::vector<char*> arguments;
+  for (std::string& text : texts) arguments.push_back(text.data());
+  arguments.push_back(nullptr);
+  ::execv(arguments[0], arguments.data());
+  ::_exit(127);
+}
+
+} // namespace
+
+bool Outcome::is_one_line_error() const {
+  return err.starts_with("phlux: ") && !err.starts_with("phlux: warning") && err.ends_with('\n') &&
+         std::ranges::count(err, '\n') == 1;
+}
+
+Outcome run(const Invocation& invocation) {
+  const TemporaryFolder streams;
+  const pid_t process = ::fork();
+  if (process < 0) throw std::runtime_error("cannot fork");
+  if (process == 0) become(invocation, streams);
+  if (invocation.interrupt_after) {
+    std::this_thread::sleep_for(*invocation.interrupt_after);
+    ::kill(process, SIGINT);
+  }
+  int status = 0;
+  if (::waitpid(process, &status, 0) != process) throw std::runtime_error("the program is lost");
+  const int exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return {exit_code, TemporaryFolder::read(streams / "out"), TemporaryFolder::read(streams / "err")};
+}

@@ -1,0 +1,82 @@
+#include <catch2/catch.hpp>
+
+#include "cli/program.h"
+#include "cli/scenes.h"
+
+namespace {
+
+struct Wrong {
+  std::vector<std::string> arguments;
+  std::string message; ///< part of it
+};
+
+const std::vector<Wrong> wrong_usage = {
+    {{}, "no command"},
+    {{"rendr", "scene.xml"}, "did you mean render?"},
+    {{"paint"}, "must be one of render, devices, compare"},
+    {{"render"}, "SCENE.xml"},
+    {{"render", "scene.xml", "other.xml"}, "other.xml: one argument too many"},
+    {{"render", "scene.xml", "--ssp", "4"}, "unknown option --ssp: did you mean --spp?"},
+    {{"render", "scene.xml", "--checkpoint", "a"}, "unknown option --checkpoint"},
+    {{"render", "scene.xml", "-n"}, "--spp: a value is missing"},
+    {{"render", "scene.xml", "-n", "0"}, "--spp 0: must be a whole number from 1"},
+    {{"render", "scene.xml", "-n", "1.5"}, "--spp 1.5: must be a whole number"},
+    {{"render", "scene.xml", "-n", "4000000000"}, "--spp 4000000000: must be"},
+    {{"render", "scene.xml", "-n", "4", "--time", "1"}, "cannot go with --time"},
+    {{"render", "scene.xml", "--time", "-1"}, "--time -1: must be a number above 0"},
+    {{"render", "scene.xml", "--time", "nan"}, "--time nan: must be a number above 0"},
+    {{"render", "scene.xml", "--time", "inf"}, "--time inf: must be a number above 0"},
+    {{"render", "scene.xml", "--error", "0"}, "--error 0: must be a number above 0"},
+    {{"render", "scene.xml", "--size", "0x4"}, "--size 0x4: must be WIDTHxHEIGHT"},
+    {{"render", "scene.xml", "--size", "640"}, "--size 640: must be WIDTHxHEIGHT"},
+    {{"render", "scene.xml", "--size", "99999x99999"}, "at most 2^28 pixels"},
+    {{"render", "scene.xml", "--seed", "-1"}, "--seed -1: must be a whole number from 0"},
+    {{"render", "scene.xml", "-D", "radiance"}, "-D radiance: must be NAME=VALUE"},
+    {{"render", "scene.xml", "-i", "pth"}, "--integrator pth: did you mean path?"},
+    {{"render", "scene.xml", "--strategy", "mixtur"}, "--strategy mixtur: did you mean mixture?"},
+    {{"render", "scene.xml", "--strategy", "magic"}, "--strategy magic: must be one of"},
+    {{"render", "scene.xml", "--connect", "all"}, "--connect all: must be one of none, light, mis"},
+    {{"render", "scene.xml", "--max-depth", "0"},
+     "--max-depth 0: must be a whole number of 1 or more, or -1"},
+    {{"render", "scene.xml", "--rr-depth", "-2"}, "--rr-depth -2: must be"},
+    {{"render", "scene.xml", "--width", "3"}, "--width 3: must be one of 1, 4, 8, 16"},
+    {{"render", "scene.xml", "--traversal", "octree"}, "--traversal octree: must be one of auto, brute, bvh"},
+    {{"render", "scene.xml", "--kernel-dir", "missing"}, "--kernel-dir missing: must be a folder"},
+    {{"render", "scene.xml", "-o", "image.png"}, "such as image.exr"},
+    {{"render", "scene.xml", "-o", "a.exr", "--stats", "./a.exr"}, "named for two outputs"},
+    {{"compare", "a.exr"}, "B.exr"},
+    {{"devices", "now"}, "now: one argument too many"},
+};
+
+} // namespace
+
+TEST_CASE("Wrong usage is one line and exit code 2, and writes nothing") {
+  const TemporaryFolder folder;
+  folder.write("scene.xml", good_scene);
+  for (const auto& [arguments, message] : wrong_usage) {
+    const Outcome outcome = run({arguments, folder.path(), {}, {}});
+    CAPTURE(arguments, outcome.out, outcome.err);
+    CHECK(outcome.exit_code == 2);
+    CHECK(outcome.is_one_line_error());
+    CHECK_THAT(outcome.err, Catch::Contains(message));
+    CHECK(outcome.out.empty());
+  }
+  CHECK(folder.names() == std::set<std::string>{"scene.xml"});
+}
+
+TEST_CASE("Help and version are no errors") {
+  const TemporaryFolder folder;
+  const Outcome help = run({{"--help"}, folder.path(), {}, {}});
+  CHECK(help.exit_code == 0);
+  for (const char* word : {"render", "devices", "compare", "Exit codes"})
+    CHECK_THAT(help.out, Catch::Contains(word));
+  const Outcome of_render = run({{"render", "--help"}, folder.path(), {}, {}});
+  CHECK(of_render.exit_code == 0);
+  for (const char* option :
+       {"--output",    "--integrator", "--strategy", "--connect", "--spp",       "--time",      "--error",
+        "--max-depth", "--rr-depth",   "--size",     "--seed",    "-D",          "--device",    "--moments",
+        "--png",       "--stats",      "--quiet",    "--width",   "--traversal", "--kernel-dir"})
+    CHECK_THAT(of_render.out, Catch::Contains(option));
+  const Outcome version = run({{"--version"}, folder.path(), {}, {}});
+  CHECK(version.out == "phlux " PHLUX_VERSION "\n");
+}
