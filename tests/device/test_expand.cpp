@@ -14,6 +14,7 @@ TEST_CASE("defines come first, includes once, each part with its place") {
   const TemporaryFolder folder;
   folder.write("root.cl", "#include \"a.h\"\n#include \"sub/b.h\" // again a.h\nint root;\n");
   folder.write("a.h", "#pragma once\nint a;\n");
+  std::filesystem::create_directory(folder.path() / "sub");
   folder.write("sub/b.h", "  #  include  \"a.h\"\nint b;"); // no newline at its end
   const auto text = expand(KernelFiles(folder.path()), {"root.cl", {{"WIDTH", "8"}}, "int extra;\n"});
   CHECK(text == "#define WIDTH 8\n"

@@ -1,0 +1,88 @@
+// Writes the text of programs as a device's compiler would get it, into FOLDER/NAME.WIDTH.cl, for check.sh.
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <string>
+
+#include "device/program.h"
+#include "render/parts.h"
+
+namespace {
+
+using phlux::render::Connect;
+using phlux::render::Parts;
+
+Parts everything() {
+  Parts parts;
+  for (const auto part :
+       {&Parts::hierarchy, &Parts::planars, &Parts::triangles, &Parts::parallelograms, &Parts::ellipses,
+        &Parts::spheres, &Parts::smooth_normals, &Parts::two_sided, &Parts::phong_lobe, &Parts::anisotropic,
+        &Parts::emission, &Parts::light_planar, &Parts::light_sphere, &Parts::light_point, &Parts::light_spot,
+        &Parts::light_directional, &Parts::light_constant, &Parts::light_choice})
+    parts.*part = true;
+  parts.strategy = "STRATEGY_MIXTURE";
+  return parts;
+}
+
+Parts everything_brute_force() {
+  Parts parts = everything();
+  parts.hierarchy = false;
+  parts.strategy = "STRATEGY_LOBE_RHO";
+  return parts;
+}
+
+Parts diffuse_box() {
+  Parts parts;
+  parts.planars = parts.parallelograms = parts.emission = parts.light_planar = true;
+  parts.strategy = "STRATEGY_COSINE";
+  return parts;
+}
+
+Parts glossy_spheres() {
+  Parts parts = diffuse_box();
+  parts.spheres = parts.phong_lobe = true;
+  parts.strategy = "STRATEGY_MIXTURE";
+  return parts;
+}
+
+Parts mesh() {
+  Parts parts;
+  parts.hierarchy = parts.planars = parts.triangles = parts.smooth_normals = parts.phong_lobe = true;
+  parts.emission = parts.light_planar = parts.light_choice = true;
+  parts.connect = Connect::light;
+  parts.strategy = "STRATEGY_LOBE_KS";
+  return parts;
+}
+
+Parts sphere_in_sky() {
+  Parts parts;
+  parts.spheres = parts.phong_lobe = parts.light_constant = true;
+  parts.connect = Connect::none;
+  parts.strategy = "STRATEGY_MIXTURE";
+  return parts;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::cerr << "usage: write_programs FOLDER\n";
+    return 2;
+  }
+  const std::filesystem::path folder = argv[1];
+  std::filesystem::create_directories(folder);
+  const std::map<std::string, Parts> programs{{"everything", everything()},
+                                              {"everything-brute-force", everything_brute_force()},
+                                              {"diffuse-box", diffuse_box()},
+                                              {"glossy-spheres", glossy_spheres()},
+                                              {"mesh", mesh()},
+                                              {"sphere-in-sky", sphere_in_sky()}};
+  for (auto [name, parts] : programs)
+    for (const int lanes : {1, 4, 8, 16}) {
+      parts.lanes = lanes;
+      std::ofstream file(folder / (name + "." + std::to_string(lanes) + ".cl"));
+      file << phlux::device::expand({}, {"path.cl", parts.defines(), ""});
+      if (!file.flush()) return 1;
+    }
+}
