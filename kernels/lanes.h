@@ -48,6 +48,10 @@ typedef LANE_JOIN(int, WIDTH) Mask;
 #define LANES_AVX512
 typedef float LaneNativeFloats __attribute__((vector_size(64)));
 typedef int LaneNativeInts __attribute__((vector_size(64)));
+#define LANE_NATIVE_FLOATS(x) __builtin_astype((x), LaneNativeFloats)
+#define LANE_NATIVE_INTS(x) __builtin_astype((x), LaneNativeInts)
+#define LANE_REALS(x) __builtin_astype((x), Real)
+#define LANE_INTS(x) __builtin_astype((x), Int)
 #endif
 #endif
 
@@ -72,7 +76,7 @@ static inline Real times_sign(Real x, Real sign) {
 
 #ifdef LANES_AVX512
 static inline uint lane_bits(Mask m) {
-  return (ushort)__builtin_ia32_cmpd512_mask((LaneNativeInts)m, (LaneNativeInts)(Int)(0), 4, (ushort)0xffff);
+  return (ushort)__builtin_ia32_cmpd512_mask(LANE_NATIVE_INTS(m), LANE_NATIVE_INTS((Int)(0)), 4, (ushort)0xffff);
 }
 static inline int any_lane(Mask m) { return lane_bits(m) != 0; }
 static inline int all_lanes(Mask m) { return lane_bits(m) == 0xffff; }
@@ -98,8 +102,8 @@ static inline int all_lanes(Mask m) { return all(m); }
 // base[index] in every lane; index counts 4-byte words and must be valid in every lane, whatever its mask.
 static inline Real gather_real(const __global float* base, Int index) {
 #ifdef LANES_AVX512
-  return (Real)__builtin_ia32_gathersiv16sf((LaneNativeFloats)(Real)(0.0f), (const void*)(size_t)base,
-                                            (LaneNativeInts)index, (ushort)0xffff, 4);
+  return LANE_REALS(__builtin_ia32_gathersiv16sf(LANE_NATIVE_FLOATS((Real)(0.0f)), (const void*)(size_t)base,
+                                                 LANE_NATIVE_INTS(index), (ushort)0xffff, 4));
 #elif WIDTH == 1
   return base[index];
 #else
@@ -110,8 +114,8 @@ static inline Real gather_real(const __global float* base, Int index) {
 
 static inline Int gather_int(const __global int* base, Int index) {
 #ifdef LANES_AVX512
-  return (Int)__builtin_ia32_gathersiv16si((LaneNativeInts)(Int)(0), (const void*)(size_t)base, (LaneNativeInts)index,
-                                           (ushort)0xffff, 4);
+  return LANE_INTS(__builtin_ia32_gathersiv16si(LANE_NATIVE_INTS((Int)(0)), (const void*)(size_t)base,
+                                                LANE_NATIVE_INTS(index), (ushort)0xffff, 4));
 #elif WIDTH == 1
   return base[index];
 #else
@@ -231,9 +235,10 @@ static inline int first_lane(Mask m) {
 static inline int append_lanes(Mask m, Real key, Int value, float* keys, int* values) {
 #ifdef LANES_AVX512
   const ushort bits = (ushort)lane_bits(m);
-  vstore16((Real)__builtin_ia32_compresssf512_mask((LaneNativeFloats)key, (LaneNativeFloats)(Real)(0.0f), bits), 0,
-           keys);
-  vstore16((Int)__builtin_ia32_compresssi512_mask((LaneNativeInts)value, (LaneNativeInts)(Int)(0), bits), 0, values);
+  vstore16(LANE_REALS(__builtin_ia32_compresssf512_mask(LANE_NATIVE_FLOATS(key), LANE_NATIVE_FLOATS((Real)(0.0f)), bits)),
+           0, keys);
+  vstore16(LANE_INTS(__builtin_ia32_compresssi512_mask(LANE_NATIVE_INTS(value), LANE_NATIVE_INTS((Int)(0)), bits)), 0,
+           values);
   return popcount((int)bits);
 #elif WIDTH == 1
   *keys = key;

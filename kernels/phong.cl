@@ -25,8 +25,10 @@
 #define PHONG_PI 3.14159265358979f
 #define PHONG_INV_PI 0.318309886183791f
 
-// Intervals of a row of the reflectivity table; a row has one value more.
+// Intervals of a row of the reflectivity table; a row has one value more. The host that fills the table defines it.
+#ifndef PHONG_TABLE_INTERVALS
 #define PHONG_TABLE_INTERVALS 256
+#endif
 
 // Material parameters in every lane. The means over the colour channels decide how often each lobe is drawn.
 typedef struct {

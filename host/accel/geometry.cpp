@@ -1,5 +1,6 @@
 #include "accel/geometry.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "accel/primitive.h"

@@ -1,5 +1,5 @@
-// A scene's shapes as the tables that kernels intersect: flat primitives and spheres in blocks, and a hierarchy over
-// them where one is wanted.
+// A scene's shapes as the tables that kernels intersect: flat primitives and spheres in blocks, and a
+// hierarchy over them where one is wanted.
 #pragma once
 
 #include <cstdint>
@@ -14,18 +14,19 @@ namespace phlux::accel {
 inline constexpr int max_depth_wide = 24, max_depth_binary = 64;
 
 struct Geometry {
-  int block = 1;               ///< primitives per block
-  std::vector<float> planars;  ///< PLANAR_FLOATS values per flat primitive, in blocks
-  std::vector<float> spheres;  ///< SPHERE_FLOATS values per sphere, in blocks
-  std::vector<PrimitiveRecord> primitives; ///< flat ones (fillers included), then spheres; `light` is still -1
-  std::vector<int> emitters;               ///< per primitive: its scene::AreaEmitter, -1 for none
-  std::vector<double> areas;               ///< per primitive that emits, in the order of `primitives`: m^2
-  std::vector<int> corners;                ///< 3 per flat primitive, indices into vertex_normals; empty: all flat
-  std::vector<float> vertex_normals;       ///< 3 per vertex
-  std::vector<float> nodes;                ///< the hierarchy, see NodeValues; empty: brute force
-  int root = 0;                            ///< a child reference as in NodeValues
+  int block = 1;              ///< primitives per block
+  std::vector<float> planars; ///< PLANAR_FLOATS values per flat primitive, in blocks
+  std::vector<float> spheres; ///< SPHERE_FLOATS values per sphere, in blocks
+  std::vector<PrimitiveRecord>
+      primitives;                    ///< flat ones (fillers included), then spheres; `light` is still -1
+  std::vector<int> emitters;         ///< per primitive: its scene::AreaEmitter, -1 for none
+  std::vector<double> areas;         ///< per primitive that emits, in the order of `primitives`: m^2
+  std::vector<int> corners;          ///< 3 per flat primitive, indices into vertex_normals; empty: all flat
+  std::vector<float> vertex_normals; ///< 3 per vertex
+  std::vector<float> nodes;          ///< the hierarchy, see NodeValues; empty: brute force
+  int root = 0;                      ///< a child reference as in NodeValues
   int triangle_end = 0, parallelogram_end = 0, ellipse_end = 0; ///< ranges of flat primitives (brute force)
-  int first_sphere = 0, sphere_count = 0;  ///< primitive index of the first sphere; spheres, fillers included
+  int first_sphere = 0, sphere_count = 0; ///< primitive index of the first sphere; spheres, fillers included
   bool has_triangles = false, has_parallelograms = false, has_ellipses = false;
   std::uint64_t primitive_count = 0; ///< without fillers
   scene::Vec3 origin{0.0};           ///< world position of the tables' origin: the middle of the scene

@@ -1,5 +1,5 @@
-// The hierarchy is built by Embree's builder, as a tree of pointers, and then laid out depth first so that the tables
-// do not depend on the order in which threads made its nodes.
+// The hierarchy is built by Embree's builder, as a tree of pointers, and then laid out depth first so that
+// the tables do not depend on the order in which threads made its nodes.
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -26,8 +26,8 @@ Reference reference_of(const RTCBuildPrimitive& p) {
 }
 
 struct Node {
-  unsigned children = 0;            // 0: a leaf
-  unsigned first = 0, count = 0;    // leaf: primitives in Builder::leaf_primitives
+  unsigned children = 0;         // 0: a leaf
+  unsigned first = 0, count = 0; // leaf: primitives in Builder::leaf_primitives
   Node* child[max_children] = {};
   RTCBounds box[max_children] = {};
 };
@@ -110,7 +110,8 @@ private:
     return static_cast<int>(index);
   }
 
-  // A leaf holds either flat primitives or spheres; where Embree put both together, a node stands above two leaves.
+  // A leaf holds either flat primitives or spheres; where Embree put both together, a node stands above two
+  // leaves.
   int write_leaf(const Node& leaf) {
     const std::span all(builder_.leaf_primitives.data() + leaf.first, leaf.count);
     const auto first_sphere =
@@ -119,7 +120,8 @@ private:
     if (spheres.empty()) return write_blocks(flats, false);
     if (flats.empty()) return write_blocks(spheres, true);
     const std::size_t index = reserve_node();
-    fill_node(index, {{write_blocks(flats, false), box_of(flats)}, {write_blocks(spheres, true), box_of(spheres)}});
+    fill_node(index,
+              {{write_blocks(flats, false), box_of(flats)}, {write_blocks(spheres, true), box_of(spheres)}});
     return static_cast<int>(index);
   }
 
@@ -139,12 +141,16 @@ private:
     const int block = geometry_.block;
     const int first = (spheres ? writer_.finish_sphere_block() : writer_.finish_planar_block()) / block;
     for (const RTCBuildPrimitive& p : primitives) {
-      if (spheres) writer_.add_sphere(reference_of(p));
-      else writer_.add_planar(reference_of(p));
+      if (spheres)
+        writer_.add_sphere(reference_of(p));
+      else
+        writer_.add_planar(reference_of(p));
     }
     const int end = (spheres ? writer_.finish_sphere_block() : writer_.finish_planar_block()) / block;
-    const int blocks = std::max(end - first, 1); // primitives without area leave an empty leaf: any block will do
-    if (blocks > 16 || first >= 1 << 26) throw SceneError("the scene has more primitives than a hierarchy can index");
+    const int blocks =
+        std::max(end - first, 1); // primitives without area leave an empty leaf: any block will do
+    if (blocks > 16 || first >= 1 << 26)
+      throw SceneError("the scene has more primitives than a hierarchy can index");
     return ~(first << 5 | (blocks - 1) << 1 | (spheres ? 1 : 0));
   }
 
@@ -159,7 +165,8 @@ private:
     float* words = geometry_.nodes.data() + index * NODE_WORDS * children_;
     for (std::size_t i = 0; i < children_; ++i) {
       const bool used = i < written.size();
-      const RTCBounds box = used ? written[i].box : RTCBounds{infinity, infinity, infinity, 0, -infinity, -infinity, -infinity, 0};
+      const RTCBounds box = used ? written[i].box : RTCBounds{infinity,  infinity,  infinity,  0,
+                                                              -infinity, -infinity, -infinity, 0};
       const float planes[6] = {box.lower_x, box.lower_y, box.lower_z, box.upper_x, box.upper_y, box.upper_z};
       for (std::size_t k = 0; k < 6; ++k) words[k * children_ + i] = planes[k];
       const int child = used ? written[i].reference : 0;
@@ -174,13 +181,18 @@ private:
   std::size_t children_;
 };
 
-template <auto release> struct Releaser {
-  template <typename T> void operator()(T* handle) const { release(handle); }
+template<auto release>
+struct Releaser {
+  template<typename T>
+  void operator()(T* handle) const {
+    release(handle);
+  }
 };
 using EmbreeDevice = std::unique_ptr<std::remove_pointer_t<RTCDevice>, Releaser<rtcReleaseDevice>>;
 using EmbreeBvh = std::unique_ptr<std::remove_pointer_t<RTCBVH>, Releaser<rtcReleaseBVH>>;
 
-RTCBuildArguments build_arguments(RTCBVH bvh, std::vector<RTCBuildPrimitive>& primitives, Builder& builder, int lanes) {
+RTCBuildArguments build_arguments(RTCBVH bvh, std::vector<RTCBuildPrimitive>& primitives, Builder& builder,
+                                  int lanes) {
   RTCBuildArguments arguments = rtcDefaultBuildArguments();
   arguments.buildQuality = RTC_BUILD_QUALITY_MEDIUM;
   arguments.maxBranchingFactor = static_cast<unsigned>(std::max(lanes, 2));

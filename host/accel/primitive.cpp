@@ -15,10 +15,12 @@ using scene::Vec3;
 // Largest relative error of rounding a double to float.
 constexpr float half_ulp = std::numeric_limits<float>::epsilon() / 2;
 
-Vec3 rounded(const Vec3& v) { return Vec3(glm::vec3(v)); }
+Vec3 rounded(const Vec3& v) {
+  return Vec3(glm::vec3(v));
+}
 
-// The three points (or centre and edges) of a flat primitive about `origin`. Vertices are rounded before edges are
-// taken, so that neighbours keep sharing them.
+// The three points (or centre and edges) of a flat primitive about `origin`. Vertices are rounded before
+// edges are taken, so that neighbours keep sharing them.
 struct Flat {
   Vec3 origin, edge_u, edge_v;
   int region;
@@ -35,8 +37,8 @@ Flat flat(const scene::Scene& scene, const Vec3& origin, Reference reference) {
   const scene::Mesh& mesh = scene.meshes[reference.object];
   const auto& [a, b, c] = mesh.triangles[reference.element];
   const Vec3 p0 = rounded(mesh.positions[a] - origin);
-  return {p0, rounded(mesh.positions[b] - origin) - p0, rounded(mesh.positions[c] - origin) - p0, REGION_TRIANGLE,
-          mesh.surface};
+  return {p0, rounded(mesh.positions[b] - origin) - p0, rounded(mesh.positions[c] - origin) - p0,
+          REGION_TRIANGLE, mesh.surface};
 }
 
 void grow(Box& box, const Vec3& low, const Vec3& high) {
@@ -62,9 +64,12 @@ Vec3 half_extent(const Flat& f) {
 
 double area_of(int region, double cross_length) {
   switch (region) {
-  case REGION_TRIANGLE: return cross_length / 2;
-  case REGION_PARALLELOGRAM: return cross_length * 4;
-  default: return cross_length * std::numbers::pi;
+  case REGION_TRIANGLE:
+    return cross_length / 2;
+  case REGION_PARALLELOGRAM:
+    return cross_length * 4;
+  default:
+    return cross_length * std::numbers::pi;
   }
 }
 
@@ -115,7 +120,8 @@ TableWriter::TableWriter(const scene::Scene& scene, Geometry& geometry) : scene_
   }
   geometry.vertex_normals.reserve(count * 3);
   for (const scene::Mesh& mesh : scene.meshes)
-    for (const glm::vec3& n : mesh.normals) geometry.vertex_normals.insert(geometry.vertex_normals.end(), {n.x, n.y, n.z});
+    for (const glm::vec3& n : mesh.normals)
+      geometry.vertex_normals.insert(geometry.vertex_normals.end(), {n.x, n.y, n.z});
 }
 
 void TableWriter::write_planar(const std::array<float, PLANAR_FLOATS>& values) {

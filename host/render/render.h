@@ -13,40 +13,40 @@
 
 namespace phlux::render {
 
-enum class Connect { none, light, mis };           ///< what reaches the lights: hits, light samples, or both weighted
+enum class Connect { none, light, mis }; ///< what reaches the lights: hits, light samples, or both weighted
 enum class Traversal { automatic, brute_force, bvh };
 
 struct Settings {
   std::string integrator = "path";
   std::string strategy = "mixture"; ///< how directions are sampled, MATH.md 2.3
   Connect connect = Connect::mis;
-  int samples_per_pixel = 4;            ///< ignored where a time or an error is asked for
-  std::optional<double> time_limit;     ///< seconds of rendering
-  std::optional<double> target_error;   ///< mean relative standard error
-  int max_depth = -1, rr_depth = 5;     ///< as in scene::RenderDefaults
+  int samples_per_pixel = 4;          ///< ignored where a time or an error is asked for
+  std::optional<double> time_limit;   ///< seconds of rendering
+  std::optional<double> target_error; ///< mean relative standard error
+  int max_depth = -1, rr_depth = 5;   ///< as in scene::RenderDefaults
   std::uint64_t seed = 0;
-  std::vector<std::string> devices;     ///< --device specifications
-  int lanes = 0;                        ///< WIDTH; 0: what suits the device
+  std::vector<std::string> devices; ///< --device specifications
+  int lanes = 0;                    ///< WIDTH; 0: what suits the device
   Traversal traversal = Traversal::automatic;
-  std::filesystem::path kernel_dir;     ///< empty: the embedded kernels
-  double launch_seconds = 0.05;         ///< aimed-at length of one launch
+  std::filesystem::path kernel_dir; ///< empty: the embedded kernels
+  double launch_seconds = 0.05;     ///< aimed-at length of one launch
 };
 
 /// Names that `--strategy` takes, in the order in which help lists them.
 [[nodiscard]] const std::vector<std::string>& strategy_names();
 
 struct Progress {
-  double samples_done = 0.0;            ///< mean samples per pixel so far
-  std::optional<double> samples_total;  ///< absent when time or error ends the render
-  double seconds = 0.0;                 ///< since rendering began
+  double samples_done = 0.0;           ///< mean samples per pixel so far
+  std::optional<double> samples_total; ///< absent when time or error ends the render
+  double seconds = 0.0;                ///< since rendering began
   std::uint64_t paths = 0;
 };
 
 struct Statistics {
   std::string device, driver;
   int lanes = 1;
-  std::string traversal;           ///< brute_force or bvh
-  std::vector<std::string> parts;  ///< what the scene's kernel holds code for
+  std::string traversal;          ///< brute_force or bvh
+  std::vector<std::string> parts; ///< what the scene's kernel holds code for
   std::uint64_t paths = 0, rays = 0, shadow_rays = 0, nonfinite = 0;
   double seconds_setup = 0.0, seconds_build_kernels = 0.0, seconds_render = 0.0;
   bool kernels_from_cache = false;
@@ -54,13 +54,14 @@ struct Statistics {
 };
 
 struct Events {
-  std::function<void()> building_kernels;          ///< building has taken longer than 200 ms
+  std::function<void()> building_kernels; ///< building has taken longer than 200 ms
   /// Called between launches, at most every 50 ms or so; false ends the render, keeping what the film has.
   std::function<bool(const Progress&)> progress;
 };
 
 /// Adds samples to `film`, which has the camera's width and height.
-/// @throws UsageError for settings that cannot work, SceneError for a scene that cannot be rendered, DeviceError
+/// @throws UsageError for settings that cannot work, SceneError for a scene that cannot be rendered,
+/// DeviceError
 [[nodiscard]] Statistics render(const scene::Scene& scene, const Settings& settings, film::Film& film,
                                 const Events& events);
 

@@ -1,0 +1,102 @@
+#include "render/device_scene.h"
+
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "errors.h"
+
+namespace phlux::render {
+namespace {
+
+// Up to here testing every primitive in turn is as fast as any hierarchy (bench/PERFORMANCE.md).
+constexpr std::uint64_t brute_force_limit = 48;
+
+CameraRecord camera_record(const scene::Camera& camera, const scene::Vec3& origin) {
+  CameraRecord record{};
+  const scene::Vec3 position = camera.position - origin;
+  const scene::Vec3 left = camera.left * camera.tan_half_fov_x;
+  const scene::Vec3 up = camera.up * (camera.tan_half_fov_x * camera.height / camera.width);
+  for (int i = 0; i < 3; ++i) {
+    record.position[i] = static_cast<float>(position[i]);
+    record.forward[i] = static_cast<float>(camera.forward[i]);
+    record.left[i] = static_cast<float>(left[i]);
+    record.up[i] = static_cast<float>(up[i]);
+  }
+  record.principal_x = static_cast<float>(camera.principal_x);
+  record.principal_y = static_cast<float>(camera.principal_y);
+  record.width = camera.width;
+  record.height = camera.height;
+  return record;
+}
+
+template<typename T>
+cl::Buffer upload(const device::Device& device, const std::vector<T>& table, const char* what) {
+  const std::size_t bytes = table.size() * sizeof(T);
+  if (bytes == 0) return {};
+  if (bytes > device.info.largest_buffer)
+    throw DeviceError(
+        fmt::format("{}: the scene's {} take {} MB and a buffer may have {} MB: use a device with more "
+                    "memory or a smaller mesh",
+                    device.info.name, what, bytes >> 20, device.info.largest_buffer >> 20));
+  try {
+    return cl::Buffer(device.context, CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR, bytes,
+                      const_cast<T*>(table.data()));
+  } catch (const cl::Error& error) {
+    throw DeviceError(fmt::format("{}: no room for the scene's {} ({} MB): {}", device.info.name, what,
+                                  bytes >> 20, device::error_name(error.err())));
+  }
+}
+
+} // namespace
+
+HostScene prepare(const scene::Scene& scene, Traversal traversal, int lanes) {
+  const std::uint64_t primitives = accel::count_primitives(scene);
+  if (primitives == 0) throw SceneError("the scene has no shapes: add at least one that the camera can see");
+  const bool brute = traversal == Traversal::brute_force ||
+                     (traversal == Traversal::automatic && primitives <= brute_force_limit);
+  HostScene host;
+  host.geometry = brute ? accel::brute_force(scene) : accel::hierarchy(scene, lanes);
+  if (host.geometry.primitive_count == 0)
+    throw SceneError(
+        "no shape of the scene has an area that single precision can tell from 0: scale them up");
+  host.lights = light_table(scene, host.geometry);
+  host.materials = material_table(scene.materials);
+  host.camera = camera_record(scene.camera, host.geometry.origin);
+  if (host.lights.constant >= 0) {
+    host.sky = *scene.constant_radiance;
+    host.sky_choice = host.lights.records[static_cast<std::size_t>(host.lights.constant)].probability;
+  }
+  return host;
+}
+
+DeviceScene::DeviceScene(const device::Device& device, const HostScene& scene, const Parts& parts)
+    : parts_(parts), light_count_(static_cast<int>(scene.lights.records.size())),
+      triangle_end_(scene.geometry.triangle_end), parallelogram_end_(scene.geometry.parallelogram_end),
+      ellipse_end_(scene.geometry.ellipse_end), first_sphere_(scene.geometry.first_sphere),
+      sphere_count_(scene.geometry.sphere_count), root_(scene.geometry.root),
+      radius_(static_cast<float>(scene.geometry.radius)),
+      camera_(upload(device, std::vector<CameraRecord>{scene.camera}, "camera")),
+      primitives_(upload(device, scene.geometry.primitives, "primitives")),
+      materials_(upload(device, scene.materials.records, "materials")),
+      lights_(upload(device, scene.lights.records, "lights")),
+      planars_(upload(device, scene.geometry.planars, "triangles")),
+      spheres_(upload(device, scene.geometry.spheres, "spheres")),
+      nodes_(upload(device, scene.geometry.nodes, "hierarchy")),
+      reflectivity_(upload(device, scene.materials.reflectivity, "reflectivities")),
+      corners_(upload(device, scene.geometry.corners, "triangles' corners")),
+      vertex_normals_(upload(device, scene.geometry.vertex_normals, "vertex normals")) {}
+
+cl_uint DeviceScene::bind(cl::Kernel& kernel) const {
+  cl_uint index = 0;
+  const auto bind_all = [&](const auto&... arguments) { (kernel.setArg(index++, arguments), ...); };
+  bind_all(camera_, primitives_, materials_, lights_, light_count_, radius_);
+  if (parts_.planars) bind_all(planars_, triangle_end_, parallelogram_end_, ellipse_end_);
+  if (parts_.spheres) bind_all(spheres_, first_sphere_, sphere_count_);
+  if (parts_.hierarchy) bind_all(nodes_, root_);
+  if (parts_.phong_lobe) bind_all(reflectivity_);
+  if (parts_.smooth_normals) bind_all(corners_, vertex_normals_);
+  return index;
+}
+
+} // namespace phlux::render

@@ -1,0 +1,41 @@
+// A scene's tables in a device's memory, and the arguments of a kernel that renders it.
+#pragma once
+
+#include "accel/geometry.h"
+#include "device/device.h"
+#include "render/light_table.h"
+#include "render/material_table.h"
+#include "render/parts.h"
+
+namespace phlux::render {
+
+/// Everything that the host computes about a scene for one WIDTH and traversal.
+struct HostScene {
+  accel::Geometry geometry;
+  LightTable lights;
+  MaterialTable materials;
+  CameraRecord camera{};
+  scene::Rgb sky{0.0};     ///< radiance of the constant light
+  float sky_choice = 0.0f; ///< the probability with which it is chosen
+};
+
+/// @throws SceneError when the scene has no shape with an area
+[[nodiscard]] HostScene prepare(const scene::Scene& scene, Traversal traversal, int lanes);
+
+class DeviceScene {
+public:
+  /// Copies the tables. @throws DeviceError when they do not fit, saying how large they are
+  DeviceScene(const device::Device& device, const HostScene& scene, const Parts& parts);
+
+  /// Sets the arguments that SCENE_PARAMETERS (kernels/scene.cl) declares; returns how many there are.
+  cl_uint bind(cl::Kernel& kernel) const;
+
+private:
+  Parts parts_;
+  int light_count_, triangle_end_, parallelogram_end_, ellipse_end_, first_sphere_, sphere_count_, root_;
+  float radius_;
+  cl::Buffer camera_, primitives_, materials_, lights_, planars_, spheres_, nodes_, reflectivity_, corners_,
+      vertex_normals_;
+};
+
+} // namespace phlux::render

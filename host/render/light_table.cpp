@@ -1,0 +1,130 @@
+#include "render/light_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace phlux::render {
+namespace {
+
+using scene::Rgb;
+using scene::Vec3;
+constexpr double pi = std::numbers::pi;
+
+double mean(const Rgb& rgb) {
+  return (rgb.r + rgb.g + rgb.b) / 3;
+}
+
+void set(float (&to)[3], const Vec3& from) {
+  for (int i = 0; i < 3; ++i) to[i] = static_cast<float>(from[i]);
+}
+
+LightRecord record_of(LightKinds kind, const Rgb& power) {
+  LightRecord record{};
+  record.kind = kind;
+  record.primitive = -1;
+  set(record.power, power);
+  return record;
+}
+
+// Collects lights and the power of each in watts (averaged over the channels).
+class Collector {
+public:
+  void add(const LightRecord& record, double power) {
+    table.records.push_back(record);
+    powers.push_back(power);
+  }
+  LightTable table;
+  std::vector<double> powers;
+};
+
+void add_surfaces(Collector& to, const scene::Scene& scene, accel::Geometry& geometry) {
+  std::size_t emitting = 0;
+  for (std::size_t i = 0; i < geometry.primitives.size(); ++i) {
+    if (geometry.emitters[i] < 0) continue;
+    const Rgb radiance = scene.area_emitters[static_cast<std::size_t>(geometry.emitters[i])].radiance;
+    const bool sphere = static_cast<int>(i) >= geometry.first_sphere;
+    LightRecord record = record_of(sphere ? LIGHT_SPHERE : LIGHT_PLANAR, radiance);
+    const double area = geometry.areas[emitting++];
+    record.primitive = static_cast<int>(i);
+    record.area = static_cast<float>(area);
+    geometry.primitives[i].light = static_cast<int>(to.table.records.size());
+    to.add(record, pi * area * mean(radiance));
+  }
+}
+
+void add_points(Collector& to, const scene::Scene& scene, const Vec3& origin) {
+  for (const scene::PointLight& light : scene.point_lights) {
+    LightRecord record = record_of(LIGHT_POINT, light.intensity);
+    set(record.position, light.position - origin);
+    to.add(record, 4 * pi * mean(light.intensity));
+  }
+  for (const scene::SpotLight& light : scene.spot_lights) {
+    LightRecord record = record_of(LIGHT_SPOT, light.intensity);
+    set(record.position, light.position - origin);
+    set(record.direction, light.direction);
+    // A beam as wide as the cone falls off within the smallest angle that float tells apart.
+    const double transition = std::max(light.cutoff_angle - light.beam_width, 1e-6);
+    record.cutoff = static_cast<float>(light.cutoff_angle);
+    record.inv_transition = static_cast<float>(1 / transition);
+    const double full = 2 * pi * (1 - (std::cos(light.beam_width) + std::cos(light.cutoff_angle)) / 2);
+    to.add(record, full * mean(light.intensity));
+  }
+}
+
+void add_distant(Collector& to, const scene::Scene& scene, double radius) {
+  for (const scene::DirectionalLight& light : scene.directional_lights) {
+    LightRecord record = record_of(LIGHT_DIRECTIONAL, light.irradiance);
+    set(record.direction, light.direction);
+    to.add(record, pi * radius * radius * mean(light.irradiance));
+  }
+  if (scene.constant_radiance) {
+    to.table.constant = static_cast<int>(to.table.records.size());
+    to.add(record_of(LIGHT_CONSTANT, *scene.constant_radiance),
+           4 * pi * pi * radius * radius * mean(*scene.constant_radiance));
+  }
+}
+
+// Vose's construction of Walker's alias table.
+void make_alias_table(std::vector<LightRecord>& records, const std::vector<double>& powers, double total) {
+  const auto count = records.size();
+  std::vector<double> scaled(count);
+  std::vector<std::size_t> small, large;
+  for (std::size_t i = 0; i < count; ++i) {
+    records[i].probability = static_cast<float>(powers[i] / total);
+    scaled[i] = powers[i] / total * static_cast<double>(count);
+    (scaled[i] < 1 ? small : large).push_back(i);
+    records[i].alias_threshold = 1;
+    records[i].alias = static_cast<int>(i);
+  }
+  while (!small.empty() && !large.empty()) {
+    const std::size_t less = small.back(), more = large.back();
+    small.pop_back();
+    records[less].alias_threshold = static_cast<float>(scaled[less]);
+    records[less].alias = static_cast<int>(more);
+    scaled[more] -= 1 - scaled[less];
+    if (scaled[more] < 1) {
+      large.pop_back();
+      small.push_back(more);
+    }
+  }
+}
+
+} // namespace
+
+bool LightTable::has(LightKinds kind) const {
+  return std::any_of(records.begin(), records.end(), [&](const LightRecord& r) { return r.kind == kind; });
+}
+
+LightTable light_table(const scene::Scene& scene, accel::Geometry& geometry) {
+  Collector collector;
+  add_surfaces(collector, scene, geometry);
+  add_points(collector, scene, geometry.origin);
+  add_distant(collector, scene, geometry.radius);
+  double total = 0;
+  for (const double power : collector.powers) total += power;
+  if (total > 0) make_alias_table(collector.table.records, collector.powers, total);
+  return collector.table;
+}
+
+} // namespace phlux::render

@@ -1,0 +1,71 @@
+#include "render/material_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include <boost/math/special_functions/beta.hpp>
+#include <boost/math/special_functions/gamma.hpp>
+
+namespace phlux::render {
+namespace {
+
+constexpr int intervals = reflectivity_intervals;
+
+// The cosine from which on a lobe of this exponent is so far above the horizon that it reflects just ks
+// cos(theta).
+double whole_lobe_cosine(double exponent) {
+  return std::min(1.0, 6.0 / std::sqrt(exponent + 1.0));
+}
+
+int add_row(std::vector<float>& rows, double exponent) {
+  const auto first = static_cast<int>(rows.size());
+  for (int i = 0; i <= intervals; ++i)
+    rows.push_back(
+        static_cast<float>(lobe_reflectivity(exponent, whole_lobe_cosine(exponent) * i / intervals)));
+  return first;
+}
+
+float mean(const scene::Rgb& rgb) {
+  return static_cast<float>((rgb.r + rgb.g + rgb.b) / 3);
+}
+
+} // namespace
+
+double lobe_reflectivity(double exponent, double cosine) {
+  const double c = cosine, s2 = (1 - c) * (1 + c);
+  // The share of the lobe below the horizon, in the plane of the normal and the mirrored direction.
+  const double below = exponent > 0 ? boost::math::ibeta(exponent / 2, 0.5, s2) : 1.0;
+  const double gamma_ratio = boost::math::tgamma_delta_ratio((exponent + 1) / 2, 0.5);
+  const double edge = s2 > 0 ? std::exp(exponent / 2 * std::log(s2)) : (exponent > 0 ? 0.0 : 1.0);
+  return c * (1 - below / 2) + edge * gamma_ratio / (2 * std::sqrt(std::numbers::pi));
+}
+
+MaterialTable material_table(const std::vector<scene::Material>& materials) {
+  MaterialTable table;
+  std::map<double, int> row_of_exponent;
+  for (const scene::Material& material : materials) {
+    const bool anisotropic = material.kind == scene::Material::Kind::anisotropic_phong;
+    MaterialRecord record{};
+    for (int i = 0; i < 3; ++i) {
+      record.diffuse[i] = static_cast<float>(material.diffuse[i]);
+      record.specular[i] = static_cast<float>(material.specular[i]);
+    }
+    record.exponent = static_cast<float>(material.exponent_u);
+    record.exponent_v = static_cast<float>(material.exponent_v);
+    record.diffuse_mean = mean(material.diffuse);
+    record.specular_mean = mean(material.specular);
+    record.flags = (material.two_sided ? MATERIAL_TWO_SIDED : 0) | (anisotropic ? MATERIAL_ANISOTROPIC : 0);
+    if (!anisotropic && material.specular != scene::Rgb(0.0)) {
+      const auto [row, is_new] = row_of_exponent.try_emplace(material.exponent_u, 0);
+      if (is_new) row->second = add_row(table.reflectivity, material.exponent_u);
+      record.table_row = row->second;
+      record.table_scale = static_cast<float>(intervals / whole_lobe_cosine(material.exponent_u));
+    }
+    table.records.push_back(record);
+  }
+  return table;
+}
+
+} // namespace phlux::render

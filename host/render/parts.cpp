@@ -1,0 +1,132 @@
+#include "render/parts.h"
+
+#include <algorithm>
+
+#include "errors.h"
+#include "render/material_table.h"
+
+namespace phlux::render {
+namespace {
+
+struct NamedPart {
+  bool Parts::*member;
+  const char* name;
+  const char* macro;
+};
+
+constexpr NamedPart named_parts[] = {
+    {&Parts::hierarchy, "hierarchy", "PHLUX_BVH"},
+    {&Parts::planars, "planars", "PHLUX_PLANARS"},
+    {&Parts::triangles, "triangles", "PHLUX_TRIANGLES"},
+    {&Parts::parallelograms, "parallelograms", "PHLUX_PARALLELOGRAMS"},
+    {&Parts::ellipses, "ellipses", "PHLUX_ELLIPSES"},
+    {&Parts::spheres, "spheres", "PHLUX_SPHERES"},
+    {&Parts::smooth_normals, "smooth_normals", "PHLUX_SMOOTH_NORMALS"},
+    {&Parts::two_sided, "two_sided", "PHLUX_TWO_SIDED"},
+    {&Parts::phong_lobe, "phong_lobe", "PHLUX_PHONG_LOBE"},
+    {&Parts::anisotropic, "anisotropic", "PHLUX_ANISOTROPIC"},
+    {&Parts::emission, "emission", "PHLUX_EMISSION"},
+    {&Parts::light_planar, "light_planar", "PHLUX_LIGHT_PLANAR"},
+    {&Parts::light_sphere, "light_sphere", "PHLUX_LIGHT_SPHERE"},
+    {&Parts::light_point, "light_point", "PHLUX_LIGHT_POINT"},
+    {&Parts::light_spot, "light_spot", "PHLUX_LIGHT_SPOT"},
+    {&Parts::light_directional, "light_directional", "PHLUX_LIGHT_DIRECTIONAL"},
+    {&Parts::light_constant, "light_constant", "PHLUX_LIGHT_CONSTANT"},
+    {&Parts::light_choice, "light_choice", "PHLUX_LIGHT_CHOICE"},
+};
+
+struct NamedStrategy {
+  const char* name;
+  const char* macro;
+};
+constexpr NamedStrategy strategies[] = {{"cosine", "STRATEGY_COSINE"},
+                                        {"lobe-ks", "STRATEGY_LOBE_KS"},
+                                        {"lobe-rho", "STRATEGY_LOBE_RHO"},
+                                        {"mixture", "STRATEGY_MIXTURE"}};
+
+const NamedStrategy& find_strategy(const std::string& name) {
+  const auto found = std::find_if(std::begin(strategies), std::end(strategies),
+                                  [&](const auto& s) { return s.name == name; });
+  if (found != std::end(strategies)) return *found;
+  std::string list;
+  for (const auto& s : strategies) list += (list.empty() ? "" : ", ") + std::string(s.name);
+  throw UsageError("--strategy " + name + ": there is no such strategy: " + list);
+}
+
+Connect possible_connect(const Settings& settings, const LightTable& lights) {
+  const bool hittable = lights.has(LIGHT_PLANAR) || lights.has(LIGHT_SPHERE) || lights.has(LIGHT_CONSTANT);
+  if (settings.connect == Connect::none && !lights.records.empty() && !hittable)
+    throw UsageError(
+        "--connect none: no path can hit the point, spot and directional lights, which are all that the "
+        "scene has: use --connect light or mis");
+  return lights.records.empty() ? Connect::none : settings.connect;
+}
+
+} // namespace
+
+const std::vector<std::string>& strategy_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> list;
+    for (const auto& s : strategies) list.emplace_back(s.name);
+    return list;
+  }();
+  return names;
+}
+
+Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, const LightTable& lights,
+                 const Settings& settings, int lanes) {
+  Parts parts;
+  parts.lanes = lanes;
+  parts.strategy = find_strategy(settings.strategy).macro;
+  parts.connect = possible_connect(settings, lights);
+  parts.hierarchy = !geometry.nodes.empty() || geometry.root < 0;
+  parts.triangles = geometry.has_triangles;
+  parts.parallelograms = geometry.has_parallelograms;
+  parts.ellipses = geometry.has_ellipses;
+  parts.planars = parts.triangles || parts.parallelograms || parts.ellipses;
+  parts.spheres = geometry.sphere_count > 0;
+  parts.smooth_normals = !geometry.vertex_normals.empty();
+  for (const scene::Material& m : scene.materials) {
+    const bool anisotropic = m.kind == scene::Material::Kind::anisotropic_phong;
+    parts.two_sided |= m.two_sided;
+    parts.anisotropic |= anisotropic;
+    parts.phong_lobe |= !anisotropic && m.specular != scene::Rgb(0.0);
+  }
+  parts.emission = lights.has(LIGHT_PLANAR) || lights.has(LIGHT_SPHERE);
+  parts.light_planar = lights.has(LIGHT_PLANAR);
+  parts.light_sphere = lights.has(LIGHT_SPHERE);
+  parts.light_point = lights.has(LIGHT_POINT);
+  parts.light_spot = lights.has(LIGHT_SPOT);
+  parts.light_directional = lights.has(LIGHT_DIRECTIONAL);
+  parts.light_constant = lights.has(LIGHT_CONSTANT);
+  parts.light_choice = lights.records.size() > 1 && parts.connect != Connect::none;
+  return parts;
+}
+
+std::vector<std::string> Parts::names() const {
+  std::vector<std::string> list;
+  for (const NamedPart& part : named_parts)
+    if (this->*part.member) list.emplace_back(part.name);
+  return list;
+}
+
+std::map<std::string, std::string> Parts::defines() const {
+  std::map<std::string, std::string> macros;
+  for (const NamedPart& part : named_parts)
+    if (this->*part.member) macros[part.macro] = "1";
+  const int kinds =
+      light_planar + light_sphere + light_point + light_spot + light_directional + light_constant;
+  const int regions = triangles + parallelograms + ellipses;
+  if (kinds > 1) macros["PHLUX_LIGHT_KINDS"] = "1";
+  if (regions > 1) macros["PHLUX_MIXED_REGIONS"] = "1";
+  if (emission || light_constant) macros["PHLUX_HITTABLE_LIGHTS"] = "1";
+  if (phong_lobe) macros["PHONG_TABLE_INTERVALS"] = std::to_string(reflectivity_intervals);
+  macros["WIDTH"] = std::to_string(lanes);
+  macros["PHLUX_STRATEGY"] = strategy;
+  macros["PHLUX_CONNECT"] = connect == Connect::none    ? "CONNECT_NONE"
+                            : connect == Connect::light ? "CONNECT_LIGHT"
+                                                        : "CONNECT_MIS";
+  return macros;
+}
+
+} // namespace phlux::render

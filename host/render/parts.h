@@ -1,0 +1,37 @@
+// What a scene's kernel holds code for: the parts, each a macro of the kernels, and nothing else.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "accel/geometry.h"
+#include "render/light_table.h"
+#include "render/render.h"
+
+namespace phlux::render {
+
+struct Parts {
+  int lanes = 1;
+  bool hierarchy = false;
+  bool planars = false, triangles = false, parallelograms = false, ellipses = false, spheres = false;
+  bool smooth_normals = false, two_sided = false;
+  bool phong_lobe = false, anisotropic = false;
+  bool emission = false; ///< a ray can hit a light's surface
+  bool light_planar = false, light_sphere = false, light_point = false, light_spot = false,
+       light_directional = false, light_constant = false;
+  bool light_choice = false; ///< there is more than one light to choose from
+  Connect connect = Connect::mis;
+  std::string strategy;
+
+  /// Names for people, such as "spheres" or "light_planar", in a fixed order.
+  [[nodiscard]] std::vector<std::string> names() const;
+  /// Macros for the kernels.
+  [[nodiscard]] std::map<std::string, std::string> defines() const;
+};
+
+/// @throws UsageError for a strategy or a --connect that cannot render this scene
+[[nodiscard]] Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry,
+                               const LightTable& lights, const Settings& settings, int lanes);
+
+} // namespace phlux::render

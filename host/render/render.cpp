@@ -1,0 +1,198 @@
+#include "render/render.h"
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "device/program.h"
+#include "errors.h"
+#include "render/path_launcher.h"
+
+namespace phlux::render {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+// Launches in flight on a device: one runs while the results of the one before are folded in.
+constexpr std::size_t launches_in_flight = 2;
+
+// One device, ready to render.
+struct Worker {
+  Parts parts;
+  std::unique_ptr<PathLauncher> launcher;
+};
+
+// The work that devices share: whoever takes a launch or folds one in holds the lock.
+class Work {
+public:
+  Work(const scene::Camera& camera, const Settings& settings, film::Film& film, const Events& events)
+      : settings_(settings), film_(film), events_(events), begin_(Clock::now()),
+        open_ended_(settings.time_limit || settings.target_error),
+        schedule_(static_cast<std::int64_t>(camera.width) * camera.height,
+                  open_ended_ ? std::nullopt : std::optional<std::int64_t>(settings.samples_per_pixel)) {}
+
+  // Runs one device until the work is done or ended; one of the devices reports.
+  void run(PathLauncher& launcher, bool reports) {
+    while (true) {
+      while (launcher.in_flight() < launches_in_flight && take(launcher)) {
+      }
+      if (launcher.in_flight() == 0) return;
+      launcher.wait();
+      const std::lock_guard lock(mutex_);
+      const std::uint64_t before = launcher.counts().paths;
+      launcher.collect(film_);
+      paths_ += launcher.counts().paths - before;
+      if (reports && !ended_) ended_ = precise_enough() || !report();
+    }
+  }
+
+  [[nodiscard]] double seconds() const { return seconds_since(begin_); }
+
+private:
+  bool take(PathLauncher& launcher) {
+    const std::lock_guard lock(mutex_);
+    if (ended_ || (settings_.time_limit && seconds() >= *settings_.time_limit)) return false;
+    const auto launch =
+        schedule_.next([&](std::int64_t left, int samples) { return launcher.wanted_jobs(left, samples); });
+    if (launch) launcher.enqueue(*launch);
+    return launch.has_value();
+  }
+
+  bool report() const {
+    if (!events_.progress) return true;
+    Progress progress;
+    progress.samples_done = static_cast<double>(paths_) / static_cast<double>(film_.pixels().size());
+    if (!open_ended_) progress.samples_total = settings_.samples_per_pixel;
+    progress.seconds = seconds();
+    progress.paths = paths_;
+    return events_.progress(progress);
+  }
+
+  // Looks at the film's error at most five times a second and for at most a fiftieth of the time.
+  bool precise_enough() {
+    if (!settings_.target_error || Clock::now() < next_look_) return false;
+    const Clock::time_point begin = Clock::now();
+    const bool reached = film_.relative_standard_error() <= *settings_.target_error;
+    next_look_ =
+        Clock::now() + std::max<Clock::duration>(std::chrono::milliseconds(200), 50 * (Clock::now() - begin));
+    return reached;
+  }
+
+  const Settings& settings_;
+  film::Film& film_;
+  const Events& events_;
+  Clock::time_point begin_, next_look_{};
+  bool open_ended_;
+  Schedule schedule_;
+  std::mutex mutex_;
+  std::uint64_t paths_ = 0;
+  bool ended_ = false;
+};
+
+void check(const Settings& settings) {
+  if (settings.integrator != "path")
+    throw UsageError(fmt::format("integrator {}: this version traces paths from the eye only: -i path",
+                                 settings.integrator));
+  if (settings.samples_per_pixel < 1)
+    throw UsageError(fmt::format("{} samples per pixel: at least 1 is needed", settings.samples_per_pixel));
+}
+
+// Builds the scene's program for each device. The tables for one WIDTH serve every device of that WIDTH.
+class Workshop {
+public:
+  Workshop(const scene::Scene& scene, const Settings& settings, const Events& events)
+      : scene_(scene), settings_(settings), events_(events),
+        files_(settings.kernel_dir.empty() ? device::KernelFiles()
+                                           : device::KernelFiles(settings.kernel_dir)) {}
+
+  Worker make(const device::Device& device, Statistics& statistics) {
+    const int lanes = settings_.lanes != 0 ? settings_.lanes : device.info.lanes;
+    const Clock::time_point begin = Clock::now();
+    if (!host_ || lanes_ != lanes) host_ = prepare(scene_, settings_.traversal, lanes_ = lanes);
+    Worker worker;
+    worker.parts = find_parts(scene_, host_->geometry, host_->lights, settings_, lanes);
+    statistics.seconds_setup += seconds_since(begin);
+    const device::BuiltProgram built =
+        device::build(device, files_, {"path.cl", worker.parts.defines(), {}}, events_.building_kernels);
+    statistics.seconds_build_kernels += built.seconds;
+    statistics.kernels_from_cache = built.from_cache;
+    worker.launcher = std::make_unique<PathLauncher>(device, built.program, *host_, worker.parts, settings_);
+    return worker;
+  }
+
+private:
+  const scene::Scene& scene_;
+  const Settings& settings_;
+  const Events& events_;
+  device::KernelFiles files_;
+  std::optional<HostScene> host_;
+  int lanes_ = 0;
+};
+
+void describe(Statistics& statistics, const std::vector<device::Device>& devices,
+              const std::vector<Worker>& workers) {
+  for (const device::Device& d : devices) {
+    statistics.device += (statistics.device.empty() ? "" : ", ") + d.info.name;
+    statistics.driver += (statistics.driver.empty() ? "" : ", ") + d.info.driver;
+  }
+  const Parts& parts = workers.front().parts;
+  statistics.lanes = parts.lanes;
+  statistics.traversal = parts.hierarchy ? "bvh" : "brute_force";
+  statistics.parts = parts.names();
+}
+
+// Every device in a thread of its own but the first, which works and reports in the caller's.
+void run_all(Work& work, std::vector<Worker>& workers) {
+  std::vector<std::exception_ptr> failures(workers.size());
+  const auto run = [&](std::size_t i) {
+    try {
+      work.run(*workers[i].launcher, i == 0);
+    } catch (...) {
+      failures[i] = std::current_exception();
+    }
+  };
+  {
+    std::vector<std::jthread> others;
+    for (std::size_t i = 1; i < workers.size(); ++i) others.emplace_back(run, i);
+    run(0);
+  }
+  for (const std::exception_ptr& failure : failures)
+    if (failure) std::rethrow_exception(failure);
+}
+
+} // namespace
+
+Statistics render(const scene::Scene& scene, const Settings& settings, film::Film& film,
+                  const Events& events) try {
+  check(settings);
+  Statistics statistics;
+  const std::vector<device::Device> devices = device::open_devices(settings.devices);
+  Workshop workshop(scene, settings, events);
+  std::vector<Worker> workers;
+  for (const device::Device& device : devices) workers.push_back(workshop.make(device, statistics));
+  describe(statistics, devices, workers);
+
+  Work work(scene.camera, settings, film, events);
+  run_all(work, workers);
+  statistics.seconds_render = work.seconds();
+  for (const Worker& worker : workers) {
+    const Counts& counts = worker.launcher->counts();
+    statistics.paths += counts.paths;
+    statistics.rays += counts.rays;
+    statistics.shadow_rays += counts.shadow_rays;
+    statistics.nonfinite += counts.nonfinite;
+  }
+  return statistics;
+} catch (const cl::Error& error) {
+  throw DeviceError(fmt::format("{} failed: {}", error.what(), device::error_name(error.err())));
+}
+
+} // namespace phlux::render
