@@ -85,6 +85,7 @@ public:
     if (std::string(root.name()) != "scene" || root.next_sibling())
       fail(at(std::max<std::ptrdiff_t>(root.offset_debug(), 0)),
            "the file's only outermost element must be <scene>", "<scene version=\"0.6.0\">...</scene>");
+    for (const auto& found : root.select_nodes(".//default")) set_default(found.node());
     Element element = convert(root);
     parameters_.check_all_used({file_, 0});
     return element;
@@ -97,19 +98,23 @@ private:
     return {file_, static_cast<int>(line) + 1};
   }
 
-  // Document order matters: a <default> holds for what follows it.
-  Element convert(const pugi::xml_node& node, int depth = 0) {
+  Element without_children(const pugi::xml_node& node) {
     Element element;
     element.tag = node.name();
     if (element.tag == "lookAt") element.tag = "lookat";
     element.where = at(node.offset_debug());
-    if (depth > deepest)
-      fail(element.where, "elements are nested too deeply", "at most " + std::to_string(deepest) + " levels");
     const auto known = known_elements().find(element.tag);
     if (known == known_elements().end())
       fail(element.where, "element <" + element.tag + "> is not supported", supported_elements());
     for (const auto attribute : node.attributes())
       add_attribute(element, known->second, attribute.name(), attribute.value());
+    return element;
+  }
+
+  Element convert(const pugi::xml_node& node, int depth = 0) {
+    Element element = without_children(node);
+    if (depth > deepest)
+      fail(element.where, "elements are nested too deeply", "at most " + std::to_string(deepest) + " levels");
     for (const auto child : node.children()) {
       if (child.type() == pugi::node_pcdata || child.type() == pugi::node_cdata)
         fail(at(child.offset_debug()), "text inside <" + element.tag + ">",
@@ -117,11 +122,7 @@ private:
       if (child.type() != pugi::node_element) continue;
       if (!containers().contains(element.tag))
         fail(at(child.offset_debug()), "element inside <" + element.tag + ">", "it contains nothing");
-      Element converted = convert(child, depth + 1);
-      if (converted.tag == "default")
-        set_default(converted);
-      else
-        element.children.push_back(std::move(converted));
+      if (std::string_view(child.name()) != "default") element.children.push_back(convert(child, depth + 1));
     }
     return element;
   }
@@ -135,7 +136,8 @@ private:
       fail(element.where, "attribute '" + name + "' is given twice", "give it once");
   }
 
-  void set_default(const Element& element) {
+  void set_default(const pugi::xml_node& node) {
+    const Element element = without_children(node);
     if (element["name"].empty() || !element.has("value"))
       fail(element.where, "<default> without a name or a value", "<default name=\"spp\" value=\"64\"/>");
     parameters_.set_default(element["name"], element["value"]);

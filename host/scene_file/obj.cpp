@@ -41,7 +41,8 @@ public:
   }
 
 private:
-  /// The next word of the line, empty at its end. A backslash before the end joins the next line.
+  /// The next word of the line, empty at its end or where a comment begins. A backslash before the end joins
+  /// the next line.
   std::string_view word() {
     std::size_t begin = 0;
     while (begin < rest_.size()) {
@@ -58,6 +59,7 @@ private:
       }
     }
     rest_.remove_prefix(begin);
+    if (rest_.starts_with('#')) rest_.remove_prefix(std::min(rest_.find('\n'), rest_.size())); // a comment
     const auto end = std::min(rest_.find_first_of(" \t\r\n\\"), rest_.size());
     const auto result = rest_.substr(0, end);
     rest_.remove_prefix(end);

@@ -53,7 +53,8 @@ dmat4 rotation(const Element& step) {
 
 dmat4 scaling(const Element& step) {
   const auto uniform = parse_real(step["value"]);
-  return glm::scale(dmat4(1.0), step.has("value") && uniform ? dvec3(*uniform) : read_triple(step, 1.0));
+  const bool separate = step.has("x") || step.has("y") || step.has("z");
+  return glm::scale(dmat4(1.0), uniform && !separate ? dvec3(*uniform) : read_triple(step, 1.0));
 }
 
 /// +z looks from origin to target, +x is to the left.

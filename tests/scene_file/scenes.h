@@ -1,0 +1,42 @@
+// Scenes written as text by the tests of the scene file loader, and what the log said while they were read.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "scene/scene.h"
+#include "temporary_folder.h"
+
+namespace phlux::test {
+
+using Definitions = std::map<std::string, std::string>;
+
+/// <scene version="VERSION"> on line 1, `body` from line 2 on.
+std::string scene_text(const std::string& body, const std::string& version = "0.6.0");
+/// The same with a sensor on line 1, as no scene is without one.
+std::string with_sensor(const std::string& body, const std::string& version = "0.6.0");
+
+/// Loads text as the file scene.xml.
+scene::Scene load_text(const std::string& text, const Definitions& definitions = {});
+/// Loads with_sensor(body).
+scene::Scene load_body(const std::string& body, const std::string& version = "0.6.0");
+
+/// The SceneError that loading gives, without the folder's name: "scene.xml:LINE: ..."; empty if it gives
+/// none.
+std::string error_of(const std::string& text, const Definitions& definitions = {});
+/// The same of with_sensor(body).
+std::string error_in(const std::string& body, const std::string& version = "0.6.0");
+
+/// What loading writes to the log, notes and warnings alike, one a line.
+std::string log_of(const std::string& text);
+
+/// A file name or message without the folder that the test made for it.
+std::string without_folder(std::string message, const TemporaryFolder& folder);
+
+/// Loads <shape type="TYPE"> of a file with these bytes; `properties` go inside the shape.
+scene::Mesh load_mesh(const std::string& type, const std::string& bytes, const std::string& properties = "");
+/// The SceneError of that, without the folder's name.
+std::string mesh_error(const std::string& type, const std::string& bytes);
+std::string mesh_log(const std::string& type, const std::string& bytes);
+
+} // namespace phlux::test

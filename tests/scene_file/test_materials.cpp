@@ -1,0 +1,131 @@
+#include <catch2/catch.hpp>
+
+#include "scene_file/scenes.h"
+
+using namespace phlux::test;
+using Catch::Contains;
+using Catch::StartsWith;
+using phlux::scene::Material;
+using phlux::scene::Rgb;
+
+namespace {
+
+Material material(const std::string& bsdf, const std::string& version = "0.6.0") {
+  return load_body("<shape type=\"disk\">" + bsdf + "</shape>", version).materials.at(0);
+}
+
+std::string phong(const std::string& kd, const std::string& ks, const std::string& more = "") {
+  return "<bsdf type=\"phong\"><rgb name=\"diffuseReflectance\" value=\"" + kd +
+         "\"/><rgb name=\"specularReflectance\" value=\"" + ks + "\"/>" + more + "</bsdf>";
+}
+
+Rgb color(const std::string& element) {
+  return material("<bsdf type=\"diffuse\">" + element + "</bsdf>").diffuse;
+}
+
+} // namespace
+
+TEST_CASE("Mitsuba's defaults") {
+  CHECK(material("").diffuse == Rgb(0.5)); // no bsdf
+  CHECK(material("<bsdf type=\"diffuse\"/>").diffuse == Rgb(0.5));
+  CHECK(material("<bsdf type=\"diffuse\"/>").specular == Rgb(0.0));
+  const Material glossy = material("<bsdf type=\"phong\"/>");
+  CHECK(glossy.kind == Material::Kind::phong);
+  CHECK(glossy.diffuse == Rgb(0.5));
+  CHECK(glossy.specular == Rgb(0.2));
+  CHECK(glossy.exponent_u == 30.0);
+  CHECK_FALSE(glossy.two_sided);
+  CHECK(material("<emitter type=\"area\"/>").diffuse == Rgb(0.0)); // a light without a bsdf is black
+}
+
+TEST_CASE("Both spellings, all models") {
+  CHECK(material(phong(".1", ".2", "<float name=\"exponent\" value=\"7\"/>")).exponent_u == 7.0);
+  const std::string snake = "<bsdf type=\"phong\"><rgb name=\"diffuse_reflectance\" value=\".1\"/>"
+                            "<rgb name=\"specular_reflectance\" value=\".3 .4 .5\"/></bsdf>";
+  CHECK(material(snake, "3.0.0").diffuse == Rgb(0.1));
+  CHECK(material(snake, "3.0.0").specular == Rgb(0.3, 0.4, 0.5));
+  for (const char* names :
+       {"<float name=\"exponentU\" value=\"5\"/><float name=\"exponentV\" value=\"6\"/>",
+        "<float name=\"exponent_u\" value=\"5\"/><float name=\"exponent_v\" value=\"6\"/>"}) {
+    const Material brushed = material("<bsdf type=\"anisotropicphong\">" + std::string(names) + "</bsdf>");
+    CHECK(brushed.kind == Material::Kind::anisotropic_phong);
+    CHECK(brushed.exponent_u == 5.0);
+    CHECK(brushed.exponent_v == 6.0);
+  }
+  CHECK(material("<bsdf type=\"diffuse\"><rgb name=\"diffuseReflectance\" value=\".3\"/></bsdf>").diffuse ==
+        Rgb(0.3));
+}
+
+TEST_CASE("twosided, around a nested or a referenced bsdf") {
+  CHECK(material("<bsdf type=\"twosided\">" + phong(".1", ".2") + "</bsdf>").two_sided);
+  const auto scene =
+      load_body("<bsdf type=\"diffuse\" id=\"a\"/><shape type=\"disk\"><bsdf type=\"twosided\">"
+                "<ref id=\"a\"/></bsdf></shape><shape type=\"disk\"><ref id=\"a\"/></shape>");
+  REQUIRE(scene.materials.size() == 2);
+  CHECK(scene.materials[0].two_sided);
+  CHECK_FALSE(scene.materials[1].two_sided);
+  CHECK_THAT(error_in("<bsdf type=\"twosided\"/>"),
+             StartsWith("scene.xml:2: <bsdf type=\"twosided\"> around nothing"));
+  CHECK_THAT(error_in("<bsdf type=\"twosided\"><bsdf type=\"diffuse\"/>\n<bsdf type=\"diffuse\"/></bsdf>"),
+             StartsWith("scene.xml:3: <bsdf type=\"twosided\"> has more than one <bsdf>"));
+}
+
+TEST_CASE("Equal materials are one, and those that no shape uses are left out") {
+  const auto scene =
+      load_body("<bsdf type=\"diffuse\" id=\"unused\"><rgb name=\"reflectance\" value=\".9\"/></bsdf>"
+                "<shape type=\"disk\"/><shape type=\"cube\"><bsdf type=\"diffuse\"/></shape>"
+                "<shape type=\"disk\">" +
+                phong(".5", "0") + "</shape>");
+  CHECK(scene.materials.size() == 1);
+  CHECK(scene.patches.size() == 8);
+  for (const auto& patch : scene.patches) CHECK(patch.surface.material == 0);
+}
+
+TEST_CASE("Colours: one number, three, hexadecimal; rgb is linear, srgb is decoded") {
+  CHECK(color(R"(<rgb name="reflectance" value=".25"/>)") == Rgb(0.25));
+  CHECK(color(R"(<spectrum name="reflectance" value=".25"/>)") == Rgb(0.25));
+  CHECK(color(R"(<float name="reflectance" value=".25"/>)") == Rgb(0.25));
+  CHECK(color(R"(<rgb name="reflectance" value=".1, .2 .3"/>)") == Rgb(0.1, 0.2, 0.3));
+  CHECK(color(R"(<spectrum name="reflectance" value=".1 .2 .3"/>)") == Rgb(0.1, 0.2, 0.3));
+  CHECK(color(R"(<rgb name="reflectance" value="#ff8000"/>)") ==
+        Rgb(1.0, 128.0 / 255.0, 0.0)); // as Mitsuba 0.6
+  const Rgb decoded = color(R"(<srgb name="reflectance" value="#ff8000"/>)");
+  CHECK(decoded.r == 1.0);
+  CHECK(decoded.g == Approx(0.2158605));
+  CHECK(decoded.b == 0.0);
+  for (const char* bad : {"1 2", "#ff80", "#ff80zz", "#ff8000 #ff8000", "400:1, 700:2", "red", "", "1 2 3 4"})
+    CHECK_THAT(error_in("<bsdf type=\"diffuse\">\n<rgb name=\"reflectance\" value=\"" + std::string(bad) +
+                        "\"/></bsdf>"),
+               StartsWith("scene.xml:3: '" + std::string(bad) + "' is not a colour"));
+}
+
+TEST_CASE("Impossible materials are errors") {
+  CHECK_THAT(error_in("\n" + phong(".6", ".5")),
+             StartsWith("scene.xml:3: <bsdf type=\"phong\"> reflects 1.1"));
+  CHECK(error_in(phong(".7", ".3")).empty()); // exactly 1
+  CHECK_THAT(error_in(phong("-.1", ".5")),
+             StartsWith("scene.xml:2: ") && Contains("diffuseReflectance: reflectance -0.1"));
+  CHECK_THAT(error_in("<bsdf type=\"diffuse\">\n<rgb name=\"reflectance\" value=\"0 0 1.5\"/></bsdf>"),
+             StartsWith("scene.xml:3: ") && Contains("must be in [0, 1]"));
+  CHECK_THAT(error_in("<bsdf type=\"phong\">\n<float name=\"exponent\" value=\"-1\"/></bsdf>"),
+             StartsWith("scene.xml:3: ") && Contains("-1.000000 is negative"));
+  CHECK_THAT(
+      error_in("<bsdf type=\"roughplastic\"/>"),
+      StartsWith("scene.xml:2: <bsdf type=\"roughplastic\"> is not supported: supported are diffuse, phong"));
+  CHECK(error_in("<bsdf type=\"anisotropicphong\"><rgb name=\"specularReflectance\" value=\"1\"/></bsdf>")
+            .empty());
+}
+
+TEST_CASE("ensureEnergyConservation scales by .99 / max, with a warning") {
+  const std::string disk = "<shape type=\"disk\">" + phong(".6 .1 .1", ".5") + "</shape>";
+  const std::string yes = "<boolean name=\"ensureEnergyConservation\" value=\"true\"/>";
+  const auto scaled = load_body(disk + yes).materials.at(0); // on the scene, wherever it stands
+  CHECK(scaled.diffuse.r == Approx(0.6 * 0.99 / 1.1));
+  CHECK(scaled.diffuse.g == Approx(0.1 * 0.99 / 1.1));
+  CHECK(scaled.specular.b == Approx(0.5 * 0.99 / 1.1));
+  CHECK_THAT(log_of(with_sensor(disk + yes)),
+             Contains("warning: scene.xml:2: <bsdf type=\"phong\"> reflects 1.1"));
+  CHECK(material(phong(".6", ".5", yes)).specular.r == Approx(0.5 * 0.99 / 1.1)); // on the bsdf
+  CHECK(load_body("<shape type=\"disk\">" + phong(".5", ".5") + "</shape>" + yes).materials.at(0).diffuse.r ==
+        0.5);
+}

@@ -1,0 +1,152 @@
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "scene_file/scenes.h"
+
+using namespace phlux::test;
+using Catch::Contains;
+using Catch::StartsWith;
+using phlux::scene::Vec3;
+
+namespace {
+
+/// A sensor from line 2 on.
+std::string sensor(const std::string& inside) {
+  return scene_text("<sensor type=\"perspective\">\n" + inside + "</sensor>");
+}
+
+std::string film(int width, int height, const std::string& more = "") {
+  return "<film type=\"hdrfilm\"><integer name=\"width\" value=\"" + std::to_string(width) +
+         "\"/><integer name=\"height\" value=\"" + std::to_string(height) + "\"/>" + more + "</film>";
+}
+
+double half_fov(const std::string& axis, int width, int height) {
+  const std::string given = axis.empty() ? "" : "<string name=\"fovAxis\" value=\"" + axis + "\"/>";
+  return load_text(sensor("<float name=\"fov\" value=\"60\"/>" + given + film(width, height)))
+      .camera.tan_half_fov_x;
+}
+
+std::string integrator(const std::string& type, const std::string& inside = "") {
+  return "<integrator type=\"" + type + "\">\n" + inside + "</integrator>";
+}
+
+} // namespace
+
+TEST_CASE("Mitsuba's defaults for camera, film, sampler and integrator") {
+  const auto scene = load_text(scene_text("<sensor type=\"perspective\"/>"));
+  CHECK(scene.camera.width == 768);
+  CHECK(scene.camera.height == 576);
+  CHECK(scene.camera.forward == Vec3(0, 0, 1));
+  CHECK(scene.camera.left == Vec3(1, 0, 0));
+  CHECK(scene.camera.up == Vec3(0, 1, 0));
+  const double diagonal = std::hypot(36.0, 24.0) / 100.0; // a lens of 50 mm
+  CHECK(scene.camera.tan_half_fov_x == Approx(diagonal * 4.0 / 5.0));
+  CHECK(scene.defaults.samples_per_pixel == 4);
+  CHECK(scene.defaults.integrator == "path");
+  CHECK(scene.defaults.max_depth == -1);
+  CHECK(scene.defaults.rr_depth == 5);
+}
+
+TEST_CASE("The field of view along every axis") {
+  const double t = std::tan(glm::radians(30.0));
+  CHECK(half_fov("", 300, 200) == Approx(t));
+  CHECK(half_fov("x", 300, 200) == Approx(t));
+  CHECK(half_fov("y", 300, 200) == Approx(t * 1.5));
+  CHECK(half_fov("smaller", 300, 200) == Approx(t * 1.5));
+  CHECK(half_fov("larger", 300, 200) == Approx(t));
+  CHECK(half_fov("smaller", 200, 300) == Approx(t));
+  CHECK(half_fov("larger", 200, 300) == Approx(t / 1.5));
+  CHECK(half_fov("diagonal", 400, 300) == Approx(t * 0.8));
+  CHECK(load_text(sensor("<string name=\"focalLength\" value=\"35mm\"/>" + film(40, 30)))
+            .camera.tan_half_fov_x == Approx(std::hypot(36.0, 24.0) / 70.0 * 0.8));
+  CHECK_THAT(error_of(sensor("<float name=\"fov\" value=\"180\"/>")), StartsWith("scene.xml:3: "));
+  CHECK_THAT(error_of(sensor("<float name=\"fov\" value=\"0\"/>")), StartsWith("scene.xml:3: "));
+  CHECK_THAT(error_of(sensor("<float name=\"fov\" value=\"50\"/>\n<string name=\"fovAxis\" value=\"z\"/>")),
+             StartsWith("scene.xml:4: ") && Contains("x, y, diagonal, smaller or larger"));
+}
+
+TEST_CASE("Both spellings") {
+  const auto scene = load_text(scene_text(R"(
+    <integrator type="path"><integer name="max_depth" value="7"/><integer name="rr_depth" value="3"/></integrator>
+    <sensor type="perspective"><float name="fov" value="90"/><string name="fov_axis" value="y"/>
+      <float name="principal_point_offset_x" value=".25"/><float name="near_clip" value="1"/>
+      <transform name="to_world"><lookat origin="0 0 5" target="0 0 0" up="0 1 0"/></transform>
+      <sampler type="independent"><integer name="sample_count" value="16"/></sampler>
+      <film type="hdrfilm"><integer name="width" value="20"/><integer name="height" value="10"/>
+        <string name="pixel_format" value="rgb"/></film></sensor>)",
+                                          "3.0.0"));
+  CHECK(scene.camera.tan_half_fov_x == Approx(2.0));
+  CHECK(scene.camera.principal_x == 0.25);
+  CHECK(scene.camera.position == Vec3(0, 0, 5));
+  CHECK(scene.camera.forward == Vec3(0, 0, -1));
+  CHECK(scene.camera.left == Vec3(-1, 0, 0));
+  CHECK(scene.defaults.samples_per_pixel == 16);
+  CHECK(scene.defaults.max_depth == 7);
+  CHECK(scene.defaults.rr_depth == 3);
+}
+
+TEST_CASE("A camera may be mirrored, but neither scaled nor sheared") {
+  const auto camera = load_text(sensor("<transform name=\"toWorld\"><scale x=\"-1\"/></transform>")).camera;
+  CHECK(camera.left == Vec3(-1, 0, 0));
+  CHECK(camera.up == Vec3(0, 1, 0));
+  CHECK_THAT(error_of(sensor("<transform name=\"toWorld\"><scale value=\"2\"/></transform>")),
+             StartsWith("scene.xml:3: ") && Contains("it scales or shears"));
+}
+
+TEST_CASE("Integrators") {
+  const auto named = [](const std::string& type) { return load_body(integrator(type)).defaults.integrator; };
+  CHECK(named("path") == "path");
+  CHECK(named("ptracer") == "light");
+  CHECK(named("bdpt") == "bidir");
+  CHECK(load_body(integrator("path", "<integer name=\"maxDepth\" value=\"-1\"/>")).defaults.max_depth == -1);
+  CHECK_THAT(
+      error_in(integrator("volpath")),
+      StartsWith(
+          "scene.xml:2: <integrator type=\"volpath\"> is not supported: supported are path, ptracer, bdpt"));
+  for (const char* name : {"maxDepth", "rrDepth"})
+    for (const char* value : {"0", "-2"})
+      CHECK_THAT(error_in(integrator("path", "<integer name=\"" + std::string(name) + "\" value=\"" + value +
+                                                 "\"/>")),
+                 StartsWith("scene.xml:3: ") && Contains("is out of range"));
+  CHECK_THAT(error_in(integrator("path", "<boolean name=\"hideEmitters\" value=\"true\"/>")),
+             StartsWith("scene.xml:3: ") && Contains("'hideEmitters' is not supported"));
+  CHECK(error_in(integrator("path", "<boolean name=\"hideEmitters\" value=\"false\"/>")).empty());
+}
+
+TEST_CASE("Films: sizes, crops, filters") {
+  for (const auto& [width, height] :
+       {std::pair{0, 0}, std::pair{5, 0}, std::pair{-3, 5}, std::pair{32769, 1}})
+    CHECK_THAT(error_of(sensor(film(width, height))),
+               StartsWith("scene.xml:3: ") && Contains("is out of range: 1 to 32768"));
+  CHECK_THAT(error_of(sensor(film(8, 8, "\n<integer name=\"cropWidth\" value=\"4\"/>"))),
+             StartsWith("scene.xml:4: ") && Contains("crop windows are not supported"));
+  CHECK(error_of(sensor(film(8, 8, "<integer name=\"cropWidth\" value=\"8\"/>"))).empty());
+  CHECK_THAT(error_of(sensor("<film type=\"ldrfilm\"/>")),
+             StartsWith("scene.xml:3: <film type=\"ldrfilm\"> is not supported"));
+  const std::string gaussian =
+      film(8, 8, "\n<rfilter type=\"gaussian\"><float name=\"stddev\" value=\"1\"/></rfilter>");
+  CHECK_THAT(log_of(sensor(gaussian)),
+             Contains("warning: scene.xml:4: <rfilter type=\"gaussian\"> is not supported; box is used"));
+  CHECK_THAT(error_of(sensor(film(8, 8, "<rfilter type=\"blocks\"/>"))),
+             StartsWith("scene.xml:3: <rfilter type=\"blocks\"> is not supported"));
+  CHECK_THAT(log_of(sensor(film(8, 8, "\n<boolean name=\"banner\" value=\"false\"/>"))),
+             Contains("info: scene.xml:4: 'banner' cannot change the image"));
+}
+
+TEST_CASE("Samplers and sensors of other kinds") {
+  CHECK_THAT(
+      log_of(sensor("<sampler type=\"sobol\"/>")),
+      Contains("warning: scene.xml:3: <sampler type=\"sobol\"> is not supported; independent is used"));
+  CHECK_THAT(error_of(sensor("<sampler type=\"dice\"/>")),
+             StartsWith("scene.xml:3: <sampler type=\"dice\"> is not supported"));
+  CHECK_THAT(
+      error_of(sensor("<sampler type=\"independent\"><integer name=\"sampleCount\" value=\"0\"/></sampler>")),
+      StartsWith("scene.xml:3: ") && Contains("is out of range"));
+  CHECK_THAT(
+      error_of(scene_text("<sensor type=\"thinlens\"/>")),
+      StartsWith("scene.xml:2: <sensor type=\"thinlens\"> is not supported: supported is perspective"));
+}
