@@ -75,10 +75,18 @@ private:
   std::chrono::steady_clock::time_point next_{};
 };
 
+// The renderer knows no files; the user should read which one is to blame.
+render::Statistics render_scene(const scene::Scene& scene, const render::Settings& settings, film::Film& film,
+                                const render::Events& events, const std::filesystem::path& file) try {
+  return render::render(scene, settings, film, events);
+} catch (const SceneError& error) {
+  throw SceneError(fmt::format("{}: {}", file.string(), error.what()));
+}
+
 render::Statistics run(const scene::Scene& scene, const render::Settings& settings, film::Film& film,
-                       const Outputs& outputs, bool quiet) {
+                       const Outputs& outputs, const RenderOptions& options) {
   const InterruptGuard interrupt;
-  ProgressDisplay display(quiet, settings.time_limit, settings.target_error);
+  ProgressDisplay display(options.quiet, settings.time_limit, settings.target_error);
   PreviewRefresher preview(outputs.preview);
   ErrorSoFar error(film);
   bool interrupted = false;
@@ -90,7 +98,7 @@ render::Statistics run(const scene::Scene& scene, const render::Settings& settin
     interrupted = interrupt.requested();
     return !interrupted;
   };
-  render::Statistics statistics = render::render(scene, settings, film, events);
+  render::Statistics statistics = render_scene(scene, settings, film, events, options.scene_file);
   statistics.interrupted = interrupted;
   return statistics;
 }
@@ -137,7 +145,7 @@ int render(const RenderOptions& options) {
   const scene::Scene scene = load_scene(options);
   const render::Settings settings = settings_of(options, scene.defaults);
   film::Film film(scene.camera.width, scene.camera.height);
-  const render::Statistics statistics = run(scene, settings, film, outputs, options.quiet);
+  const render::Statistics statistics = run(scene, settings, film, outputs, options);
 
   if (statistics.nonfinite > 0)
     spdlog::warn("{} samples were not finite and count as black", statistics.nonfinite);

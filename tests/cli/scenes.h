@@ -28,11 +28,11 @@ inline const std::string light =
 
 /// A grey sphere on a slab under a small light: noisy in every way.
 inline const std::string good_scene =
-    scene_with(sphere_of("<bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\".5\"/></bsdf>") +
+    scene_with("<default name=\"radiance\" value=\"20\"/>\n" +
+               sphere_of("<bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\".5\"/></bsdf>") +
                "<shape type=\"rectangle\"><transform name=\"toWorld\"><scale value=\"8\"/><rotate x=\"1\" "
                "angle=\"-90\"/>"
                "<translate y=\"-1\"/></transform><bsdf type=\"diffuse\"/></shape>\n"
                "<shape type=\"sphere\"><point name=\"center\" x=\"2\" y=\"3\" z=\"-2\"/><float "
                "name=\"radius\" value=\"0.5\"/>"
-               "<emitter type=\"area\"><rgb name=\"radiance\" value=\"$radiance\"/></emitter></shape>\n"
-               "<default name=\"radiance\" value=\"20\"/>\n");
+               "<emitter type=\"area\"><rgb name=\"radiance\" value=\"$radiance\"/></emitter></shape>\n");

@@ -1,0 +1,138 @@
+#include <catch2/catch.hpp>
+
+#include "cli/program.h"
+#include "cli/scenes.h"
+
+namespace {
+
+// A user who gives a bad file sees its name, why, and nothing else; no file appears.
+void check_rejected(const TemporaryFolder& folder, const std::vector<std::string>& arguments, int exit_code,
+                    const std::map<std::string, std::string>& environment = {}) {
+  const std::set<std::string> before = folder.names();
+  const Outcome outcome = run({arguments, folder.path(), environment, {}});
+  CAPTURE(arguments, outcome.out, outcome.err);
+  CHECK(outcome.exit_code == exit_code);
+  CHECK(outcome.is_one_line_error());
+  CHECK(outcome.out.empty());
+  CHECK(folder.names() == before);
+}
+
+struct BadScene {
+  std::string what, text;
+};
+
+std::string phong(const std::string& exponent, const std::string& kd, const std::string& ks) {
+  return sphere_of("<bsdf type=\"phong\"><float name=\"exponent\" value=\"" + exponent +
+                   "\"/><rgb name=\"diffuseReflectance\" value=\"" + kd +
+                   "\"/><rgb name=\"specularReflectance\" value=\"" + ks + "\"/></bsdf>");
+}
+
+std::string transformed(const std::string& transform) {
+  return "<shape type=\"sphere\"><transform name=\"toWorld\">" + transform + "</transform></shape>\n";
+}
+
+const std::vector<BadScene> bad_scenes = {
+    {"an empty file", ""},
+    {"malformed XML", "<scene version=\"0.6.0\">\n<shape type=\"sphere\"\n</scene>\n"},
+    {"not a scene", "<html></html>"},
+    {"an unknown plugin", scene_with("<shape type=\"torus\"/>" + light)},
+    {"kd + ks > 1", scene_with(phong("10", ".7", ".7") + light)},
+    {"a negative exponent", scene_with(phong("-1", ".5", ".2") + light)},
+    {"a transform with NaN", scene_with(transformed("<translate x=\"nan\"/>") + light)},
+    {"a singular transform", scene_with(transformed("<scale x=\"0\"/>") + light)},
+    {"a missing mesh",
+     scene_with("<shape type=\"obj\"><string name=\"filename\" value=\"no.obj\"/></shape>" + light)},
+    {"indices out of range",
+     scene_with("<shape type=\"obj\"><string name=\"filename\" value=\"bad.obj\"/></shape>" + light)},
+    {"a film of 0x0 pixels", scene_with(sphere_of("") + light, "0 0")},
+    {"a film of -1x5 pixels", scene_with(sphere_of("") + light, "-1 5")},
+    {"an undefined variable", scene_with(sphere_of("") + "<emitter type=\"constant\"><rgb name=\"radiance\" "
+                                                         "value=\"$undefined\"/></emitter>")},
+};
+
+} // namespace
+
+TEST_CASE("Bad scenes are one line with FILE:LINE and exit code 3") {
+  const TemporaryFolder folder;
+  folder.write("bad.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 7\n");
+  for (const auto& [what, text] : bad_scenes) {
+    CAPTURE(what);
+    folder.write("scene.xml", text);
+    check_rejected(folder, {"render", "scene.xml"}, 3);
+  }
+  const Outcome malformed = run({{"render", "scene.xml"}, folder.path(), {}, {}});
+  CHECK_THAT(malformed.err, Catch::StartsWith("phlux: scene.xml:"));
+}
+
+TEST_CASE("A missing scene is one line and exit code 3") {
+  const TemporaryFolder folder;
+  check_rejected(folder, {"render", "missing.xml"}, 3);
+  check_rejected(folder, {"render", "."}, 3);
+}
+
+TEST_CASE("Unwritable outputs are found before rendering: one line, exit code 5, no file") {
+  const TemporaryFolder folder;
+  folder.write("scene.xml", good_scene);
+  folder.write("file", "");
+  for (const std::string option : {"--output", "--png", "--stats"})
+    for (const std::string path : {"missing/a", "file/a", ".", "/proc/a"}) {
+      // Hours of samples: only a check before rendering ends this in time.
+      check_rejected(folder, {"render", "scene.xml", "-n", "100000000", option, path}, 5);
+    }
+}
+
+TEST_CASE("No device that fits is one line and exit code 4") {
+  const TemporaryFolder folder;
+  folder.write("scene.xml", good_scene);
+  const std::map<std::string, std::string> no_platform = {{"OCL_ICD_VENDORS", "/nonexistent"}};
+  check_rejected(folder, {"render", "scene.xml"}, 4, no_platform);
+  check_rejected(folder, {"devices"}, 4, no_platform);
+  check_rejected(folder, {"render", "scene.xml", "--device", "no such device"}, 4);
+  check_rejected(folder, {"render", "scene.xml", "--device", "99:0"}, 4);
+  check_rejected(folder, {"render", "scene.xml"}, 4, {{"PHLUX_DEVICE", "no such device"}});
+}
+
+TEST_CASE("Kernels that do not build are one line and exit code 4") {
+  const TemporaryFolder folder;
+  folder.write("scene.xml", good_scene);
+  std::filesystem::create_directory(folder / "kernels");
+  check_rejected(folder, {"render", "scene.xml", "--kernel-dir", "kernels"}, 4);
+}
+
+TEST_CASE("Integrators that do not exist yet say so, whoever asks for them") {
+  const TemporaryFolder folder;
+  folder.write("scene.xml", good_scene);
+  std::string ptracer = good_scene;
+  ptracer.replace(ptracer.find("\"path\""), 6, "\"ptracer\"");
+  folder.write("ptracer.xml", ptracer);
+  check_rejected(folder, {"render", "scene.xml", "-i", "light"}, 2);
+  check_rejected(folder, {"render", "scene.xml", "-i", "bidir"}, 2);
+  check_rejected(folder, {"render", "ptracer.xml"}, 2);
+}
+
+TEST_CASE("An empty scene is an error that names the file, exit code 3, no file") {
+  const TemporaryFolder folder;
+  folder.write("scene.xml", scene_with(light));
+  const Outcome outcome = run({{"render", "scene.xml"}, folder.path(), {}, {}});
+  CAPTURE(outcome.err);
+  CHECK(outcome.exit_code == 3);
+  CHECK_THAT(outcome.err, Catch::Contains("phlux: scene.xml") && Catch::Contains("no shapes"));
+  CHECK(folder.names() == std::set<std::string>{"scene.xml"});
+}
+
+TEST_CASE("Where rendering can go on there is a named warning") {
+  const TemporaryFolder folder;
+  folder.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 4\n");
+  const std::vector<BadScene> odd_scenes = {
+      {"no light", scene_with(sphere_of(""))},
+      {"area",
+       scene_with("<shape type=\"obj\"><string name=\"filename\" value=\"flat.obj\"/></shape>" + light)}};
+  for (const auto& [what, text] : odd_scenes) {
+    folder.write("scene.xml", text);
+    const Outcome outcome = run({{"render", "scene.xml"}, folder.path(), {}, {}});
+    CAPTURE(what, outcome.err);
+    CHECK(outcome.exit_code == 0);
+    CHECK_THAT(outcome.err, Catch::StartsWith("phlux: warning: ") && Catch::Contains(what));
+    CHECK(std::filesystem::exists(folder / "scene.exr"));
+  }
+}

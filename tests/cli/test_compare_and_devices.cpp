@@ -1,0 +1,87 @@
+#include <limits>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "cli/program.h"
+#include "files/exr.h"
+#include "temporary_folder.h"
+
+using phlux::files::Image;
+using phlux::files::write_exr;
+
+namespace {
+
+Image constant(int width, int height, float value) {
+  const std::vector<float> values(static_cast<std::size_t>(width * height), value);
+  return {width, height, {{"R", values}, {"G", values}, {"B", values}}, {}};
+}
+
+} // namespace
+
+TEST_CASE("phlux compare prints the figures") {
+  const TemporaryFolder folder;
+  write_exr(folder / "a.exr", constant(2, 2, 3.0F));
+  write_exr(folder / "b.exr", constant(2, 2, 2.0F));
+  const Outcome text = run({{"compare", "a.exr", "b.exr"}, folder.path(), {}, {}});
+  CHECK(text.exit_code == 0);
+  CHECK(text.err.empty());
+  CHECK_THAT(text.out, Catch::Contains("mean_ratio      1.5\n"));
+  const Outcome json = run({{"compare", "a.exr", "b.exr", "--json"}, folder.path(), {}, {}});
+  CHECK(json.exit_code == 0);
+  CHECK(nlohmann::json::parse(json.out)["rmse"] == 1.0);
+}
+
+TEST_CASE("phlux compare fails for what cannot be compared") {
+  const TemporaryFolder folder;
+  write_exr(folder / "a.exr", constant(2, 2, 1.0F));
+  SECTION("another size") {
+    write_exr(folder / "b.exr", constant(2, 3, 1.0F));
+  }
+  SECTION("no green") {
+    Image image = constant(2, 2, 1.0F);
+    image.channels.erase("G");
+    write_exr(folder / "b.exr", image);
+  }
+  SECTION("no image") {
+    folder.write("b.exr", "text");
+  }
+  SECTION("no file") {}
+  const Outcome outcome = run({{"compare", "a.exr", "b.exr", "--json"}, folder.path(), {}, {}});
+  CHECK(outcome.exit_code == 3);
+  CHECK(outcome.is_one_line_error());
+  CHECK(outcome.out.empty());
+}
+
+TEST_CASE("phlux compare ends with 1 where values are not finite, and still prints the figures") {
+  const TemporaryFolder folder;
+  Image image = constant(2, 2, 1.0F);
+  write_exr(folder / "b.exr", image);
+  image.channels["R"][0] = std::numeric_limits<float>::quiet_NaN();
+  write_exr(folder / "a.exr", image);
+  const Outcome outcome = run({{"compare", "a.exr", "b.exr", "--json"}, folder.path(), {}, {}});
+  CHECK(outcome.exit_code == 1);
+  CHECK(outcome.is_one_line_error());
+  CHECK(nlohmann::json::parse(outcome.out)["nonfinite"] == 1);
+}
+
+TEST_CASE("phlux devices lists every device and marks the default") {
+  const TemporaryFolder folder;
+  const Outcome table = run({{"devices"}, folder.path(), {}, {}});
+  CHECK(table.exit_code == 0);
+  CHECK_THAT(table.out, Catch::StartsWith("DEVICE") && Catch::Contains(":0 *"));
+  const Outcome json = run({{"devices", "--json"}, folder.path(), {}, {}});
+  const nlohmann::json devices = nlohmann::json::parse(json.out);
+  REQUIRE(devices.size() > 0);
+  int defaults = 0;
+  for (const nlohmann::json& device : devices) {
+    defaults += device.at("default").get<bool>() ? 1 : 0;
+    const int width = device.at("width");
+    CHECK((width == 1 || width == 4 || width == 8 || width == 16));
+    for (const char* key : {"device", "platform", "type", "name", "driver", "opencl_c_version"})
+      CHECK(device.at(key).is_string());
+    for (const char* key : {"compute_units", "global_memory", "largest_buffer", "native_float_width"})
+      CHECK(device.at(key) > 0);
+  }
+  CHECK(defaults >= 1);
+}

@@ -1,0 +1,173 @@
+#include <algorithm>
+#include <cmath>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "cli/program.h"
+#include "cli/scenes.h"
+#include "files/exr.h"
+
+using phlux::files::Image;
+using phlux::files::read_exr;
+
+namespace {
+
+class Workplace : public TemporaryFolder {
+public:
+  Workplace() { write("scene.xml", good_scene); }
+
+  Outcome render(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), {"render", "scene.xml"});
+    Outcome outcome = run({arguments, path(), {}, {}});
+    CAPTURE(arguments, outcome.out, outcome.err);
+    REQUIRE(outcome.exit_code == 0);
+    return outcome;
+  }
+  [[nodiscard]] Image image(const std::string& name = "scene.exr") const { return read_exr(*this / name); }
+  [[nodiscard]] nlohmann::json json(const std::string& name) const {
+    return nlohmann::json::parse(read(*this / name));
+  }
+};
+
+double mean(const std::vector<float>& values) {
+  double sum = 0.0;
+  for (const float value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
+} // namespace
+
+TEST_CASE("The plain command writes an image and a preview, named after the scene, and says so") {
+  const Workplace place;
+  const Outcome outcome = place.render({});
+  CHECK(place.names() == std::set<std::string>{"scene.xml", "scene.exr", "scene.png"});
+  CHECK(std::ranges::count(outcome.out, '\n') == 1);
+  CHECK_THAT(outcome.out, Catch::StartsWith("scene.exr: 16x12, 8 samples per pixel, ") &&
+                              Catch::Contains("M paths/s") && Catch::Contains("relative standard error"));
+  const Image image = place.image();
+  CHECK(image.width == 16);
+  CHECK(image.height == 12);
+  CHECK(image.channels.size() == 3);
+  for (const auto& [name, values] : image.channels) {
+    CHECK(std::ranges::all_of(values, [](float value) { return std::isfinite(value) && value >= 0.0F; }));
+    CHECK(mean(values) > 0.0);
+  }
+  CHECK(image.info.version == PHLUX_VERSION);
+  CHECK(image.info.scene == "scene.xml");
+  CHECK(image.info.integrator == "path");
+  CHECK(image.info.samples == 8.0);
+  CHECK_FALSE(image.info.device.empty());
+  CHECK_FALSE(image.info.driver.empty());
+  CHECK(image.info.seconds > 0.0);
+}
+
+TEST_CASE("Options reach the files") {
+  const Workplace place;
+  const Outcome outcome =
+      place.render({"-q",         "-n",     "3",         "--size", "20x10",       "--seed",  "7",
+                    "--moments",  "-o",     "out.exr",   "--png",  "look.png",    "--stats", "stats.json",
+                    "--strategy", "cosine", "--connect", "light",  "--max-depth", "3"});
+  CHECK(outcome.out.empty());
+  CHECK(outcome.err.empty());
+  CHECK(place.names() == std::set<std::string>{"scene.xml", "out.exr", "look.png", "stats.json"});
+  const Image image = place.image("out.exr");
+  CHECK(image.width == 20);
+  CHECK(image.height == 10);
+  CHECK(image.channels.size() == 6);
+  CHECK(mean(image.channels.at("variance.G")) > 0.0);
+  CHECK(image.info.samples == 3.0);
+  CHECK(image.info.seed == 7);
+  CHECK(image.info.strategy == "cosine");
+  CHECK_THAT(Workplace::read(place / "look.png"), Catch::StartsWith("\x89PNG"));
+}
+
+TEST_CASE("Statistics have the contract's keys with values of the right kind") {
+  const Workplace place;
+  place.render({"-n", "4", "--stats", "stats.json"});
+  const nlohmann::json stats = place.json("stats.json");
+  for (const char* key : {"integrator", "strategy", "device", "driver", "kernel_cache", "traversal"}) {
+    CAPTURE(key);
+    CHECK((stats.at(key).is_string() && !stats.at(key).get<std::string>().empty()));
+  }
+  for (const char* key : {"width", "height", "samples_per_pixel", "paths", "rays", "shadow_rays", "nonfinite",
+                          "lanes", "variance", "relative_standard_error"})
+    CHECK(stats.at(key).is_number());
+  for (const char* key : {"setup", "build_kernels", "render"}) CHECK(stats.at("seconds").at(key).is_number());
+  CHECK(stats["parts"].is_array());
+  CHECK(stats["paths"] == 16 * 12 * 4);
+  CHECK(stats["rays"] >= stats["paths"]);
+  CHECK(stats["samples_per_pixel"] == 4.0);
+  CHECK(stats["nonfinite"] == 0);
+  CHECK(stats["variance"] > 0.0);
+  const std::string cache = stats["kernel_cache"];
+  CHECK((cache == "hit" || cache == "miss"));
+
+  place.render({"-n", "4", "--stats", "again.json"});
+  CHECK(place.json("again.json")["kernel_cache"] == "hit");
+}
+
+TEST_CASE("Every width and traversal renders, and --stats says which") {
+  const Workplace place;
+  for (const char* width : {"1", "4", "8", "16"})
+    for (const char* traversal : {"brute", "bvh"}) {
+      CAPTURE(width, traversal);
+      place.render({"-n", "64", "--width", width, "--traversal", traversal, "--stats", "stats.json"});
+      const nlohmann::json stats = place.json("stats.json");
+      CHECK(stats["lanes"] == std::stoi(width));
+      CHECK_THAT(stats["traversal"].get<std::string>(), Catch::StartsWith(traversal));
+      CHECK(mean(place.image().channels.at("G")) == Approx(0.0).margin(10.0)); // and is finite
+    }
+}
+
+TEST_CASE("The same seed gives the same image, another seed another") {
+  const Workplace place;
+  place.render({"--seed", "1", "-o", "a.exr"});
+  place.render({"--seed", "1", "-o", "b.exr"});
+  place.render({"--seed", "2", "-o", "c.exr"});
+  CHECK(place.image("a.exr").channels == place.image("b.exr").channels);
+  CHECK(place.image("a.exr").channels != place.image("c.exr").channels);
+}
+
+TEST_CASE("-D reaches the scene") {
+  const Workplace place;
+  place.render({"-o", "a.exr"});
+  place.render({"-D", "radiance=40", "-o", "b.exr"});
+  CHECK(mean(place.image("b.exr").channels.at("R")) ==
+        Approx(2.0 * mean(place.image("a.exr").channels.at("R"))).epsilon(1e-4));
+}
+
+TEST_CASE("--time and --error decide how many samples there are") {
+  const Workplace place;
+  place.render({"--time", "0.5", "--stats", "stats.json"});
+  const nlohmann::json timed = place.json("stats.json");
+  CHECK(timed["seconds"]["render"] >= 0.45);
+  CHECK(timed["seconds"]["render"] < 5.0);
+  CHECK(timed["samples_per_pixel"] > 0.0);
+
+  place.render({"--error", "0.05", "--stats", "stats.json"});
+  CHECK(place.json("stats.json")["relative_standard_error"] <= 0.05);
+}
+
+TEST_CASE("An interrupted render writes the image so far and exits with 130") {
+  const Workplace place;
+  place.render({"--time", "0.1"}); // fills the kernel cache
+  std::filesystem::remove(place / "scene.exr");
+  const Outcome outcome = run({{"render", "scene.xml", "--time", "300", "--stats", "stats.json"},
+                               place.path(),
+                               {},
+                               std::chrono::milliseconds(2000)});
+  CAPTURE(outcome.out, outcome.err);
+  CHECK(outcome.exit_code == 130);
+  CHECK_THAT(outcome.out, Catch::EndsWith(", interrupted\n"));
+  CHECK(place.names() == std::set<std::string>{"scene.xml", "scene.exr", "scene.png", "stats.json"});
+  CHECK(place.image().info.samples > 0.0);
+  CHECK(place.json("stats.json")["interrupted"] == true);
+}
+
+TEST_CASE("An output that is not a regular file is written to, without a preview beside it") {
+  const Workplace place;
+  place.render({"-o", "/dev/null"});
+  CHECK(std::filesystem::is_character_file("/dev/null"));
+  CHECK(place.names() == std::set<std::string>{"scene.xml"});
+}
