@@ -11,7 +11,7 @@
 typedef struct {
   Vec3 diffuse, specular; // Rd, Rs
   Real exponent_u, exponent_v;
-  Real diffuse_mean, specular_mean;
+  Real diffuse_max, specular_max;
 } Anisotropic;
 
 static inline Real fifth_power(Real x) {
@@ -44,21 +44,25 @@ static inline Vec3 anisotropic_eval(Anisotropic m, Vec3 fixed, Vec3 generated) {
   return vec_select((fixed.z > 0.0f) & (generated.z > 0.0f), value, vec_all((Real)(0.0f)));
 }
 
-// What each part reflects, roughly: the shares by which they are drawn.
-static inline PhongShares anisotropic_shares(Anisotropic m, Real cosine) {
-  PhongShares shares;
-  shares.specular = fma(1.0f - m.specular_mean, fifth_power(1.0f - cosine), m.specular_mean);
-  shares.diffuse = m.diffuse_mean * (1.0f - shares.specular);
+// What each part reflects, roughly: how often it is drawn.
+typedef struct {
+  Real diffuse, specular;
+} LobeShares;
+
+static inline LobeShares anisotropic_shares(Anisotropic m, Real cosine) {
+  LobeShares shares;
+  shares.specular = fma(1.0f - m.specular_max, fifth_power(1.0f - cosine), m.specular_max);
+  shares.diffuse = m.diffuse_max * (1.0f - shares.specular);
   return shares;
 }
 
 static inline Real anisotropic_survival(Anisotropic m, Real cosine) {
-  const PhongShares shares = anisotropic_shares(m, cosine);
+  const LobeShares shares = anisotropic_shares(m, cosine);
   return shares.diffuse + shares.specular;
 }
 
 static inline Real anisotropic_density(Anisotropic m, Vec3 fixed, Vec3 generated) {
-  const PhongShares shares = anisotropic_shares(m, fixed.z);
+  const LobeShares shares = anisotropic_shares(m, fixed.z);
   const Vec3 h = vec_normalize(vec_add(fixed, generated));
   const Real specular = half_vector_density(m, h) / (4.0f * vec_dot(h, fixed));
   return (shares.diffuse * fmax(generated.z, (Real)(0.0f)) * PHONG_INV_PI + shares.specular * specular) /
@@ -66,7 +70,7 @@ static inline Real anisotropic_density(Anisotropic m, Vec3 fixed, Vec3 generated
 }
 
 static inline PhongSample anisotropic_sample(Anisotropic m, Vec3 fixed, RandomWords words) {
-  const PhongShares shares = anisotropic_shares(m, fixed.z);
+  const LobeShares shares = anisotropic_shares(m, fixed.z);
   const Mask from_lobe = uniform_real(words.x) * (shares.diffuse + shares.specular) >= shares.diffuse;
   const Real u1 = uniform_real(words.y), u2 = uniform_real(words.z);
   // Longitude: an angle uniform over the circle, stretched by the exponents; no quadrant needs a case of its own.

@@ -25,8 +25,8 @@ static inline Material material_at(const Scene* scene, Int index) {
 #ifdef PHLUX_PHONG_LOBE
   m.phong.specular = gather_material_rgb(scene->materials->specular, words);
   m.phong.exponent = gather_real(&scene->materials->exponent, words);
-  m.phong.diffuse_mean = gather_real(&scene->materials->diffuse_mean, words);
-  m.phong.specular_mean = gather_real(&scene->materials->specular_mean, words);
+  m.phong.diffuse_max = gather_real(&scene->materials->diffuse_max, words);
+  m.phong.specular_max = gather_real(&scene->materials->specular_max, words);
   m.phong.table_scale = gather_real(&scene->materials->table_scale, words);
   m.phong.table_row = gather_int(&scene->materials->table_row, words);
   m.phong.table = scene->reflectivity;
@@ -37,8 +37,8 @@ static inline Material material_at(const Scene* scene, Int index) {
   m.anisotropic.specular = gather_material_rgb(scene->materials->specular, words);
   m.anisotropic.exponent_u = gather_real(&scene->materials->exponent, words);
   m.anisotropic.exponent_v = gather_real(&scene->materials->exponent_v, words);
-  m.anisotropic.diffuse_mean = gather_real(&scene->materials->diffuse_mean, words);
-  m.anisotropic.specular_mean = gather_real(&scene->materials->specular_mean, words);
+  m.anisotropic.diffuse_max = gather_real(&scene->materials->diffuse_max, words);
+  m.anisotropic.specular_max = gather_real(&scene->materials->specular_max, words);
 #endif
   return m;
 }

@@ -30,16 +30,16 @@
 #define PHONG_TABLE_INTERVALS 256
 #endif
 
-// Material parameters in every lane. The means over the colour channels decide how often each lobe is drawn.
+// Material parameters in every lane. The largest colour channels decide how often each lobe is drawn.
 typedef struct {
   Vec3 diffuse; // kd
 #ifdef PHLUX_PHONG_LOBE
-  Vec3 specular;                    // ks
-  Real exponent;                    // n >= 0
-  Real diffuse_mean, specular_mean; // over the channels
-  Real table_scale;                 // table positions per unit of cosine: PHONG_TABLE_INTERVALS / min(1, 6 / sqrt(n + 1))
-  Int table_row;                    // index of the row's first value
-  const __global float* table;      // rows of rho_s / ks
+  Vec3 specular;                  // ks
+  Real exponent;                  // n >= 0
+  Real diffuse_max, specular_max; // over the channels
+  Real table_scale;               // table positions per unit of cosine: PHONG_TABLE_INTERVALS / min(1, 6 / sqrt(n + 1))
+  Int table_row;                  // index of the row's first value
+  const __global float* table;    // rows of rho_s / ks
 #endif
 } Phong;
 
@@ -120,33 +120,39 @@ static inline Vec3 phong_reflectivity(Phong m, Real cosine) {
 #endif
 }
 
-// How much the strategy gives to each lobe. Their sum is the probability with which roulette should let a path live.
+// The probability with which roulette should let a path live: what the strategy takes for the reflectivity, in the
+// channel where it is largest. No channel's throughput can then rise over a bounce, whatever the colours; with the mean
+// over the channels a path between red walls would have infinite variance in red.
+static inline Real phong_survival(Phong m, Real cosine) {
+#ifdef PHLUX_PHONG_LOBE
+#if PHLUX_STRATEGY == STRATEGY_LOBE_KS
+  return vec_max(vec_add(m.diffuse, m.specular));
+#else
+  return vec_max(phong_reflectivity(m, cosine));
+#endif
+#else
+  return vec_max(m.diffuse);
+#endif
+}
+
+#ifdef PHLUX_PHONG_LOBE
+
+// How often each lobe is drawn, up to a common factor.
 typedef struct {
   Real diffuse, specular;
 } PhongShares;
 
 static inline PhongShares phong_shares(Phong m, Real cosine) {
   PhongShares shares;
-#ifdef PHLUX_PHONG_LOBE
-  shares.diffuse = m.diffuse_mean;
+  shares.diffuse = m.diffuse_max;
 #if PHLUX_STRATEGY == STRATEGY_LOBE_KS
-  shares.specular = m.specular_mean;
+  shares.specular = m.specular_max;
 #else
-  shares.specular = m.specular_mean * phong_lobe_reflectivity(m, cosine);
-#endif
-#else
-  shares.diffuse = vec_mean(m.diffuse);
-  shares.specular = (Real)(0.0f);
+  shares.specular = m.specular_max * phong_lobe_reflectivity(m, cosine);
 #endif
   return shares;
 }
 
-static inline Real phong_survival(Phong m, Real cosine) {
-  const PhongShares shares = phong_shares(m, cosine);
-  return shares.diffuse + shares.specular;
-}
-
-#ifdef PHLUX_PHONG_LOBE
 #if PHLUX_STRATEGY == STRATEGY_COSINE
 
 // The whole model, weighted by the cosine density.

@@ -40,7 +40,7 @@ enum MaterialFlags { MATERIAL_TWO_SIDED = 1, MATERIAL_ANISOTROPIC = 2 };
 typedef struct {
   float diffuse[3], specular[3];
   float exponent, exponent_v; // exponent_v: anisotropic only
-  float diffuse_mean, specular_mean;
+  float diffuse_max, specular_max;
   float table_scale; // see phong.cl
   int table_row;
   int flags;

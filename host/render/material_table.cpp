@@ -27,9 +27,7 @@ int add_row(std::vector<float>& rows, double exponent) {
   return first;
 }
 
-float mean(const scene::Rgb& rgb) {
-  return static_cast<float>((rgb.r + rgb.g + rgb.b) / 3);
-}
+float largest(const scene::Rgb& rgb) { return static_cast<float>(std::max({rgb.r, rgb.g, rgb.b})); }
 
 } // namespace
 
@@ -54,8 +52,8 @@ MaterialTable material_table(const std::vector<scene::Material>& materials) {
     }
     record.exponent = static_cast<float>(material.exponent_u);
     record.exponent_v = static_cast<float>(material.exponent_v);
-    record.diffuse_mean = mean(material.diffuse);
-    record.specular_mean = mean(material.specular);
+    record.diffuse_max = largest(material.diffuse);
+    record.specular_max = largest(material.specular);
     record.flags = (material.two_sided ? MATERIAL_TWO_SIDED : 0) | (anisotropic ? MATERIAL_ANISOTROPIC : 0);
     if (!anisotropic && material.specular != scene::Rgb(0.0)) {
       const auto [row, is_new] = row_of_exponent.try_emplace(material.exponent_u, 0);
