@@ -8,7 +8,7 @@
 namespace phlux::files {
 namespace {
 
-constexpr float middle_grey = 0.18F;
+constexpr double middle_grey = 0.18;
 constexpr float shoulder = 0.6F;            // where the curve leaves the identity
 constexpr std::size_t outliers_one_in = 20; // 5% at either end
 
@@ -38,7 +38,8 @@ float exposure(const Image& image) {
   double sum = 0.0;
   for (auto luminance = first; luminance != last; ++luminance)
     sum += std::log(static_cast<double>(*luminance));
-  return static_cast<float>(middle_grey / std::exp(sum / static_cast<double>(last - first)));
+  const double log_average = std::exp(sum / static_cast<double>(last - first));
+  return static_cast<float>(std::min(middle_grey / log_average, 1.0 / static_cast<double>(*(last - 1))));
 }
 
 float compress_highlights(float value) {

@@ -9,9 +9,10 @@
 namespace phlux::files {
 
 /// The factor that brings the image's log-average luminance to middle grey, 0.18 (Reinhard and others 2002,
-/// "Photographic tone reproduction for digital images", equations 1 and 2). Black pixels and the darkest and
-/// the brightest 5% of the others are left out, so that neither a light in view nor a dark background
-/// decides; 1 for a black image. `image` has channels R, G, B.
+/// "Photographic tone reproduction for digital images", equations 1 and 2), or less where the bright parts of
+/// a picture of high contrast would burn out: the 95th percentile is exposed to 1 at most. Black pixels do
+/// not count, and the darkest and brightest 5% of the others not in the average, so that neither a light in
+/// view nor a dark background decides; 1 for a black image. `image` has channels R, G, B.
 [[nodiscard]] float exposure(const Image& image);
 
 /// One exposed linear value >= 0 to [0, 1): itself up to 0.6, above that a shoulder that nears 1 with a

@@ -1,5 +1,6 @@
 #include "files/png.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -79,6 +80,12 @@ TEST_CASE("Neither a dark background, a light in view nor what is not finite dec
   CHECK(exposure(grey(1000, 1, values)) == Approx(plain));
   CHECK(exposure(grey(2, 1, {0.0F, 0.0F})) == 1.0F);
   CHECK(exposure(grey(2, 1, {not_a_number, not_a_number})) == 1.0F);
+}
+
+TEST_CASE("The bright parts of a picture of high contrast do not burn out") {
+  std::vector<float> values(1000, 0.01F);
+  std::fill_n(values.begin(), 200, 10.0F);
+  CHECK(exposure(grey(1000, 1, values)) * 10.0F == Approx(1.0));
 }
 
 TEST_CASE("A preview is an 8-bit sRGB file with the codes that its parts give") {
