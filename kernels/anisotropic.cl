@@ -23,7 +23,7 @@ static inline Real fifth_power(Real x) {
 static inline Real half_vector_density(Anisotropic m, Vec3 h) {
   const Real sine2 = fma(h.x, h.x, h.y * h.y);
   const Real exponent = fma(m.exponent_u * h.x, h.x, m.exponent_v * h.y * h.y) / sine2;
-  const Real power = exp(exponent * 0.5f * log1p(-fmin(sine2, (Real)(1.0f))));
+  const Real power = exp(exponent * 0.5f * log1p(-smaller(sine2, (Real)(1.0f))));
   return sqrt((m.exponent_u + 1.0f) * (m.exponent_v + 1.0f)) * (0.5f * PHONG_INV_PI) *
          (sine2 > 0.0f ? power : (Real)(1.0f));
 }
@@ -31,7 +31,7 @@ static inline Real half_vector_density(Anisotropic m, Vec3 h) {
 static inline Vec3 anisotropic_eval(Anisotropic m, Vec3 fixed, Vec3 generated) {
   const Vec3 h = vec_normalize(vec_add(fixed, generated));
   const Real hk = vec_dot(h, fixed);
-  const Real lobe = half_vector_density(m, h) / (4.0f * hk * fmax(fixed.z, generated.z));
+  const Real lobe = half_vector_density(m, h) / (4.0f * hk * larger(fixed.z, generated.z));
   const Real grazing = fifth_power(1.0f - hk);
   const Vec3 fresnel = vec3(fma(1.0f - m.specular.x, grazing, m.specular.x),
                             fma(1.0f - m.specular.y, grazing, m.specular.y),
@@ -65,7 +65,7 @@ static inline Real anisotropic_density(Anisotropic m, Vec3 fixed, Vec3 generated
   const LobeShares shares = anisotropic_shares(m, fixed.z);
   const Vec3 h = vec_normalize(vec_add(fixed, generated));
   const Real specular = half_vector_density(m, h) / (4.0f * vec_dot(h, fixed));
-  return (shares.diffuse * fmax(generated.z, (Real)(0.0f)) * PHONG_INV_PI + shares.specular * specular) /
+  return (shares.diffuse * larger(generated.z, (Real)(0.0f)) * PHONG_INV_PI + shares.specular * specular) /
          (shares.diffuse + shares.specular);
 }
 

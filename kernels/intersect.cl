@@ -79,9 +79,9 @@ static inline Real cross_sphere(Ray ray, SphereShape s) {
   const Real radius2 = s.radius * s.radius;
   const Real discriminant = radius2 - vec_dot(closest, closest);
   const Real c = vec_dot(to_origin, to_origin) - radius2;
-  const Real q = b + times_sign(sqrt(fmax(discriminant, (Real)(0.0f))), b);
+  const Real q = b + times_sign(sqrt(larger(discriminant, (Real)(0.0f))), b);
   const Real other = c / q;
-  const Real near = fmin(q, other), far = fmax(q, other);
+  const Real near = smaller(q, other), far = larger(q, other);
   const Real distance = near > 0.0f ? near : far;
   return ((discriminant >= 0.0f) & (distance > 0.0f)) ? distance : (Real)(0.0f);
 }

@@ -72,6 +72,26 @@ static inline Real times_sign(Real x, Real sign) {
   return bits_real(real_bits(x) ^ (real_bits(sign) & (Int)(int)0x80000000u));
 }
 
+// Both halves of the 64-bit product of each lane with a constant. Compilers make mul_hi from 16-bit pieces; the two
+// products of even and odd lanes are one instruction each.
+static inline void multiply_wide(Uint a, uint factor, Uint* high, Uint* low) {
+#if WIDTH == 1 || !defined(__ENDIAN_LITTLE__)
+  *high = mul_hi(a, (Uint)(factor));
+  *low = a * factor;
+#else
+#if WIDTH == 4
+#define LANE_PAIRS(x) as_ulong2(x)
+#elif WIDTH == 8
+#define LANE_PAIRS(x) as_ulong4(x)
+#else
+#define LANE_PAIRS(x) as_ulong8(x)
+#endif
+  const ulong low_half = 0xffffffffUL;
+  *high = LANE_AS(uint)((((LANE_PAIRS(a) & low_half) * factor) >> 32) | (((LANE_PAIRS(a) >> 32) * factor) & ~low_half));
+  *low = LANE_AS(uint)((((LANE_PAIRS(a) & low_half) * factor) & low_half) | (((LANE_PAIRS(a) >> 32) * factor) << 32));
+#endif
+}
+
 // ---- Questions about a mask
 
 #ifdef LANES_AVX512
@@ -290,9 +310,9 @@ static inline Vec3 vec_select(Mask m, Vec3 yes, Vec3 no) {
   return vec3(m ? yes.x : no.x, m ? yes.y : no.y, m ? yes.z : no.z);
 }
 static inline Vec3 vec_normalize(Vec3 a) { return vec_scale((Real)(1.0f) / sqrt(vec_dot(a, a)), a); }
-static inline Real vec_max(Vec3 a) { return fmax(a.x, fmax(a.y, a.z)); }
+static inline Real vec_max(Vec3 a) { return larger(a.x, larger(a.y, a.z)); }
 static inline Real vec_mean(Vec3 a) { return (a.x + a.y + a.z) * (1.0f / 3.0f); }
-static inline Real vec_largest(Vec3 a) { return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z))); }
+static inline Real vec_largest(Vec3 a) { return larger(fabs(a.x), larger(fabs(a.y), fabs(a.z))); }
 
 // Cosine and sine of 2 pi turns, for turns in [0, 1]; both within 2 ulp of the larger. Polynomials fitted for the
 // least relative error over an eighth of a turn to either side of the nearest quarter.

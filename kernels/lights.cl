@@ -47,7 +47,7 @@ static inline Real light_probability(const Scene* scene, Int light) {
 // sphere of directions) from inside or when the front is inside.
 static inline Real one_minus_cone_cosine(SphereShape sphere, Real distance2) {
   const Real sine2 = sphere.radius * sphere.radius / distance2;
-  return sine2 / (1.0f + sqrt(fmax(1.0f - sine2, (Real)(0.0f))));
+  return sine2 / (1.0f + sqrt(larger(1.0f - sine2, (Real)(0.0f))));
 }
 #endif
 
@@ -161,11 +161,11 @@ static inline void sample_sphere_light(const Scene* scene, LightSample* s, Surfa
   const Real cone = one_minus_cone_cosine(sphere, distance2);
   const Real drop = u1 * cone; // 1 - cos(theta)
   const Real sine2 = drop * (2.0f - drop);
-  const Real half_chord = sqrt(fmax(fma(sphere.radius, sphere.radius, -distance2 * sine2), (Real)(0.0f)));
+  const Real half_chord = sqrt(larger(fma(sphere.radius, sphere.radius, -distance2 * sine2), (Real)(0.0f)));
   const Real cosine_at_center =
-      fmin((center_distance * sine2 + (1.0f - drop) * half_chord) / sphere.radius, (Real)(1.0f));
+      smaller((center_distance * sine2 + (1.0f - drop) * half_chord) / sphere.radius, (Real)(1.0f));
   const Real z = in_cone ? cosine_at_center : 1.0f - 2.0f * u1;
-  const Real r = sqrt(fmax(1.0f - z * z, (Real)(0.0f)));
+  const Real r = sqrt(larger(1.0f - z * z, (Real)(0.0f)));
   const Frame towards_lit = frame_about(vec_scale(-1.0f / center_distance, to_center));
   const Vec3 unit = from_frame(towards_lit, vec3(r * cos_phi, r * sin_phi, z));
   const Vec3 target = vec_along(sphere.center, sphere.radius, unit);

@@ -120,7 +120,7 @@ static inline Mask reflect(Path* path, SurfacePoint point, Material material, Ve
   RandomWords words =
       random_words(path->sequence, int_to_uint(DIMENSION_REFLECTION(path->edges)), 0);
   const Real survival = path->edges >= roulette_edges
-                            ? fmin(material_survival(material, fixed), (Real)(LARGEST_SURVIVAL))
+                            ? smaller(material_survival(material, fixed), (Real)(LARGEST_SURVIVAL))
                             : (Real)(1.0f);
   const Mask survives = uniform_real(words.w) < survival;
   const PhongSample sample = material_sample(material, fixed, words);

@@ -66,7 +66,7 @@ static inline Real phong_cosine_power(Real exponent, Vec3 fixed, Vec3 generated)
 // closed form (Arvo's double-axis moments); tabulated by the host in double precision over the cosine.
 static inline Real phong_lobe_reflectivity(Phong m, Real cosine) {
   const Real position = cosine * m.table_scale;
-  const Real below = fmin(floor(fmax(position, (Real)(0.0f))), (Real)(PHONG_TABLE_INTERVALS - 1));
+  const Real below = smaller(floor(larger(position, (Real)(0.0f))), (Real)(PHONG_TABLE_INTERVALS - 1));
   const Int index = m.table_row + to_int(below);
   const Real v0 = gather_real(m.table, index), v1 = gather_real(m.table, index + 1);
   const Real tabulated = fma(position - below, v1 - v0, v0);
@@ -157,7 +157,7 @@ static inline PhongShares phong_shares(Phong m, Real cosine) {
 
 // The whole model, weighted by the cosine density.
 static inline Real phong_density(Phong m, Vec3 fixed, Vec3 generated) {
-  return fmax(generated.z, (Real)(0.0f)) * PHONG_INV_PI;
+  return larger(generated.z, (Real)(0.0f)) * PHONG_INV_PI;
 }
 
 static inline PhongSample phong_sample(Phong m, Vec3 fixed, RandomWords words) {
@@ -175,7 +175,7 @@ static inline Real phong_density(Phong m, Vec3 fixed, Vec3 generated) {
   const PhongShares shares = phong_shares(m, fixed.z);
   const Real specular =
       (m.exponent + 1.0f) * 0.5f * phong_cosine_power(m.exponent, fixed, generated) * shares.specular;
-  const Real sum = fma(fmax(generated.z, (Real)(0.0f)), shares.diffuse, specular);
+  const Real sum = fma(larger(generated.z, (Real)(0.0f)), shares.diffuse, specular);
   return sum * PHONG_INV_PI / (shares.diffuse + shares.specular);
 }
 
@@ -206,7 +206,7 @@ static inline PhongSample phong_sample(Phong m, Vec3 fixed, RandomWords words) {
 #else
 
 static inline Real phong_density(Phong m, Vec3 fixed, Vec3 generated) {
-  return fmax(generated.z, (Real)(0.0f)) * PHONG_INV_PI;
+  return larger(generated.z, (Real)(0.0f)) * PHONG_INV_PI;
 }
 
 static inline PhongSample phong_sample(Phong m, Vec3 fixed, RandomWords words) {

@@ -15,12 +15,6 @@ typedef struct {
   Uint x, y, z, w;
 } RandomWords;
 
-// Both halves of the 64-bit product of each lane with a constant.
-static inline void multiply_wide(Uint a, uint constant_factor, Uint* high, Uint* low) {
-  *high = mul_hi(a, (Uint)(constant_factor));
-  *low = a * constant_factor;
-}
-
 static inline RandomWords philox(RandomWords counter, uint2 key) {
   RandomWords c = counter;
   uint2 k = key;
