@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 #include <mutex>
+#include <utility>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -27,22 +28,6 @@ void warn_once(const std::string& line) {
   std::call_once(once, [&] { spdlog::warn("{}", line); });
 }
 
-fs::path choose_folder() {
-  fs::path wanted;
-  if (const char* given = std::getenv("PHLUX_CACHE_DIR"); given != nullptr && *given != '\0')
-    wanted = given;
-  else if (auto user = user_cache_folder("phlux"))
-    wanted = *user;
-  else if (auto temporary = temporary_cache_folder("kernels"))
-    wanted = *temporary;
-  if (!wanted.empty() && writable_folder(wanted)) return wanted;
-  warn_once(
-      fmt::format("the kernel cache {} is not writable: kernels are built anew each time (PHLUX_CACHE_DIR "
-                  "names another folder)",
-                  wanted.string()));
-  return {};
-}
-
 } // namespace
 
 std::string hash_of(const std::string& bytes) {
@@ -57,7 +42,20 @@ std::string hash_of(const std::string& bytes) {
                      static_cast<std::uint64_t>(hash));
 }
 
-BinaryCache::BinaryCache() : folder_(choose_folder()) {}
+fs::path binary_cache_folder() {
+  if (const char* given = std::getenv("PHLUX_CACHE_DIR"); given != nullptr && *given != '\0') return given;
+  if (auto user = user_cache_folder("phlux")) return *user;
+  return temporary_cache_folder("kernels").value_or(fs::path());
+}
+
+BinaryCache::BinaryCache(fs::path folder) : folder_(std::move(folder)) {
+  if (!folder_.empty() && writable_folder(folder_)) return;
+  warn_once(
+      fmt::format("the kernel cache {} is not writable: kernels are built anew each time (PHLUX_CACHE_DIR "
+                  "names another folder)",
+                  folder_.string()));
+  folder_.clear();
+}
 
 fs::path BinaryCache::file_of(const std::string& key) const {
   return folder_ / (hash_of(key) + suffix);

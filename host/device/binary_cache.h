@@ -13,11 +13,15 @@ namespace phlux::device {
 /// http://www.isthe.com/chongo/tech/comp/fnv/
 [[nodiscard]] std::string hash_of(const std::string& bytes);
 
+/// $PHLUX_CACHE_DIR, else phlux/ under the user's cache folder, else a temporary one; empty when none can be
+/// had.
+[[nodiscard]] std::filesystem::path binary_cache_folder();
+
 class BinaryCache {
 public:
-  /// In $PHLUX_CACHE_DIR, else phlux/ under the user's cache folder, else a temporary one. None of them
-  /// writable: a cache that holds nothing, with one warning for the process.
-  BinaryCache();
+  /// A cache in `folder`. When that is empty or cannot be written: one that holds nothing, with one warning
+  /// for the process.
+  explicit BinaryCache(std::filesystem::path folder);
 
   /// The binary stored under `key`; nothing when there is none or the file is damaged.
   [[nodiscard]] std::optional<std::vector<unsigned char>> load(const std::string& key) const;

@@ -59,6 +59,18 @@ std::string cache_key(const Device& device, const std::string& text) {
                      build_options(), significant(text));
 }
 
+// Where the driver itself keeps what it built; nothing when it does not. PoCL does, and when asked for a
+// binary compiles every kernel a second time, as long again as the first: so it is not asked, and records
+// beside its own files say what it has. They vanish together.
+std::optional<std::filesystem::path> driver_cache(const Device& device) {
+  if (device.info.platform != "Portable Computing Language") return std::nullopt;
+  const char* folder = std::getenv("POCL_CACHE_DIR"); // device.cpp has set it
+  const char* wanted = std::getenv("POCL_KERNEL_CACHE");
+  if (folder == nullptr || *folder == '\0' || (wanted != nullptr && std::string(wanted) == "0"))
+    return std::nullopt;
+  return folder;
+}
+
 std::optional<cl::Program> build_binary(const Device& device, const std::vector<unsigned char>& binary) {
   try {
     cl::Program program(device.context, {device.handle}, {binary});
@@ -153,11 +165,18 @@ BuiltProgram build(const Device& device, const KernelFiles& files, const Program
   const Watcher watcher(slow);
   const std::string text = expand(files, source);
   const std::string key = cache_key(device, text);
-  const BinaryCache cache;
+  const std::string name = source.root.empty() ? "extra" : source.root;
+  if (const auto folder = driver_cache(device)) {
+    const BinaryCache records(*folder / "phlux");
+    const bool known = records.load(key).has_value();
+    const auto program = build_text(device, name, text);
+    if (!known) records.store(key, {1});
+    return {program, known, elapsed()};
+  }
+  const BinaryCache cache(binary_cache_folder());
   if (const auto binary = cache.load(key))
     if (const auto program = build_binary(device, *binary)) return {*program, true, elapsed()};
-
-  const auto program = build_text(device, source.root.empty() ? "extra" : source.root, text);
+  const auto program = build_text(device, name, text);
   cache.store(key, binary_of(program));
   return {program, false, elapsed()};
 }

@@ -46,7 +46,7 @@ struct ProgramSource {
 
 struct BuiltProgram {
   cl::Program program;
-  bool from_cache = false; ///< the device's own binary was found in the cache
+  bool from_cache = false; ///< it had been built before and was kept, by phlux or by the driver
   double seconds = 0.0;
 };
 

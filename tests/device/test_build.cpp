@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include <atomic>
+#include <chrono>
 #include <thread>
 
 #include "device/binary_cache.h"
@@ -50,6 +51,8 @@ std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder)
 TEST_CASE("a program is built once and then loaded") {
   const TemporaryFolder cache;
   const Environment variable("PHLUX_CACHE_DIR", cache.path().string());
+  const Environment no_driver_cache("POCL_KERNEL_CACHE",
+                                    "0"); // PoCL read it when it started; phlux reads it now
   const auto device = test_device();
 
   const auto first = build(device, KernelFiles(), twice());
@@ -95,10 +98,25 @@ TEST_CASE("a program is built once and then loaded") {
   }
 }
 
+TEST_CASE("PoCL keeps its programs itself") {
+  const auto device = test_device();
+  if (device.info.platform != "Portable Computing Language") return;
+  const TemporaryFolder cache;
+  const Environment variable("PHLUX_CACHE_DIR", cache.path().string());
+  auto source = twice(); // a comment would not do: the key passes over those
+  source.defines["UNIQUE"] = std::to_string(std::chrono::system_clock::now().time_since_epoch().count());
+  CHECK_FALSE(build(device, KernelFiles(), source).from_cache);
+  const auto again = build(device, KernelFiles(), source);
+  CHECK(again.from_cache);
+  CHECK(run(device, again.program, 3.0f) == 6.0f);
+  CHECK(files_in(cache.path()).empty());
+}
+
 TEST_CASE("without a writable cache, programs are built all the same") {
   const TemporaryFolder folder;
   folder.write("file", "");
   const Environment variable("PHLUX_CACHE_DIR", (folder.path() / "file" / "cache").string());
+  const Environment no_driver_cache("POCL_KERNEL_CACHE", "0");
   const auto device = test_device();
   for (int time = 0; time < 2; ++time) {
     const auto built = build(device, KernelFiles(), twice());
@@ -110,7 +128,7 @@ TEST_CASE("without a writable cache, programs are built all the same") {
 TEST_CASE("the cache stores and loads bytes") {
   const TemporaryFolder folder;
   const Environment variable("PHLUX_CACHE_DIR", (folder.path() / "made" / "here").string());
-  const BinaryCache cache;
+  const BinaryCache cache(binary_cache_folder());
   const std::vector<unsigned char> bytes{0, 1, 255, 10, 0};
   CHECK_FALSE(cache.load("key").has_value());
   cache.store("key", bytes);
