@@ -86,7 +86,7 @@ struct DirectionalLight {
 
 /// A pinhole. In its own frame it looks along +z, +y is up and, as in Mitsuba, +x points to the left of the image.
 struct Camera {
-  Vec3 position{0.0}, left{1, 0, 0}, up{0, 1, 0}, forward{0, 0, 1}; ///< orthonormal, right-handed
+  Vec3 position{0.0}, left{1, 0, 0}, up{0, 1, 0}, forward{0, 0, 1}; ///< orthonormal; right-handed unless toWorld mirrors
   double tan_half_fov_x = 1.0; ///< tangent of half the horizontal field of view
   double principal_x = 0.0, principal_y = 0.0; ///< Mitsuba's principalPointOffset, in units of the film's size
   int width = 768, height = 576;               ///< pixels, square

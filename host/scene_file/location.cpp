@@ -11,7 +11,10 @@ std::string Location::text() const {
 }
 
 void fail(const Location& where, const std::string& wrong, const std::string& right) {
-  throw SceneError(where.text() + ": " + wrong + ": " + right);
+  std::string line = where.text() + ": " + wrong + ": " + right;
+  for (char& c : line)
+    if (static_cast<unsigned char>(c) < ' ') c = '?'; // what the file says may hold line ends
+  throw SceneError(line);
 }
 
 void warn(const Location& where, const std::string& message) {

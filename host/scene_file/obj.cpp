@@ -96,7 +96,7 @@ private:
       const auto text = word();
       const auto value = parse_real(text);
       if (!value)
-        fail(where_, std::string(what) + " with '" + std::string(text) + "' for a coordinate",
+        fail(where_, std::string(what) + " with " + quoted(text) + " for a coordinate",
              "three finite numbers within single precision");
       result[i] = *value;
     }
@@ -107,8 +107,7 @@ private:
   std::uint32_t index(std::string_view text, std::size_t count, const char* what) {
     const auto value = parse_integer(text);
     if (!value)
-      fail(where_, "'" + std::string(text) + "' is no index",
-           "faces like 1 2 3, 1/1 2/2 3/3 or 1//1 2//2 3//3");
+      fail(where_, quoted(text) + " is no index", "faces like 1 2 3, 1/1 2/2 3/3 or 1//1 2//2 3//3");
     const auto size = static_cast<long long>(count);
     const long long from_zero = *value > 0 ? *value - 1LL : size + *value;
     if (*value == 0 || from_zero < 0 || from_zero >= size)

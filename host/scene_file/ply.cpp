@@ -10,6 +10,7 @@
 
 #include "scene_file/mesh.h"
 #include "scene_file/ply_header.h"
+#include "scene_file/values.h"
 
 namespace phlux::scene_file {
 
@@ -51,8 +52,7 @@ private:
     if (error != std::errc{} || !ended) {
       const auto word_end =
           std::find_if(at_, end_, [](char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r'; });
-      fail(where_, "'" + std::string(at_, std::min(word_end, at_ + 32)) + "' is not a number",
-           "a finite number");
+      fail(where_, quoted({at_, word_end}) + " is not a number", "a finite number");
     }
     at_ = stopped;
     return value;

@@ -21,7 +21,7 @@ PlyType read_type(std::string_view name, const Location& where) {
       {"float64", PlyType::float64}};
   const auto found = types.find(name);
   if (found == types.end())
-    fail(where, "'" + std::string(name) + "' is not a PLY type",
+    fail(where, quoted(name) + " is not a PLY type",
          "char, uchar, short, ushort, int, uint, float or double");
   return found->second;
 }
@@ -107,7 +107,7 @@ PlyHeader read_ply_header(std::string_view bytes, Location where) {
       if (!has_format) fail(where, "the PLY header states no format", "a line format ascii 1.0 or the like");
       return header;
     } else if (!keyword.empty() && keyword != "comment" && keyword != "obj_info") {
-      fail(where, "unexpected '" + std::string(keyword) + "' in the PLY header",
+      fail(where, "unexpected " + quoted(keyword) + " in the PLY header",
            "format, element, property, comment, end_header");
     }
   }

@@ -96,6 +96,13 @@ std::string to_lower(std::string_view text) {
   return result;
 }
 
+std::string quoted(std::string_view text) {
+  constexpr std::size_t most = 32;
+  std::string result = "'";
+  for (const char c : text.substr(0, most)) result += c > ' ' && c < 127 ? c : '?';
+  return result + (text.size() > most ? "...'" : "'");
+}
+
 std::string join(const std::vector<std::string>& words) {
   std::string result;
   for (const auto& word : words) result += (result.empty() ? "" : ", ") + word;

@@ -26,6 +26,9 @@ namespace phlux::scene_file {
 
 [[nodiscard]] std::string to_lower(std::string_view text);
 
+/// 'text' for messages about files that may hold anything: its first 32 bytes, those outside ASCII as ?
+[[nodiscard]] std::string quoted(std::string_view text);
+
 /// "a, b, c"
 [[nodiscard]] std::string join(const std::vector<std::string>& words);
 

@@ -119,6 +119,13 @@ TEST_CASE("PLY that is broken is an error that says where") {
              StartsWith("mesh.ply: the mesh has no triangles"));
 }
 
+TEST_CASE("Errors about binary data are one line of ASCII") {
+  const std::string rubbish = ply_header("ascii", 1, 1) + std::string("\xff\x01\x80 0 0\n", 8);
+  CHECK_THAT(mesh_error("ply", rubbish), StartsWith("mesh.ply:11: '\?\?\?' is not a number"));
+  CHECK_THAT(error_in("<bsdf type=\"a&#10;b\"/>"),
+             StartsWith("scene.xml:2: <bsdf type=\"a?b\"> is not supported"));
+}
+
 TEST_CASE("A mesh cut short anywhere is an error, never a crash") {
   for (const bool big_endian : {false, true}) {
     const std::string bytes = binary_square(big_endian);
