@@ -56,11 +56,6 @@ static inline LobeShares anisotropic_shares(Anisotropic m, Real cosine) {
   return shares;
 }
 
-static inline Real anisotropic_survival(Anisotropic m, Real cosine) {
-  const LobeShares shares = anisotropic_shares(m, cosine);
-  return shares.diffuse + shares.specular;
-}
-
 static inline Real anisotropic_density(Anisotropic m, Vec3 fixed, Vec3 generated) {
   const LobeShares shares = anisotropic_shares(m, fixed.z);
   const Vec3 h = vec_normalize(vec_add(fixed, generated));
@@ -69,9 +64,13 @@ static inline Real anisotropic_density(Anisotropic m, Vec3 fixed, Vec3 generated
          (shares.diffuse + shares.specular);
 }
 
-static inline PhongSample anisotropic_sample(Anisotropic m, Vec3 fixed, RandomWords words) {
+static inline PhongSample anisotropic_sample(Anisotropic m, Vec3 fixed, RandomSequence sequence, Uint dimension,
+                                             Mask roulette) {
+  const RandomWords words = random_words(sequence, dimension, 0);
   const LobeShares shares = anisotropic_shares(m, fixed.z);
-  const Mask from_lobe = uniform_real(words.x) * (shares.diffuse + shares.specular) >= shares.diffuse;
+  const Real total = shares.diffuse + shares.specular, survival = survival_of(total, roulette);
+  const Real u = uniform_real(words.x);
+  const Mask from_lobe = u * total >= survival * shares.diffuse;
   const Real u1 = uniform_real(words.y), u2 = uniform_real(words.z);
   // Longitude: an angle uniform over the circle, stretched by the exponents; no quadrant needs a case of its own.
   Real cos_turn, sin_turn;
@@ -86,13 +85,15 @@ static inline PhongSample anisotropic_sample(Anisotropic m, Vec3 fixed, RandomWo
   const Real hk = vec_dot(h, fixed);
   const Vec3 mirrored = vec_along(vec_scale((Real)(-1.0f), fixed), 2.0f * hk, h);
   PhongSample s;
-  s.direction = vec_select(from_lobe, mirrored, phong_cosine_sample(u1, u2));
+  s.direction = vec_select(from_lobe, mirrored, cosine_direction(u1, u2));
   s.density = anisotropic_density(m, fixed, s.direction);
   // A half vector that fixed cannot see gives a direction below the surface.
   const Mask above = (s.direction.z > 0.0f) & ((hk > 0.0f) | !from_lobe);
   s.direction.z = above ? s.direction.z : (Real)(-1.0f);
-  s.weight = vec_select(above, vec_scale(s.direction.z / s.density, anisotropic_eval(m, fixed, s.direction)),
+  s.weight = vec_select(above, vec_scale(s.direction.z / (s.density * survival), anisotropic_eval(m, fixed, s.direction)),
                         vec_all((Real)(0.0f)));
+  s.survives = u < survival;
+  s.draws = (Int)(1);
   return s;
 }
 

@@ -41,4 +41,29 @@ static inline Vec3 from_frame(Frame f, Vec3 v) {
   return vec_along(vec_along(vec_scale(v.x, f.x), v.y, f.y), v.z, f.z);
 }
 
+// The frame of the mirror image of a direction about the normal: z along that image, x in the plane of it and the
+// normal, pointing away from the normal, y across. Built from components of the direction alone, it cancels nowhere.
+typedef struct {
+  Real cosine, sine; // of the angle between the direction (or its image) and the normal
+  Real p, q;         // the direction lies in the plane of the normal and (p, q, 0)
+} MirrorFrame;
+
+static inline MirrorFrame mirror_frame(Vec3 direction) {
+  MirrorFrame f;
+  f.cosine = direction.z;
+  f.sine = sqrt(fma(direction.x, direction.x, direction.y * direction.y));
+  const Mask tilted = f.sine > 0.0f;
+  f.p = tilted ? direction.x / f.sine : (Real)(1.0f);
+  f.q = tilted ? direction.y / f.sine : (Real)(0.0f);
+  return f;
+}
+
+static inline Vec3 from_mirror_frame(MirrorFrame f, Vec3 v) {
+  const Real outward = fma(f.cosine, v.x, f.sine * v.z); // along -(p, q)
+  return vec3(fma(f.q, v.y, -f.p * outward), -fma(f.p, v.y, f.q * outward), fma(f.cosine, v.z, -f.sine * v.x));
+}
+
+// How far above the surface v points.
+static inline Real mirror_frame_height(MirrorFrame f, Vec3 v) { return fma(f.cosine, v.z, -f.sine * v.x); }
+
 #endif

@@ -272,7 +272,7 @@ static inline LightSample light_sample(const Scene* scene, SurfacePoint lit, Ran
 #ifdef PHLUX_LIGHT_CONSTANT
   {
     const Mask m = LIGHT_IS(LIGHT_CONSTANT);
-    const Vec3 upward = phong_cosine_sample(u1, u2);
+    const Vec3 upward = cosine_direction(u1, u2);
     aim_to_infinity(&s, lit, from_frame(lit.frame, upward), m);
     s.density = m ? light_probability(scene, light) * upward.z * PHONG_INV_PI : s.density;
     s.hittable = s.hittable | m;

@@ -28,6 +28,7 @@ static inline Material material_at(const Scene* scene, Int index) {
   m.phong.diffuse_max = gather_real(&scene->materials->diffuse_max, words);
   m.phong.specular_max = gather_real(&scene->materials->specular_max, words);
   m.phong.table_scale = gather_real(&scene->materials->table_scale, words);
+  m.phong.edge_share = gather_real(&scene->materials->edge_share, words);
   m.phong.table_row = gather_int(&scene->materials->table_row, words);
   m.phong.table = scene->reflectivity;
 #endif
@@ -72,23 +73,17 @@ static inline Real material_density(Material m, Vec3 fixed, Vec3 generated) {
 #endif
 }
 
-static inline Real material_survival(Material m, Vec3 fixed) {
-  const Real phong = phong_survival(m.phong, fixed.z);
+static inline PhongSample material_sample(Material m, Vec3 fixed, RandomSequence sequence, Uint dimension,
+                                          Mask roulette, Mask asked) {
+  const PhongSample phong = phong_sample(m.phong, fixed, sequence, dimension, roulette, asked);
 #ifdef PHLUX_ANISOTROPIC
-  return m.is_anisotropic ? anisotropic_survival(m.anisotropic, fixed.z) : phong;
-#else
-  return phong;
-#endif
-}
-
-static inline PhongSample material_sample(Material m, Vec3 fixed, RandomWords words) {
-  const PhongSample phong = phong_sample(m.phong, fixed, words);
-#ifdef PHLUX_ANISOTROPIC
-  const PhongSample anisotropic = anisotropic_sample(m.anisotropic, fixed, words);
+  const PhongSample anisotropic = anisotropic_sample(m.anisotropic, fixed, sequence, dimension, roulette);
   PhongSample s;
   s.direction = vec_select(m.is_anisotropic, anisotropic.direction, phong.direction);
   s.weight = vec_select(m.is_anisotropic, anisotropic.weight, phong.weight);
   s.density = m.is_anisotropic ? anisotropic.density : phong.density;
+  s.survives = (m.is_anisotropic & anisotropic.survives) | ((!m.is_anisotropic) & phong.survives);
+  s.draws = phong.draws;
   return s;
 #else
   return phong;

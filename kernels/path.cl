@@ -7,9 +7,6 @@
 #include "surface.cl"
 #include "traverse.cl"
 
-// A path may reflect without loss where the reflectivity is 1; this lets roulette end it all the same.
-#define LARGEST_SURVIVAL 0.999f
-
 // Purposes of random words: dimension 0 is the place in the pixel, then two for every edge.
 #define DIMENSION_REFLECTION(edges) (2 * (edges))
 #define DIMENSION_LIGHT(edges) (2 * (edges) + 1)
@@ -117,18 +114,13 @@ static inline Mask add_light_sample(const Scene* scene, Path* path, SurfacePoint
 
 // Reflects the paths of m; returns those that go on: not absorbed by roulette, and above the surface.
 static inline Mask reflect(Path* path, SurfacePoint point, Material material, Vec3 fixed, int roulette_edges, Mask m) {
-  RandomWords words =
-      random_words(path->sequence, int_to_uint(DIMENSION_REFLECTION(path->edges)), 0);
-  const Real survival = path->edges >= roulette_edges
-                            ? smaller(material_survival(material, fixed), (Real)(LARGEST_SURVIVAL))
-                            : (Real)(1.0f);
-  const Mask survives = uniform_real(words.w) < survival;
-  const PhongSample sample = material_sample(material, fixed, words);
+  const PhongSample sample =
+      material_sample(material, fixed, path->sequence, int_to_uint(DIMENSION_REFLECTION(path->edges)),
+                      path->edges >= roulette_edges, m);
   const Vec3 direction = from_frame(point.frame, sample.direction);
   const Mask goes_on =
-      m & survives & (sample.direction.z > 0.0f) & (vec_dot(point.normal, direction) > 0.0f);
-  path->throughput =
-      vec_select(goes_on, vec_scale(1.0f / survival, vec_mul(path->throughput, sample.weight)), path->throughput);
+      m & sample.survives & (sample.direction.z > 0.0f) & (vec_dot(point.normal, direction) > 0.0f);
+  path->throughput = vec_select(goes_on, vec_mul(path->throughput, sample.weight), path->throughput);
   path->density = sample.density;
   path->sky_density = sample.direction.z * PHONG_INV_PI;
   path->ray.origin = step_off(point.position, point.normal, point.error, direction);

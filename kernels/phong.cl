@@ -6,24 +6,37 @@
 // direction that is known (towards the eye on an eye path, towards the light on a light path) and must lie above the
 // surface; `generated` is the other one. The model is reciprocal, its sampling densities are not: they depend on which
 // direction was fixed. alpha is the angle between `generated` and the mirror image of `fixed`, clamped to pi / 2.
-// Densities are per solid angle. Every function computes all lanes; a lane that is off may hold anything.
+// Densities are per solid angle. Every function computes all lanes; a lane that is off may hold anything. phong_sample
+// takes the mask of the lanes that matter, so that no time goes into drawing for the others.
 //
 // PHLUX_STRATEGY chooses how phong_sample draws. PHLUX_PHONG_LOBE is defined where some material has ks > 0; without
-// it the model is kd / pi and no code of the lobe is compiled.
+// it the model is kd / pi and no code of the lobe is compiled. phong-sampling.md derives what is not in CW 197.
 #ifndef PHLUX_PHONG_CL
 #define PHLUX_PHONG_CL
 
 #include "frames.h"
 #include "lanes.h"
 #include "random.h"
+#include "random_directions.h"
 
-#define STRATEGY_COSINE 1
-#define STRATEGY_LOBE_KS 2
-#define STRATEGY_LOBE_RHO 3
-#define STRATEGY_MIXTURE 4
+#define STRATEGY_UNIFORM 1
+#define STRATEGY_THETA_PHI 2
+#define STRATEGY_COSINE 3
+#define STRATEGY_DISK 4
+#define STRATEGY_REJECTION 5
+#define STRATEGY_LOBE_KS 6
+#define STRATEGY_LOBE_ESTIMATE_PRINTED 7
+#define STRATEGY_LOBE_ESTIMATE 8
+#define STRATEGY_LOBE_RHO 9
+#define STRATEGY_MIXTURE 10
+#define STRATEGY_FOLD 11
+#define STRATEGY_EXACT 12
 
 #define PHONG_PI 3.14159265358979f
 #define PHONG_INV_PI 0.318309886183791f
+
+// A path may reflect without loss where the reflectivity is 1; this lets roulette end it all the same.
+#define PHONG_LARGEST_SURVIVAL 0.999f
 
 // Intervals of a row of the reflectivity table; a row has one value more. The host that fills the table defines it.
 #ifndef PHONG_TABLE_INTERVALS
@@ -40,26 +53,29 @@ typedef struct {
   Real table_scale;               // table positions per unit of cosine: PHONG_TABLE_INTERVALS / min(1, 6 / sqrt(n + 1))
   Int table_row;                  // index of the row's first value
   const __global float* table;    // rows of rho_s / ks
+  Real edge_share; // exact: (n + 2) / (2 pi (n + 1)) sqrt(pi) Gamma((n + 3) / 2) / Gamma((n + 4) / 2)
 #endif
 } Phong;
 
 typedef struct {
   Vec3 direction; // may lie below the surface: then weight is 0
-  Vec3 weight;    // f_r cos / density, per channel
-  Real density;   // of `direction` under the strategy
+  Vec3 weight;    // f_r cos / (density x probability of surviving), per channel
+  Real density;   // of `direction`, given that the path survives
+  Mask survives;  // roulette: all lanes in which it was not asked for
+  Int draws;      // directions that were drawn to find this one
 } PhongSample;
 
 // ---- The lobe
 
 #ifdef PHLUX_PHONG_LOBE
 
-// cos^n(alpha), 0 beyond pi / 2. |w - r|^2 / 2 = 1 - cos(alpha) without cancellation: right to 1e-7 at every n, where
-// pow(dot(r, w), n) is off by 3e-2 at n = 1e6.
-static inline Real phong_cosine_power(Real exponent, Vec3 fixed, Vec3 generated) {
+// (n + 2) / 2 cos^n(alpha), 0 beyond pi / 2: the lobe of f_r for ks = pi. |w - r|^2 / 2 = 1 - cos(alpha) without
+// cancellation: right to 1e-7 at every n, where pow(dot(r, w), n) is off by 3e-2 at n = 1e6.
+static inline Real phong_lobe(Phong m, Vec3 fixed, Vec3 generated) {
   const Real dx = generated.x + fixed.x, dy = generated.y + fixed.y, dz = generated.z - fixed.z;
   const Real one_minus_cosine = 0.5f * fma(dx, dx, fma(dy, dy, dz * dz));
-  const Real power = exp(exponent * log1p(-one_minus_cosine));
-  return one_minus_cosine < 1.0f ? power : (Real)(0.0f);
+  const Real power = exp(m.exponent * log1p(-one_minus_cosine));
+  return one_minus_cosine < 1.0f ? fma(m.exponent, (Real)(0.5f), (Real)(1.0f)) * power : (Real)(0.0f);
 }
 
 // rho_s / ks, the reflectivity of the lobe alone for the angle whose cosine is given: CW 197's integral, which has a
@@ -73,42 +89,18 @@ static inline Real phong_lobe_reflectivity(Phong m, Real cosine) {
   return position < (float)PHONG_TABLE_INTERVALS ? tabulated : cosine;
 }
 
-// A direction with density (n + 1) / (2 pi) cos^n(alpha). -expm1(2 log(u) / (n + 1)) is sin^2(alpha) to 1e-7 at every
-// n; 1 - pow(u, 2 / (n + 1)) is not even of the right order at n = 1e4. The frame about the mirrored direction is
-// built from components of `fixed` alone and cancels nowhere.
-static inline Vec3 phong_sample_lobe(Real exponent, Vec3 fixed, Real u1, Real u2) {
-  const Real minus_sine2 = expm1(2.0f * log(u1) / (exponent + 1.0f));
-  const Real sine = sqrt(-minus_sine2), cosine = sqrt(1.0f + minus_sine2);
-  Real cos_phi, sin_phi;
-  cos_sin_turns(u2, &cos_phi, &sin_phi);
-  const Real s = sqrt(fma(fixed.x, fixed.x, fixed.y * fixed.y));
-  const Mask tilted = s > 0.0f;
-  const Real p = tilted ? fixed.x / s : (Real)(1.0f), q = tilted ? fixed.y / s : (Real)(0.0f);
-  const Real c = fixed.z, x = sine * cos_phi, y = sine * sin_phi;
-  const Real outward = fma(c, x, s * cosine); // along -(p, q)
-  return vec3(fma(q, y, -p * outward), -fma(p, y, q * outward), fma(c, cosine, -s * x));
-}
-
 #endif
 
-// ---- The four functions of a reflectance model
-
-static inline Vec3 phong_cosine_sample(Real u1, Real u2) {
-  Real cos_phi, sin_phi;
-  cos_sin_turns(u2, &cos_phi, &sin_phi);
-  const Real sine = sqrt(1.0f - u1);
-  return vec3(sine * cos_phi, sine * sin_phi, sqrt(u1));
-}
+// ---- Evaluation and integration
 
 // f_r; 0 for a direction below the surface.
 static inline Vec3 phong_eval(Phong m, Vec3 fixed, Vec3 generated) {
-  Vec3 value = vec_scale((Real)(PHONG_INV_PI), m.diffuse);
+  Vec3 value = m.diffuse;
 #ifdef PHLUX_PHONG_LOBE
-  const Real lobe =
-      (m.exponent + 2.0f) * (0.5f * PHONG_INV_PI) * phong_cosine_power(m.exponent, fixed, generated);
-  value = vec_along(value, lobe, m.specular);
+  value = vec_along(value, phong_lobe(m, fixed, generated), m.specular);
 #endif
-  return vec_select((fixed.z > 0.0f) & (generated.z > 0.0f), value, vec_all((Real)(0.0f)));
+  const Mask above = (fixed.z > 0.0f) & (generated.z > 0.0f);
+  return vec_select(above, vec_scale((Real)(PHONG_INV_PI), value), vec_all((Real)(0.0f)));
 }
 
 // The fraction of the light from `fixed` that is reflected, per channel (rho_d + rho_s); cosine = fixed.z.
@@ -120,102 +112,295 @@ static inline Vec3 phong_reflectivity(Phong m, Real cosine) {
 #endif
 }
 
-// The probability with which roulette should let a path live: what the strategy takes for the reflectivity, in the
-// channel where it is largest. No channel's throughput can then rise over a bounce, whatever the colours; with the mean
-// over the channels a path between red walls would have infinite variance in red.
-static inline Real phong_survival(Phong m, Real cosine) {
-#ifdef PHLUX_PHONG_LOBE
-#if PHLUX_STRATEGY == STRATEGY_LOBE_KS
-  return vec_max(vec_add(m.diffuse, m.specular));
+// Roulette: the probability with which the paths of `roulette` survive; all others do. Where `reflectivity` is that of the
+// largest channel, no channel's throughput rises over a bounce; with the mean over the channels a path between red
+// walls would have infinite variance in red.
+static inline Real survival_of(Real reflectivity, Mask roulette) {
+  return roulette ? smaller(reflectivity, (Real)(PHONG_LARGEST_SURVIVAL)) : (Real)(1.0f);
+}
+
+// ---- Sampling without regard to the lobe
+
+#ifndef PHLUX_PHONG_LOBE
+
+static inline Real phong_density(Phong m, Vec3 fixed, Vec3 generated) {
+  return larger(generated.z, (Real)(0.0f)) * PHONG_INV_PI;
+}
+
+static inline PhongSample phong_sample(Phong m, Vec3 fixed, RandomSequence sequence, Uint dimension, Mask roulette,
+                                       Mask asked) {
+  const RandomWords words = random_words(sequence, dimension, 0);
+  const Real survival = survival_of(vec_max(m.diffuse), roulette);
+  PhongSample s;
+  s.direction = cosine_direction(uniform_real(words.y), uniform_real(words.z));
+  s.density = s.direction.z * PHONG_INV_PI;
+  s.weight = vec_scale(1.0f / survival, m.diffuse);
+  s.survives = uniform_real(words.x) < survival;
+  s.draws = (Int)(1);
+  return s;
+}
+
+#elif PHLUX_STRATEGY <= STRATEGY_DISK
+
+static inline Real phong_density(Phong m, Vec3 fixed, Vec3 generated) {
+#if PHLUX_STRATEGY == STRATEGY_UNIFORM
+  const Real density = (Real)(0.5f * PHONG_INV_PI);
+#elif PHLUX_STRATEGY == STRATEGY_THETA_PHI
+  const Real density =
+      (PHONG_INV_PI * PHONG_INV_PI) / sqrt(fma(generated.x, generated.x, generated.y * generated.y));
 #else
-  return vec_max(phong_reflectivity(m, cosine));
+  const Real density = generated.z * PHONG_INV_PI;
 #endif
+  return generated.z > 0.0f ? density : (Real)(0.0f);
+}
+
+static inline Vec3 plain_direction(Real u1, Real u2) {
+#if PHLUX_STRATEGY == STRATEGY_UNIFORM
+  return hemisphere_direction(u1, u2);
+#elif PHLUX_STRATEGY == STRATEGY_THETA_PHI
+  return theta_phi_direction(u1, u2);
+#elif PHLUX_STRATEGY == STRATEGY_COSINE
+  return cosine_direction(u1, u2);
 #else
-  return vec_max(m.diffuse);
+  return disk_direction(u1, u2);
 #endif
 }
 
-#ifdef PHLUX_PHONG_LOBE
+static inline PhongSample phong_sample(Phong m, Vec3 fixed, RandomSequence sequence, Uint dimension, Mask roulette,
+                                       Mask asked) {
+  const RandomWords words = random_words(sequence, dimension, 0);
+  const Real survival = survival_of(vec_max(phong_reflectivity(m, fixed.z)), roulette);
+  PhongSample s;
+  s.direction = plain_direction(uniform_real(words.y), uniform_real(words.z));
+  s.density = phong_density(m, fixed, s.direction);
+  s.weight = vec_scale(s.direction.z / (s.density * survival), phong_eval(m, fixed, s.direction));
+  s.survives = uniform_real(words.x) < survival;
+  s.draws = (Int)(1);
+  return s;
+}
 
-// How often each lobe is drawn, up to a common factor.
+#else
+
+// ---- Sampling one lobe or the other
+
+// How often each lobe is drawn, and with what probability a path survives roulette.
 typedef struct {
-  Real diffuse, specular;
+  Real diffuse, specular, survival;
 } PhongShares;
 
-static inline PhongShares phong_shares(Phong m, Real cosine) {
+// For a lobe that reflects `reflectivity` of what it would at normal incidence, or is taken to.
+static inline PhongShares shares_for(Phong m, Real reflectivity) {
   PhongShares shares;
   shares.diffuse = m.diffuse_max;
-#if PHLUX_STRATEGY == STRATEGY_LOBE_KS
-  shares.specular = m.specular_max;
-#else
-  shares.specular = m.specular_max * phong_lobe_reflectivity(m, cosine);
-#endif
+  shares.specular = m.specular_max * reflectivity;
+  shares.survival = vec_max(vec_along(m.diffuse, reflectivity, m.specular));
   return shares;
 }
 
-#if PHLUX_STRATEGY == STRATEGY_COSINE
-
-// The whole model, weighted by the cosine density.
-static inline Real phong_density(Phong m, Vec3 fixed, Vec3 generated) {
-  return larger(generated.z, (Real)(0.0f)) * PHONG_INV_PI;
+static inline PhongShares phong_shares(Phong m, Real cosine) {
+#if PHLUX_STRATEGY == STRATEGY_LOBE_KS
+  return shares_for(m, (Real)(1.0f));
+#else
+  return shares_for(m, phong_lobe_reflectivity(m, cosine));
+#endif
 }
 
-static inline PhongSample phong_sample(Phong m, Vec3 fixed, RandomWords words) {
+// f_r cos / density / survival, of the whole model.
+static inline Vec3 whole_weight(Phong m, Vec3 fixed, Vec3 direction, Real density, Real survival) {
+  const Vec3 weight = vec_scale(direction.z / (density * survival), phong_eval(m, fixed, direction));
+  return vec_select((direction.z > 0.0f) & (density > 0.0f), weight, vec_all((Real)(0.0f)));
+}
+
+#if PHLUX_STRATEGY == STRATEGY_EXACT || PHLUX_STRATEGY == STRATEGY_REJECTION
+
+// The density is the model itself, f_r cos / rho, in the largest channels; a colourless material's weight is rho.
+
+static inline Real phong_density(Phong m, Vec3 fixed, Vec3 generated) {
+  const PhongShares shares = phong_shares(m, fixed.z);
+  const Real value = fma(phong_lobe(m, fixed, generated), m.specular_max, m.diffuse_max);
+  return larger(generated.z, (Real)(0.0f)) * PHONG_INV_PI * value / (shares.diffuse + shares.specular);
+}
+
+static inline PhongSample model_sample(Phong m, Vec3 fixed, Vec3 direction, PhongShares shares, Real survival) {
+  const Real total = shares.diffuse + shares.specular;
+  const Real lobe = phong_lobe(m, fixed, direction);
+  const Real value = fma(lobe, m.specular_max, m.diffuse_max);
+  const Vec3 colour = vec_along(m.diffuse, lobe, m.specular);
   PhongSample s;
-  s.direction = phong_cosine_sample(uniform_real(words.y), uniform_real(words.z));
-  s.density = s.direction.z * PHONG_INV_PI;
-  s.weight = vec_scale((Real)(PHONG_PI), phong_eval(m, fixed, s.direction));
+  s.direction = direction;
+  s.density = larger(direction.z, (Real)(0.0f)) * PHONG_INV_PI * value / total;
+  s.weight = vec_scale(total / survival, vec3(colour.x / value, colour.y / value, colour.z / value));
+  s.weight = vec_select((direction.z > 0.0f) & (value > 0.0f), s.weight, vec_all((Real)(0.0f)));
+  return s;
+}
+
+#endif
+
+#if PHLUX_STRATEGY == STRATEGY_EXACT
+
+// A direction with density cos^n(alpha) cos(theta), normalised (phong-sampling.md). In longitude psi and latitude beta
+// of the mirror frame it separates into cos^(n + 2)(beta) and cos^n(psi) cos(psi + theta); the latter is a part that
+// is even in psi (a) and one along the edge of the clamped region (b). `u1` and `u2` draw, `coin` decides between the
+// parts and, within its part, again.
+static inline Vec3 exact_direction(Phong m, Vec3 fixed, Real reflectivity, RandomSequence sequence, Uint dimension,
+                                   Real u1, Real u2, Real coin, Mask asked, Int* draws) {
+  const MirrorFrame frame = mirror_frame(fixed);
+  const Real c = frame.cosine, s = frame.sine;
+  const Real sine_power = exp((0.5f * m.exponent + 1.0f) * log1p(-c * c)); // s^(n + 2)
+  const Real share_b = m.edge_share * sine_power / reflectivity;
+  const Mask in_b = asked & (coin < share_b);
+  Vec3 v = cosine_power_direction(m.exponent + 1.0f, u1, u2), chosen = v;
+  if (any_lane(in_b)) {
+    // b: cos(psi) = s u^(1 / (n + 1)), towards the normal, at the same latitude.
+    const Real minus_fall = expm1(2.0f * log(coin / share_b) / (m.exponent + 1.0f));
+    const Real cos_beta = sqrt((1.0f - v.y) * (1.0f + v.y));
+    const Vec3 b = vec3(-cos_beta * sqrt(fma(-s * s, minus_fall, c * c)), v.y, cos_beta * s * sqrt(1.0f + minus_fall));
+    chosen = vec_select(in_b, b, chosen);
+  }
+  // a: v or its mirror image about psi = 0, in proportion to their heights; where the lower one is below the surface
+  // half of the draws are refused.
+  Mask drawing = asked & !in_b;
+  Real again = (coin - share_b) / (1.0f - share_b);
+  *draws = (Int)(1);
+  for (uint draw = 1;; ++draw) {
+    const Real side = fabs(v.x) * s, up = fma(v.z, c, side), down = fma(v.z, c, -side);
+    const Real share_up = down > 0.0f ? up / (up + down) : (Real)(0.5f);
+    const Mask takes_up = again < share_up;
+    const Mask accepted = drawing & (takes_up | (down > 0.0f));
+    chosen = vec_select(accepted, vec3(takes_up ? -fabs(v.x) : fabs(v.x), v.y, v.z), chosen);
+    drawing &= !accepted;
+    if (!any_lane(drawing)) break;
+    const RandomWords words = random_words(sequence, dimension, draw);
+    v = cosine_power_direction(m.exponent + 1.0f, uniform_real(words.y), uniform_real(words.z));
+    again = uniform_real(words.w);
+    *draws += drawing ? (Int)(1) : (Int)(0);
+  }
+  return from_mirror_frame(frame, chosen);
+}
+
+static inline PhongSample phong_sample(Phong m, Vec3 fixed, RandomSequence sequence, Uint dimension, Mask roulette,
+                                       Mask asked) {
+  const RandomWords words = random_words(sequence, dimension, 0);
+  const Real reflectivity = phong_lobe_reflectivity(m, fixed.z);
+  const PhongShares shares = shares_for(m, reflectivity);
+  const Real survival = survival_of(shares.survival, roulette);
+  const Real u = uniform_real(words.x), u1 = uniform_real(words.y), u2 = uniform_real(words.z);
+  const Mask survives = u < survival;
+  const Mask from_lobe = u * (shares.diffuse + shares.specular) >= survival * shares.diffuse;
+  const Mask drawn = asked & survives & from_lobe;
+  Vec3 direction = cosine_direction(u1, u2);
+  Int draws = (Int)(1);
+  if (any_lane(drawn)) {
+    const Vec3 specular = exact_direction(m, fixed, reflectivity, sequence, dimension, u1, u2, uniform_real(words.w),
+                                          drawn, &draws);
+    direction = vec_select(drawn, specular, direction);
+  }
+  PhongSample s = model_sample(m, fixed, direction, shares, survival);
+  s.survives = survives;
+  s.draws = draws;
+  return s;
+}
+
+#elif PHLUX_STRATEGY == STRATEGY_REJECTION
+
+// Hit or miss against a bound of f_r cos, over the cosine density.
+static inline PhongSample phong_sample(Phong m, Vec3 fixed, RandomSequence sequence, Uint dimension, Mask roulette,
+                                       Mask asked) {
+  const PhongShares shares = phong_shares(m, fixed.z);
+  const Real survival = survival_of(shares.survival, roulette);
+  const Real bound = fma(fma(m.exponent, (Real)(0.5f), (Real)(1.0f)), m.specular_max, m.diffuse_max);
+  const RandomWords first = random_words(sequence, dimension, 0);
+  RandomWords words = first;
+  Vec3 direction = cosine_direction(uniform_real(words.y), uniform_real(words.z));
+  Mask drawing = asked;
+  Int draws = (Int)(1);
+  for (uint draw = 1;; ++draw) {
+    const Vec3 proposal = cosine_direction(uniform_real(words.y), uniform_real(words.z));
+    direction = vec_select(drawing, proposal, direction);
+    const Real value = fma(phong_lobe(m, fixed, proposal), m.specular_max, m.diffuse_max);
+    drawing &= uniform_real(words.w) * bound >= value;
+    if (!any_lane(drawing)) break;
+    draws += drawing ? (Int)(1) : (Int)(0);
+    words = random_words(sequence, dimension, draw);
+  }
+  PhongSample s = model_sample(m, fixed, direction, shares, survival);
+  s.survives = uniform_real(first.x) < survival;
+  s.draws = draws;
   return s;
 }
 
 #else
 
-// Density of a direction when a lobe is drawn by its share.
+// Density of a direction when a lobe is drawn by its share. (Where the share is an estimate that varies from sample to
+// sample this is the density for its mean, which serves as well for weighting against other strategies.)
 static inline Real phong_density(Phong m, Vec3 fixed, Vec3 generated) {
   const PhongShares shares = phong_shares(m, fixed.z);
-  const Real specular =
-      (m.exponent + 1.0f) * 0.5f * phong_cosine_power(m.exponent, fixed, generated) * shares.specular;
-  const Real sum = fma(larger(generated.z, (Real)(0.0f)), shares.diffuse, specular);
+  Real lobe = phong_lobe(m, fixed, generated) * (m.exponent + 1.0f) / (m.exponent + 2.0f);
+#if PHLUX_STRATEGY == STRATEGY_FOLD
+  // Twice as dense where the mirror image about psi = 0 lies below the surface: there z c + x s of the mirror frame is
+  // negative. x = -(p, q) . w c - s w.z and z = -(p, q) . w s + c w.z, so that is -2 c s (p, q) . w + (c^2 - s^2) w.z.
+  const MirrorFrame f = mirror_frame(fixed);
+  const Real along = fma(f.p, generated.x, f.q * generated.y);
+  const Real image = fma(-2.0f * f.cosine * f.sine, along, (f.cosine - f.sine) * (f.cosine + f.sine) * generated.z);
+  lobe = generated.z > 0.0f ? (image < 0.0f ? 2.0f * lobe : lobe) : (Real)(0.0f);
+#endif
+  const Real sum = fma(larger(generated.z, (Real)(0.0f)), shares.diffuse, lobe * shares.specular);
   return sum * PHONG_INV_PI / (shares.diffuse + shares.specular);
 }
 
+// What a strategy takes for the reflectivity of the lobe in deciding on lobe and roulette.
+static inline Real phong_guess(Phong m, Vec3 fixed, RandomSequence sequence, Uint dimension) {
+#if PHLUX_STRATEGY == STRATEGY_LOBE_KS
+  return (Real)(1.0f);
+#elif PHLUX_STRATEGY == STRATEGY_LOBE_ESTIMATE || PHLUX_STRATEGY == STRATEGY_LOBE_ESTIMATE_PRINTED
+  // CW 197, 3.3.1: one sample of the lobe, capped at 1; 0 when it falls below the surface. As printed the specular part
+  // is then never taken and its energy is lost (biased); any guess that cannot be 0 is right.
+  const RandomWords words = random_words(sequence, dimension, 1);
+  const Vec3 v = cosine_power_direction(m.exponent, uniform_real(words.y), uniform_real(words.z));
+  const Real height = mirror_frame_height(mirror_frame(fixed), v);
+  const Real estimate =
+      clamp((m.exponent + 2.0f) / (m.exponent + 1.0f) * height, (Real)(0.0f), (Real)(1.0f));
+#if PHLUX_STRATEGY == STRATEGY_LOBE_ESTIMATE
+  return 0.5f + 0.5f * estimate;
+#else
+  return estimate;
+#endif
+#else
+  return phong_lobe_reflectivity(m, fixed.z);
+#endif
+}
+
 // Draws one lobe by its share, then a direction from it.
-static inline PhongSample phong_sample(Phong m, Vec3 fixed, RandomWords words) {
-  const PhongShares shares = phong_shares(m, fixed.z);
-  const Real total = shares.diffuse + shares.specular;
-  const Mask from_lobe = uniform_real(words.x) * total >= shares.diffuse;
-  const Real u1 = uniform_real(words.y), u2 = uniform_real(words.z);
+static inline PhongSample phong_sample(Phong m, Vec3 fixed, RandomSequence sequence, Uint dimension, Mask roulette,
+                                       Mask asked) {
+  const RandomWords words = random_words(sequence, dimension, 0);
+  const PhongShares shares = shares_for(m, phong_guess(m, fixed, sequence, dimension));
+  const Real total = shares.diffuse + shares.specular, survival = survival_of(shares.survival, roulette);
+  const Real u = uniform_real(words.x), u1 = uniform_real(words.y), u2 = uniform_real(words.z);
+  const Mask from_lobe = u * total >= survival * shares.diffuse;
+  Vec3 v = cosine_power_direction(m.exponent, u1, u2);
+  const MirrorFrame frame = mirror_frame(fixed);
+#if PHLUX_STRATEGY == STRATEGY_FOLD
+  v.x = mirror_frame_height(frame, v) < 0.0f ? -v.x : v.x;
+#endif
   PhongSample s;
-  s.direction = vec_select(from_lobe, phong_sample_lobe(m.exponent, fixed, u1, u2), phong_cosine_sample(u1, u2));
+  s.direction = vec_select(from_lobe, from_mirror_frame(frame, v), cosine_direction(u1, u2));
   s.density = phong_density(m, fixed, s.direction);
-#if PHLUX_STRATEGY == STRATEGY_MIXTURE
-  // The whole model over the whole density: bounded by the larger of 1 and (n + 2) / (n + 1) in every channel's share.
-  s.weight = vec_scale(s.direction.z / s.density, phong_eval(m, fixed, s.direction));
+#if PHLUX_STRATEGY == STRATEGY_MIXTURE || PHLUX_STRATEGY == STRATEGY_FOLD
+  s.weight = whole_weight(m, fixed, s.direction, s.density, survival);
 #else
   // The part that was drawn, over its own density (CW 197, 3.3.2).
   const Real specular_weight =
-      total / shares.specular * (m.exponent + 2.0f) / (m.exponent + 1.0f) * s.direction.z;
+      total / (survival * shares.specular) * (m.exponent + 2.0f) / (m.exponent + 1.0f) * s.direction.z;
   s.weight = vec_select(from_lobe, vec_scale(specular_weight, m.specular),
-                        vec_scale(total / shares.diffuse, m.diffuse));
+                        vec_scale(total / (survival * shares.diffuse), m.diffuse));
+  s.weight = vec_select((s.direction.z > 0.0f) & (total > 0.0f), s.weight, vec_all((Real)(0.0f)));
 #endif
-  s.weight = vec_select(s.direction.z > 0.0f, s.weight, vec_all((Real)(0.0f)));
+  s.survives = u < survival;
+  s.draws = (Int)(1);
   return s;
 }
 
 #endif
-#else
-
-static inline Real phong_density(Phong m, Vec3 fixed, Vec3 generated) {
-  return larger(generated.z, (Real)(0.0f)) * PHONG_INV_PI;
-}
-
-static inline PhongSample phong_sample(Phong m, Vec3 fixed, RandomWords words) {
-  PhongSample s;
-  s.direction = phong_cosine_sample(uniform_real(words.y), uniform_real(words.z));
-  s.density = s.direction.z * PHONG_INV_PI;
-  s.weight = m.diffuse;
-  return s;
-}
-
 #endif
 #endif

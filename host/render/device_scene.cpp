@@ -9,8 +9,20 @@
 namespace phlux::render {
 namespace {
 
-// Up to here testing every primitive in turn is as fast as any hierarchy (bench/PERFORMANCE.md).
-constexpr std::uint64_t brute_force_limit = 48;
+// Up to so many primitives, testing each in turn is as fast as a hierarchy: where the two rates crossed on
+// bounce rays in a closed room (bench/PERFORMANCE.md).
+std::uint64_t brute_force_limit(int lanes) {
+  switch (lanes) {
+  case 1:
+    return 32;
+  case 4:
+    return 128;
+  case 8:
+    return 160;
+  default:
+    return 240;
+  }
+}
 
 CameraRecord camera_record(const scene::Camera& camera, const scene::Vec3& origin) {
   CameraRecord record{};
@@ -54,7 +66,7 @@ HostScene prepare(const scene::Scene& scene, Traversal traversal, int lanes) {
   const std::uint64_t primitives = accel::count_primitives(scene);
   if (primitives == 0) throw SceneError("the scene has no shapes: add at least one that the camera can see");
   const bool brute = traversal == Traversal::brute_force ||
-                     (traversal == Traversal::automatic && primitives <= brute_force_limit);
+                     (traversal == Traversal::automatic && primitives <= brute_force_limit(lanes));
   HostScene host;
   host.geometry = brute ? accel::brute_force(scene) : accel::hierarchy(scene, lanes);
   if (host.geometry.primitive_count == 0)

@@ -27,7 +27,16 @@ int add_row(std::vector<float>& rows, double exponent) {
   return first;
 }
 
-float largest(const scene::Rgb& rgb) { return static_cast<float>(std::max({rgb.r, rgb.g, rgb.b})); }
+// What the exact sampler needs of the gamma function: (n + 2) / (2 pi (n + 1)) sqrt(pi) Gamma((n + 3) / 2) /
+// Gamma((n + 4) / 2) (kernels/phong-sampling.md).
+float edge_share(double exponent) {
+  const double ratio = boost::math::tgamma_delta_ratio((exponent + 3) / 2, 0.5);
+  return static_cast<float>((exponent + 2) / (exponent + 1) * ratio / (2 * std::sqrt(std::numbers::pi)));
+}
+
+float largest(const scene::Rgb& rgb) {
+  return static_cast<float>(std::max({rgb.r, rgb.g, rgb.b}));
+}
 
 } // namespace
 
@@ -59,6 +68,7 @@ MaterialTable material_table(const std::vector<scene::Material>& materials) {
       const auto [row, is_new] = row_of_exponent.try_emplace(material.exponent_u, 0);
       if (is_new) row->second = add_row(table.reflectivity, material.exponent_u);
       record.table_row = row->second;
+      record.edge_share = edge_share(material.exponent_u);
       record.table_scale = static_cast<float>(intervals / whole_lobe_cosine(material.exponent_u));
     }
     table.records.push_back(record);

@@ -39,10 +39,18 @@ struct NamedStrategy {
   const char* name;
   const char* macro;
 };
-constexpr NamedStrategy strategies[] = {{"cosine", "STRATEGY_COSINE"},
+constexpr NamedStrategy strategies[] = {{"uniform", "STRATEGY_UNIFORM"},
+                                        {"theta-phi", "STRATEGY_THETA_PHI"},
+                                        {"cosine", "STRATEGY_COSINE"},
+                                        {"disk", "STRATEGY_DISK"},
+                                        {"rejection", "STRATEGY_REJECTION"},
                                         {"lobe-ks", "STRATEGY_LOBE_KS"},
+                                        {"lobe-estimate-printed", "STRATEGY_LOBE_ESTIMATE_PRINTED"},
+                                        {"lobe-estimate", "STRATEGY_LOBE_ESTIMATE"},
                                         {"lobe-rho", "STRATEGY_LOBE_RHO"},
-                                        {"mixture", "STRATEGY_MIXTURE"}};
+                                        {"mixture", "STRATEGY_MIXTURE"},
+                                        {"fold", "STRATEGY_FOLD"},
+                                        {"exact", "STRATEGY_EXACT"}};
 
 const NamedStrategy& find_strategy(const std::string& name) {
   const auto found = std::find_if(std::begin(strategies), std::end(strategies),

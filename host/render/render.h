@@ -18,7 +18,7 @@ enum class Traversal { automatic, brute_force, bvh };
 
 struct Settings {
   std::string integrator = "path";
-  std::string strategy = "mixture"; ///< how directions are sampled, MATH.md 2.3
+  std::string strategy = "exact"; ///< how directions are sampled, MATH.md 2.3
   Connect connect = Connect::mis;
   int samples_per_pixel = 4;          ///< ignored where a time or an error is asked for
   std::optional<double> time_limit;   ///< seconds of rendering
