@@ -1,0 +1,17 @@
+#include "lanes.h"
+#include "scene_data.h"
+
+__kernel void sizes(__global int* size) {
+  int k = 0;
+#define SIZE(type) size[k++] = (int)sizeof(type);
+  SHARED_STRUCTS(SIZE)
+}
+
+// The members' offsets and sizes in a table's first record.
+__kernel void offsets(__global char* memory, __global int* offset, __global int* size) {
+  int k = 0;
+#define OFFSET(type, member)                                                                                           \
+  offset[k] = (int)((__global char*)&((__global type*)memory)->member - memory);                                       \
+  size[k++] = (int)sizeof(((__global type*)memory)->member);
+  SHARED_MEMBERS(OFFSET)
+}
