@@ -44,10 +44,11 @@ static inline Material material_at(const Scene* scene, Int index) {
   return m;
 }
 
-// Lanes whose surface reflects on the side that was hit.
+// Lanes whose surface reflects anything on the side that was hit.
 static inline Mask reflects(const Scene* scene, Int material, Mask front) {
-#ifdef PHLUX_TWO_SIDED
-  return front | ((GATHER_INT(scene->materials, material, flags) & MATERIAL_TWO_SIDED) != 0);
+#if defined(PHLUX_TWO_SIDED) || defined(PHLUX_BLACK)
+  const Int side = front ? (Int)(MATERIAL_FRONT) : (Int)(MATERIAL_BACK);
+  return (GATHER_INT(scene->materials, material, flags) & side) != 0;
 #else
   return front;
 #endif

@@ -35,7 +35,8 @@ typedef struct {
   int region; // flat: enum PlanarRegions; sphere: 1 where the front side is inside
 } PrimitiveRecord;
 
-enum MaterialFlags { MATERIAL_TWO_SIDED = 1, MATERIAL_ANISOTROPIC = 2 };
+// Which sides reflect anything (neither, if the material is black), and which model it is.
+enum MaterialFlags { MATERIAL_FRONT = 1, MATERIAL_BACK = 2, MATERIAL_ANISOTROPIC = 4 };
 
 typedef struct {
   float diffuse[3], specular[3];

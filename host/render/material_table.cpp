@@ -38,6 +38,12 @@ float largest(const scene::Rgb& rgb) {
   return static_cast<float>(std::max({rgb.r, rgb.g, rgb.b}));
 }
 
+int flags_of(const scene::Material& material) {
+  int flags = material.kind == scene::Material::Kind::anisotropic_phong ? MATERIAL_ANISOTROPIC : 0;
+  if (material.reflects()) flags |= MATERIAL_FRONT | (material.two_sided ? MATERIAL_BACK : 0);
+  return flags;
+}
+
 } // namespace
 
 double lobe_reflectivity(double exponent, double cosine) {
@@ -63,7 +69,7 @@ MaterialTable material_table(const std::vector<scene::Material>& materials) {
     record.exponent_v = static_cast<float>(material.exponent_v);
     record.diffuse_max = largest(material.diffuse);
     record.specular_max = largest(material.specular);
-    record.flags = (material.two_sided ? MATERIAL_TWO_SIDED : 0) | (anisotropic ? MATERIAL_ANISOTROPIC : 0);
+    record.flags = flags_of(material);
     if (!anisotropic && material.specular != scene::Rgb(0.0)) {
       const auto [row, is_new] = row_of_exponent.try_emplace(material.exponent_u, 0);
       if (is_new) row->second = add_row(table.reflectivity, material.exponent_u);

@@ -23,6 +23,7 @@ constexpr NamedPart named_parts[] = {
     {&Parts::spheres, "spheres", "PHLUX_SPHERES"},
     {&Parts::smooth_normals, "smooth_normals", "PHLUX_SMOOTH_NORMALS"},
     {&Parts::two_sided, "two_sided", "PHLUX_TWO_SIDED"},
+    {&Parts::black, "black", "PHLUX_BLACK"},
     {&Parts::phong_lobe, "phong_lobe", "PHLUX_PHONG_LOBE"},
     {&Parts::anisotropic, "anisotropic", "PHLUX_ANISOTROPIC"},
     {&Parts::emission, "emission", "PHLUX_EMISSION"},
@@ -97,6 +98,7 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
   for (const scene::Material& m : scene.materials) {
     const bool anisotropic = m.kind == scene::Material::Kind::anisotropic_phong;
     parts.two_sided |= m.two_sided;
+    parts.black |= !m.reflects();
     parts.anisotropic |= anisotropic;
     parts.phong_lobe |= !anisotropic && m.specular != scene::Rgb(0.0);
   }

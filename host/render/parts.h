@@ -15,7 +15,7 @@ struct Parts {
   int lanes = 1;
   bool hierarchy = false;
   bool planars = false, triangles = false, parallelograms = false, ellipses = false, spheres = false;
-  bool smooth_normals = false, two_sided = false;
+  bool smooth_normals = false, two_sided = false, black = false;
   bool phong_lobe = false, anisotropic = false;
   bool emission = false; ///< a ray can hit a light's surface
   bool light_planar = false, light_sphere = false, light_point = false, light_spot = false,

@@ -16,8 +16,8 @@ namespace phlux::scene {
 using Vec3 = glm::dvec3;
 using Rgb = glm::dvec3;
 
-/// A reflectance model and its parameters. `phong` is the modified Phong model of CW 197 (a diffuse surface has
-/// `specular` 0); `anisotropic_phong` is Ashikhmin and Shirley's. Energy is conserved: for `phong`,
+/// A reflectance model and its parameters. `phong` is the modified Phong model of CW 197 (a diffuse surface
+/// has `specular` 0); `anisotropic_phong` is Ashikhmin and Shirley's. Energy is conserved: for `phong`,
 /// diffuse + specular <= 1 in every channel. Exponents are >= 0; `phong` uses exponent_u alone.
 struct Material {
   enum class Kind { phong, anisotropic_phong };
@@ -27,6 +27,7 @@ struct Material {
   double exponent_u = 0.0;
   double exponent_v = 0.0;
   bool two_sided = false; ///< reflects on both sides; otherwise the back is black
+  [[nodiscard]] bool reflects() const { return diffuse != Rgb(0.0) || specular != Rgb(0.0); }
   bool operator==(const Material&) const = default;
 };
 
@@ -52,9 +53,9 @@ struct Sphere {
   Surface surface;
 };
 
-/// Triangles that share vertices. The front side is counter-clockwise (along cross(p1 - p0, p2 - p0)); the loader has
-/// already reversed triangles and normals for flipNormals and for transforms that mirror, and dropped triangles
-/// without area.
+/// Triangles that share vertices. The front side is counter-clockwise (along cross(p1 - p0, p2 - p0)); the
+/// loader has already reversed triangles and normals for flipNormals and for transforms that mirror, and
+/// dropped triangles without area.
 struct Mesh {
   std::vector<Vec3> positions;
   std::vector<glm::vec3> normals; ///< unit, one per position; empty: flat shading
@@ -84,12 +85,15 @@ struct DirectionalLight {
   Rgb irradiance{1.0};     ///< W / m^2 on a surface facing the light
 };
 
-/// A pinhole. In its own frame it looks along +z, +y is up and, as in Mitsuba, +x points to the left of the image.
+/// A pinhole. In its own frame it looks along +z, +y is up and, as in Mitsuba, +x points to the left of the
+/// image.
 struct Camera {
-  Vec3 position{0.0}, left{1, 0, 0}, up{0, 1, 0}, forward{0, 0, 1}; ///< orthonormal; right-handed unless toWorld mirrors
+  Vec3 position{0.0}, left{1, 0, 0}, up{0, 1, 0},
+      forward{0, 0, 1};        ///< orthonormal; right-handed unless toWorld mirrors
   double tan_half_fov_x = 1.0; ///< tangent of half the horizontal field of view
-  double principal_x = 0.0, principal_y = 0.0; ///< Mitsuba's principalPointOffset, in units of the film's size
-  int width = 768, height = 576;               ///< pixels, square
+  double principal_x = 0.0,
+         principal_y = 0.0;      ///< Mitsuba's principalPointOffset, in units of the film's size
+  int width = 768, height = 576; ///< pixels, square
 };
 
 /// What the scene file asks of the renderer; the command line overrides it.
