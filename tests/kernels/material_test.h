@@ -1,0 +1,94 @@
+// Materials on the device: evaluated, sampled, and so on, for any strategy and width.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "device_test.h"
+#include "directions.h"
+#include "render/device_scene.h"
+#include "render/parts.h"
+
+namespace device_test {
+
+struct Sample {
+  Float3 direction, weight;
+  float density;
+  int survives, draws;
+};
+
+class MaterialProgram {
+public:
+  MaterialProgram(Variant variant, const std::vector<phlux::scene::Material>& materials,
+                  const std::string& strategy) {
+    phlux::scene::Scene scene;
+    scene.materials = materials;
+    scene.spheres.push_back({}); // a scene has some shape
+    phlux::render::Settings settings;
+    settings.strategy = strategy;
+    settings.connect = phlux::render::Connect::none;
+    const auto host = phlux::render::prepare(scene, phlux::render::Traversal::brute_force, variant.width);
+    const auto parts = phlux::render::find_parts(scene, host.geometry, host.lights, settings, variant.width);
+    program_ = std::make_unique<Program>(variant, read_file("material.cl"), parts.defines());
+    scene_ = std::make_unique<phlux::render::DeviceScene>(test_device(), host, parts);
+  }
+
+  [[nodiscard]] std::vector<Float3> eval(int material, const std::vector<Float3>& fixed,
+                                         const std::vector<Float3>& generated) const {
+    std::vector<Float3> values(generated.size());
+    run("evaluate", values.size(), material, fixed, generated, out(values));
+    return values;
+  }
+  [[nodiscard]] std::vector<float> density(int material, const std::vector<Float3>& fixed,
+                                           const std::vector<Float3>& generated) const {
+    std::vector<float> values(generated.size());
+    run("density_of", values.size(), material, fixed, generated, out(values));
+    return values;
+  }
+  /// Of the modified Phong model.
+  [[nodiscard]] std::vector<Float3> reflectivity(int material, const std::vector<float>& cosines) const {
+    std::vector<Float3> values(cosines.size());
+    run("reflectivity_of", values.size(), material, cosines, out(values));
+    return values;
+  }
+  [[nodiscard]] std::vector<Sample> sample(int material, const Float3& fixed, std::size_t count,
+                                           std::uint32_t seed, bool roulette) const {
+    std::vector<std::uint32_t> paths(count);
+    for (std::size_t i = 0; i < count; ++i) paths[i] = static_cast<std::uint32_t>(i);
+    std::vector<Sample> samples(count);
+    const cl_uint2 key = {{seed, 0x5eed}};
+    run("sample_of", count, material, std::vector<Float3>{fixed}, key, roulette ? 1 : 0, paths, out(samples));
+    return samples;
+  }
+
+private:
+  template<typename... Arguments>
+  void run(const char* name, std::size_t count, const Arguments&... arguments) const {
+    cl::Kernel kernel = program_->kernel(name);
+    const cl_uint first = scene_->bind(kernel);
+    program_->run_bound(kernel, first, count, arguments...);
+  }
+
+  std::unique_ptr<Program> program_;
+  std::unique_ptr<phlux::render::DeviceScene> scene_;
+};
+
+inline phlux::scene::Material phong(const phlux::scene::Rgb& diffuse, const phlux::scene::Rgb& specular,
+                                    double exponent) {
+  phlux::scene::Material m;
+  m.diffuse = diffuse;
+  m.specular = specular;
+  m.exponent_u = exponent;
+  return m;
+}
+
+inline phlux::scene::Material anisotropic(const phlux::scene::Rgb& diffuse, const phlux::scene::Rgb& specular,
+                                          double exponent_u, double exponent_v) {
+  phlux::scene::Material m = phong(diffuse, specular, exponent_u);
+  m.kind = phlux::scene::Material::Kind::anisotropic_phong;
+  m.exponent_v = exponent_v;
+  return m;
+}
+
+} // namespace device_test

@@ -1,0 +1,38 @@
+// Every member of every struct that host and kernels share, for both compilers to say where they put it.
+#define SHARED_STRUCTS(STRUCT)                                                                               \
+  STRUCT(PrimitiveRecord) STRUCT(MaterialRecord) STRUCT(LightRecord) STRUCT(CameraRecord)
+
+#define SHARED_MEMBERS(MEMBER)                                                                               \
+  MEMBER(PrimitiveRecord, material)                                                                          \
+  MEMBER(PrimitiveRecord, light)                                                                             \
+  MEMBER(PrimitiveRecord, region)                                                                            \
+  MEMBER(MaterialRecord, diffuse)                                                                            \
+  MEMBER(MaterialRecord, specular)                                                                           \
+  MEMBER(MaterialRecord, exponent)                                                                           \
+  MEMBER(MaterialRecord, exponent_v)                                                                         \
+  MEMBER(MaterialRecord, diffuse_max)                                                                        \
+  MEMBER(MaterialRecord, specular_max)                                                                       \
+  MEMBER(MaterialRecord, table_scale)                                                                        \
+  MEMBER(MaterialRecord, edge_share)                                                                         \
+  MEMBER(MaterialRecord, table_row)                                                                          \
+  MEMBER(MaterialRecord, flags)                                                                              \
+  MEMBER(LightRecord, kind)                                                                                  \
+  MEMBER(LightRecord, primitive)                                                                             \
+  MEMBER(LightRecord, power)                                                                                 \
+  MEMBER(LightRecord, area)                                                                                  \
+  MEMBER(LightRecord, position)                                                                              \
+  MEMBER(LightRecord, direction)                                                                             \
+  MEMBER(LightRecord, cos_cutoff)                                                                            \
+  MEMBER(LightRecord, cutoff)                                                                                \
+  MEMBER(LightRecord, inv_transition)                                                                        \
+  MEMBER(LightRecord, probability)                                                                           \
+  MEMBER(LightRecord, alias_threshold)                                                                       \
+  MEMBER(LightRecord, alias)                                                                                 \
+  MEMBER(CameraRecord, position)                                                                             \
+  MEMBER(CameraRecord, forward)                                                                              \
+  MEMBER(CameraRecord, left)                                                                                 \
+  MEMBER(CameraRecord, up)                                                                                   \
+  MEMBER(CameraRecord, principal_x)                                                                          \
+  MEMBER(CameraRecord, principal_y)                                                                          \
+  MEMBER(CameraRecord, width)                                                                                \
+  MEMBER(CameraRecord, height)

@@ -1,0 +1,142 @@
+// The anisotropic model of Ashikhmin and Shirley against its formulas and its own sampler.
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "sampling_test.h"
+
+using namespace device_test;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+const std::vector<phlux::scene::Material> materials{anisotropic({.4, .3, .2}, {.05, .2, .5}, 10, 200),
+                                                    anisotropic({0, 0, 0}, {.9, .8, .7}, 1000, 100),
+                                                    anisotropic({.9, .5, .1}, {0, .02, .04}, 3, 0)};
+constexpr double angles[] = {0, 40, 80}; // degrees
+
+Float3 fixed_at(double degrees) {
+  return to_float(polar(degrees * pi / 180, 0.7));
+}
+
+double fifth(double x) {
+  return std::pow(x, 5);
+}
+
+// MATH.md 3, in float64.
+glm::dvec3 formula(const phlux::scene::Material& m, const glm::dvec3& k1, const glm::dvec3& k2) {
+  if (k1.z <= 0 || k2.z <= 0) return glm::dvec3(0);
+  const glm::dvec3 h = glm::normalize(k1 + k2);
+  const double hk = glm::dot(h, k1), sine2 = h.x * h.x + h.y * h.y;
+  const double weighted = m.exponent_u * h.x * h.x + m.exponent_v * h.y * h.y;
+  const double power = sine2 > 0 ? std::exp(weighted / sine2 * 0.5 * std::log1p(-sine2)) : 1;
+  const double lobe =
+      std::sqrt((m.exponent_u + 1) * (m.exponent_v + 1)) / (8 * pi) * power / (hk * std::max(k1.z, k2.z));
+  const glm::dvec3 fresnel = m.specular + (1.0 - m.specular) * fifth(1 - hk);
+  const double under = 28 / (23 * pi) * (1 - fifth(1 - k1.z / 2)) * (1 - fifth(1 - k2.z / 2));
+  return lobe * fresnel + under * m.diffuse * (1.0 - m.specular);
+}
+
+SphereGrid grid_of(const phlux::scene::Material& m, const Float3& fixed) {
+  // A lobe of half vectors is about four times as wide, in solid angle, as seen in mirrored directions.
+  auto cuts = lobe_cuts(m.exponent_u / 4);
+  for (const double cut : lobe_cuts(m.exponent_v / 4)) cuts.push_back(cut);
+  return {glm::normalize(glm::dvec3(-fixed.x, -fixed.y, fixed.z)), cuts};
+}
+
+} // namespace
+
+TEST_CASE("anisotropic: the value is the formula's, the same both ways, and 0 below the surface") {
+  Random random(41);
+  std::vector<Float3> a, b;
+  for (std::size_t i = 0; i < thinned(8000); ++i) {
+    const glm::dvec3 from = random.direction_above();
+    const glm::dvec3 mirrored(-from.x, -from.y, from.z);
+    const double spread = std::exp2(-random.uniform(0, 8));
+    a.push_back(to_float(from));
+    b.push_back(
+        to_float(i % 2 == 0 ? random.direction() : glm::normalize(mirrored + spread * random.point())));
+  }
+  a.push_back({0, 0, 1}); // h = N: 0/0 in the formula
+  b.push_back({0, 0, 1});
+  for (const Variant v : variants) {
+    const MaterialProgram program(v, materials, "mixture");
+    for (int m = 0; m < static_cast<int>(materials.size()); ++m) {
+      CAPTURE(v, m);
+      const auto& material = materials[static_cast<std::size_t>(m)];
+      const auto value = program.eval(m, a, b), back = program.eval(m, b, a);
+      for (std::size_t i = 0; i < a.size(); ++i) {
+        const auto from = to_double(a[i]), to = to_double(b[i]);
+        const auto right = formula(material, from, to), got = to_double(value[i]), other = to_double(back[i]);
+        CAPTURE(i, from.x, from.y, from.z, to.x, to.y, to.z);
+        // h is right to a few 2^-24 over |k1 + k2| / 2 = h.k, and to the power of up to n |sin h|.
+        const double hk = glm::length(from + to) / 2;
+        const double steep = 1 + std::max(material.exponent_u, material.exponent_v) *
+                                     glm::length(glm::dvec2(glm::normalize(from + to)));
+        const double tolerance = 4e-6 + 4e-7 * steep / hk;
+        for (int channel = 0; channel < 3; ++channel) {
+          REQUIRE(std::abs(got[channel] - right[channel]) <= tolerance * right[channel] + 1e-30);
+          REQUIRE(std::abs(got[channel] - other[channel]) <= 2 * tolerance * right[channel] + 1e-30);
+        }
+        if (b[i].z <= 0) REQUIRE(got == glm::dvec3(0));
+      }
+    }
+  }
+}
+
+TEST_CASE(
+    "anisotropic: draws by its density, which integrates to no more than 1, and carries the reflectivity",
+    "[slow]") {
+  const std::size_t questions = std::size(variants) * materials.size() * std::size(angles) * 2 * 4;
+  for (const Variant v : variants) {
+    const MaterialProgram program(v, materials, "exact");
+    std::uint32_t seed = static_cast<std::uint32_t>(v.width) * 100 + (v.portable ? 50 : 0);
+    for (int m = 0; m < static_cast<int>(materials.size()); ++m)
+      for (const double angle : angles) {
+        CAPTURE(v, m, angle);
+        const Float3 fixed = fixed_at(angle);
+        const SphereGrid grid = grid_of(materials[static_cast<std::size_t>(m)], fixed);
+        auto cells = density_in_cells(program, m, fixed, grid);
+        double integral = 0, below = 0;
+        for (std::size_t cell = 0; cell < cells.size(); ++cell) integral += cells[cell];
+        for (std::size_t cell = 0; cell < cells.size(); cell += 2) below += std::exchange(cells[cell], 0.0);
+        CHECK(integral - below <= 1 + 1e-4);
+        CHECK(integral - below >= 0.3);
+
+        glm::dvec3 reflectivity(0);
+        std::vector<Float3> directions;
+        const auto nodes = grid.nodes();
+        for (const Node& node : nodes) directions.push_back(to_float(node.direction));
+        const auto values = program.eval(m, {fixed}, directions);
+        for (std::size_t i = 0; i < nodes.size(); ++i)
+          reflectivity += to_double(values[i]) * nodes[i].weight * nodes[i].direction.z;
+
+        for (const bool roulette : {false, true}) {
+          CAPTURE(roulette);
+          const auto samples = program.sample(m, fixed, 20000, ++seed, roulette);
+          CHECK(bad_weights(samples) == 0);
+          CHECK(directions_p(samples, grid, cells) > one_of(questions));
+          CHECK(weights_p(samples, reflectivity) > one_of(questions));
+          if (!roulette) CHECK(disagreement(program, m, fixed, samples, true) < 2e-5);
+        }
+      }
+  }
+}
+
+TEST_CASE("anisotropic: conserves energy beside an isotropic material in the same scene") {
+  auto both = materials;
+  both.push_back(phong({.3, .2, .1}, {.5, .5, .5}, 20));
+  const MaterialProgram program({8}, both, "mixture");
+  for (int m = 0; m < static_cast<int>(both.size()); ++m)
+    for (const double angle : angles) {
+      CAPTURE(m, angle);
+      glm::dvec3 sum(0);
+      const std::size_t count = thinned(20000);
+      const auto samples = program.sample(m, fixed_at(angle), count, 9, false);
+      CHECK(bad_weights(samples) == 0);
+      for (const Sample& s : samples) sum += to_double(s.weight);
+      for (int channel = 0; channel < 3; ++channel)
+        CHECK(sum[channel] <= (1 + 5 / std::sqrt(static_cast<double>(count))) * static_cast<double>(count));
+    }
+}
