@@ -113,13 +113,21 @@ static inline Mask add_light_sample(const Scene* scene, Path* path, SurfacePoint
 #endif
 
 // Reflects the paths of m; returns those that go on: not absorbed by roulette, and above the surface.
-static inline Mask reflect(Path* path, SurfacePoint point, Material material, Vec3 fixed, int roulette_edges, Mask m) {
+static inline Mask reflect(Path* path, SurfacePoint point, Material material, Vec3 fixed, int roulette_edges,
+                           float ambient, Mask m) {
   const PhongSample sample =
       material_sample(material, fixed, path->sequence, int_to_uint(DIMENSION_REFLECTION(path->edges)),
                       path->edges >= roulette_edges, m);
   const Vec3 direction = from_frame(point.frame, sample.direction);
   const Mask goes_on =
       m & sample.survives & (sample.direction.z > 0.0f) & (vec_dot(point.normal, direction) > 0.0f);
+#ifdef PHLUX_AMBIENT
+  // Light of radiance `ambient` from everywhere, reflected for certain less as sampled: 0 on average.
+  const Vec3 sampled = vec_select(sample.survives, sample.weight, vec_all((Real)(0.0f)));
+  const Vec3 difference = vec_sub(phong_reflectivity(material.phong, fixed.z), sampled);
+  const Vec3 variate = vec_scale((Real)(ambient), vec_mul(path->throughput, difference));
+  path->radiance = vec_select(m, vec_add(path->radiance, variate), path->radiance);
+#endif
   path->throughput = vec_select(goes_on, vec_mul(path->throughput, sample.weight), path->throughput);
   path->density = sample.density;
   path->sky_density = sample.direction.z * PHONG_INV_PI;
@@ -130,7 +138,8 @@ static inline Mask reflect(Path* path, SurfacePoint point, Material material, Ve
 
 __kernel void trace_paths(SCENE_PARAMETERS, int pixel_count, int first_pixel, int job_count, int first_sample,
                           int block_samples, int end_sample, uint2 seed, int max_edges, int roulette_edges,
-                          float4 sky, float sky_choice, __global float* sums, __global uint* counters) {
+                          float4 sky, float sky_choice, float ambient, __global float* sums,
+                          __global uint* counters) {
   SCENE_FROM_PARAMETERS
   const int stride = (int)get_global_size(0) * LANES;
   const int stride_blocks = stride / pixel_count, stride_pixels = stride % pixel_count;
@@ -170,7 +179,7 @@ __kernel void trace_paths(SCENE_PARAMETERS, int pixel_count, int first_pixel, in
     const Mask asked = add_light_sample(&scene, &path, point, material, fixed, reflecting);
     shadow_rays += asked ? (Uint)(1u) : (Uint)(0u);
 #endif
-    reflecting = reflect(&path, point, material, fixed, roulette_edges, reflecting);
+    reflecting = reflect(&path, point, material, fixed, roulette_edges, ambient, reflecting);
 
     const Mask ended = alive & !reflecting;
     alive = reflecting;

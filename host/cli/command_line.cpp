@@ -78,6 +78,11 @@ void add_method(CLI::App& app, RenderOptions& options) {
       [&](const std::string& text) {
         options.connect = static_cast<render::Connect>(choice("--connect", text, {"none", "light", "mis"}));
       });
+  add_value(
+      app, "--ambient", "L",
+      "path only: a radiance that is about what arrives everywhere, as a control variate: the nearer the "
+      "guess, the less noise; the mean stays right whatever it is",
+      [&](const std::string& text) { options.ambient = positive_number("--ambient", text); });
   add_value(app, "--max-depth", "N",
             "edges of the longest path: 1 is emission alone, -1 unbounded; default: the scene's",
             [&](const std::string& text) { options.max_depth = depth("--max-depth", text); });

@@ -21,6 +21,7 @@ struct RenderOptions {
   std::optional<std::string> integrator, strategy;
   render::Connect connect = render::Connect::mis;
   std::optional<int> max_depth, rr_depth;
+  std::optional<double> ambient;
 
   std::optional<int> samples_per_pixel;
   std::optional<double> time_limit, target_error;

@@ -39,6 +39,7 @@ render::Settings settings_of(const RenderOptions& options, const scene::RenderDe
   settings.integrator = options.integrator.value_or(defaults.integrator);
   settings.strategy = options.strategy.value_or(settings.strategy);
   settings.connect = options.connect;
+  settings.ambient = options.ambient;
   settings.samples_per_pixel = options.samples_per_pixel.value_or(defaults.samples_per_pixel);
   settings.time_limit = options.time_limit;
   settings.target_error = options.target_error;

@@ -34,6 +34,7 @@ constexpr NamedPart named_parts[] = {
     {&Parts::light_directional, "light_directional", "PHLUX_LIGHT_DIRECTIONAL"},
     {&Parts::light_constant, "light_constant", "PHLUX_LIGHT_CONSTANT"},
     {&Parts::light_choice, "light_choice", "PHLUX_LIGHT_CHOICE"},
+    {&Parts::ambient, "ambient", "PHLUX_AMBIENT"},
 };
 
 struct NamedStrategy {
@@ -102,6 +103,11 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
     parts.anisotropic |= anisotropic;
     parts.phong_lobe |= !anisotropic && m.specular != scene::Rgb(0.0);
   }
+  parts.ambient = settings.ambient.has_value();
+  if (parts.ambient && parts.anisotropic)
+    throw UsageError(
+        "--ambient: the reflectivity of anisotropicphong has no closed form to weigh the ambient term "
+        "with: leave it out or use phong");
   parts.emission = lights.has(LIGHT_PLANAR) || lights.has(LIGHT_SPHERE);
   parts.light_planar = lights.has(LIGHT_PLANAR);
   parts.light_sphere = lights.has(LIGHT_SPHERE);

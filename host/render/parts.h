@@ -20,6 +20,7 @@ struct Parts {
   bool emission = false; ///< a ray can hit a light's surface
   bool light_planar = false, light_sphere = false, light_point = false, light_spot = false,
        light_directional = false, light_constant = false;
+  bool ambient = false;      ///< a control variate is asked for
   bool light_choice = false; ///< there is more than one light to choose from
   Connect connect = Connect::mis;
   std::string strategy;

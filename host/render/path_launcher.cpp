@@ -47,6 +47,7 @@ PathLauncher::PathLauncher(const device::Device& device, const cl::Program& prog
   kernel_.setArg(index++, bounded(settings.rr_depth));
   kernel_.setArg(index++, float4_of(scene.sky));
   kernel_.setArg(index++, scene.sky_choice);
+  kernel_.setArg(index++, static_cast<float>(settings.ambient.value_or(0.0)));
 }
 
 std::int64_t PathLauncher::wanted_jobs(std::int64_t left, int block_samples) const {
@@ -77,7 +78,7 @@ void PathLauncher::enqueue(const Launch& launch) {
   kernel_.setArg(index++, static_cast<cl_int>(launch.first_sample));
   kernel_.setArg(index++, static_cast<cl_int>(launch.block_samples));
   kernel_.setArg(index++, static_cast<cl_int>(launch.end_sample));
-  index += 5; // set once
+  index += 6; // set once
   kernel_.setArg(index++, flight.sums);
   kernel_.setArg(index++, flight.counters);
   device_.queue.enqueueNDRangeKernel(kernel_, cl::NullRange, cl::NDRange(flight.items), cl::NDRange(local),
