@@ -62,15 +62,26 @@ std::int64_t PathLauncher::wanted_jobs(std::int64_t left, int block_samples) con
   return std::min({lane_jobs * lanes, left, largest});
 }
 
+void PathLauncher::warm_up() {
+  start({});
+  device_.queue.finish();
+}
+
 void PathLauncher::enqueue(const Launch& launch) {
+  Flight flight = start(launch);
+  read_back(flight);
+  flights_.push_back(std::move(flight));
+}
+
+PathLauncher::Flight PathLauncher::start(const Launch& launch) {
   Flight flight;
   flight.launch = launch;
-  // As many jobs for each lane as make full use of all work-items, but not so few that lanes idle.
   const auto jobs = static_cast<std::size_t>(launch.jobs), lanes = static_cast<std::size_t>(lanes_);
   const std::size_t local = lanes_ == 1 ? local_size_scalar : local_size_wide;
-  flight.items = std::min(items_, (jobs + lanes - 1) / lanes);
+  flight.items = std::clamp((jobs + lanes - 1) / lanes, std::size_t{1}, items_);
   flight.items = (flight.items + local - 1) / local * local;
-  flight.sums = cl::Buffer(device_.context, CL_MEM_WRITE_ONLY, jobs * sizeof(film::BlockSum));
+  flight.sums =
+      cl::Buffer(device_.context, CL_MEM_WRITE_ONLY, std::max(jobs, std::size_t{1}) * sizeof(film::BlockSum));
   flight.counters = cl::Buffer(device_.context, CL_MEM_WRITE_ONLY, flight.items * 3 * sizeof(cl_uint));
   cl_uint index = first_launch_argument_ + 1;
   kernel_.setArg(index++, static_cast<cl_int>(launch.first_job));
@@ -83,8 +94,7 @@ void PathLauncher::enqueue(const Launch& launch) {
   kernel_.setArg(index++, flight.counters);
   device_.queue.enqueueNDRangeKernel(kernel_, cl::NullRange, cl::NDRange(flight.items), cl::NDRange(local),
                                      nullptr, &flight.kernel_done);
-  read_back(flight);
-  flights_.push_back(std::move(flight));
+  return flight;
 }
 
 void PathLauncher::read_back(Flight& flight) {

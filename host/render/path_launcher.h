@@ -23,6 +23,10 @@ public:
   PathLauncher(const device::Device& device, const cl::Program& program, const HostScene& scene,
                const Parts& parts, const Settings& settings);
 
+  /// Launches nothing, which makes the driver finish what it puts off until a kernel's first launch: PoCL compiles most
+  /// of it then.
+  void warm_up();
+
   /// Jobs that the next launch should have to last about Settings::launch_seconds, given how many are left.
   [[nodiscard]] std::int64_t wanted_jobs(std::int64_t left, int block_samples) const;
   void enqueue(const Launch& launch);
@@ -41,6 +45,7 @@ private:
     std::vector<film::BlockSum> host_sums;
     std::vector<cl_uint> host_counters;
   };
+  Flight start(const Launch& launch);
   void read_back(Flight& flight);
   void adapt(const Flight& flight);
 
