@@ -21,7 +21,7 @@ Parts everything() {
         &Parts::emission, &Parts::light_planar, &Parts::light_sphere, &Parts::light_point, &Parts::light_spot,
         &Parts::light_directional, &Parts::light_constant, &Parts::light_choice})
     parts.*part = true;
-  parts.strategy = "STRATEGY_MIXTURE";
+  parts.strategy = "STRATEGY_EXACT";
   return parts;
 }
 
@@ -42,7 +42,7 @@ Parts diffuse_box() {
 Parts glossy_spheres() {
   Parts parts = diffuse_box();
   parts.spheres = parts.phong_lobe = true;
-  parts.strategy = "STRATEGY_MIXTURE";
+  parts.strategy = "STRATEGY_EXACT";
   return parts;
 }
 
