@@ -28,7 +28,7 @@ static inline Material material_at(const Scene* scene, Int index) {
   m.phong.diffuse_max = gather_real(&scene->materials->diffuse_max, words);
   m.phong.specular_max = gather_real(&scene->materials->specular_max, words);
   m.phong.table_scale = gather_real(&scene->materials->table_scale, words);
-  m.phong.edge_share = gather_real(&scene->materials->edge_share, words);
+  m.phong.grazing_reflectivity = gather_real(&scene->materials->grazing_reflectivity, words);
   m.phong.table_row = gather_int(&scene->materials->table_row, words);
   m.phong.table = scene->reflectivity;
 #endif

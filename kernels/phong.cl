@@ -53,7 +53,7 @@ typedef struct {
   Real table_scale;               // table positions per unit of cosine: PHONG_TABLE_INTERVALS / min(1, 6 / sqrt(n + 1))
   Int table_row;                  // index of the row's first value
   const __global float* table;    // rows of rho_s / ks
-  Real edge_share; // exact: (n + 2) / (2 pi (n + 1)) sqrt(pi) Gamma((n + 3) / 2) / Gamma((n + 4) / 2)
+  Real grazing_reflectivity;      // exact: rho_s / ks at 90 degrees
 #endif
 } Phong;
 
@@ -247,7 +247,7 @@ static inline Vec3 exact_direction(Phong m, Vec3 fixed, Real reflectivity, Rando
   const MirrorFrame frame = mirror_frame(fixed);
   const Real c = frame.cosine, s = frame.sine;
   const Real sine_power = exp((0.5f * m.exponent + 1.0f) * log1p(-c * c)); // s^(n + 2)
-  const Real share_b = m.edge_share * sine_power / reflectivity;
+  const Real share_b = m.grazing_reflectivity * sine_power / reflectivity;
   const Mask in_b = asked & (coin < share_b);
   Vec3 v = cosine_power_direction(m.exponent + 1.0f, u1, u2), chosen = v;
   if (any_lane(in_b)) {

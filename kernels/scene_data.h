@@ -42,7 +42,7 @@ typedef struct {
   float diffuse[3], specular[3];
   float exponent, exponent_v; // exponent_v: anisotropic only
   float diffuse_max, specular_max;
-  float table_scale, edge_share; // see phong.cl
+  float table_scale, grazing_reflectivity; // see phong.cl
   int table_row;
   int flags;
 } MaterialRecord;

@@ -27,11 +27,10 @@ int add_row(std::vector<float>& rows, double exponent) {
   return first;
 }
 
-// What the exact sampler needs of the gamma function: (n + 2) / (2 pi (n + 1)) sqrt(pi) Gamma((n + 3) / 2) /
-// Gamma((n + 4) / 2) (kernels/phong-sampling.md).
-float edge_share(double exponent) {
-  const double ratio = boost::math::tgamma_delta_ratio((exponent + 3) / 2, 0.5);
-  return static_cast<float>((exponent + 2) / (exponent + 1) * ratio / (2 * std::sqrt(std::numbers::pi)));
+// Gamma((n + 1) / 2) / (2 sqrt(pi) Gamma(n / 2 + 1)): what the lobe reflects at grazing incidence
+// (phong-sampling.md).
+double grazing_reflectivity(double exponent) {
+  return boost::math::tgamma_delta_ratio((exponent + 1) / 2, 0.5) / (2 * std::sqrt(std::numbers::pi));
 }
 
 float largest(const scene::Rgb& rgb) {
@@ -47,12 +46,9 @@ int flags_of(const scene::Material& material) {
 } // namespace
 
 double lobe_reflectivity(double exponent, double cosine) {
-  const double c = cosine, s2 = (1 - c) * (1 + c);
-  // The share of the lobe below the horizon, in the plane of the normal and the mirrored direction.
-  const double below = exponent > 0 ? boost::math::ibeta(exponent / 2, 0.5, s2) : 1.0;
-  const double gamma_ratio = boost::math::tgamma_delta_ratio((exponent + 1) / 2, 0.5);
-  const double edge = s2 > 0 ? std::exp(exponent / 2 * std::log(s2)) : (exponent > 0 ? 0.0 : 1.0);
-  return c * (1 - below / 2) + edge * gamma_ratio / (2 * std::sqrt(std::numbers::pi));
+  const double s2 = (1 - cosine) * (1 + cosine);
+  const double clamped = boost::math::ibeta(exponent / 2 + 1, 0.5, s2);
+  return cosine * (1 - clamped / 2) + grazing_reflectivity(exponent) * std::pow(s2, exponent / 2 + 1);
 }
 
 MaterialTable material_table(const std::vector<scene::Material>& materials) {
@@ -74,7 +70,7 @@ MaterialTable material_table(const std::vector<scene::Material>& materials) {
       const auto [row, is_new] = row_of_exponent.try_emplace(material.exponent_u, 0);
       if (is_new) row->second = add_row(table.reflectivity, material.exponent_u);
       record.table_row = row->second;
-      record.edge_share = edge_share(material.exponent_u);
+      record.grazing_reflectivity = static_cast<float>(grazing_reflectivity(material.exponent_u));
       record.table_scale = static_cast<float>(intervals / whole_lobe_cosine(material.exponent_u));
     }
     table.records.push_back(record);

@@ -23,8 +23,8 @@ public:
   PathLauncher(const device::Device& device, const cl::Program& program, const HostScene& scene,
                const Parts& parts, const Settings& settings);
 
-  /// Launches nothing, which makes the driver finish what it puts off until a kernel's first launch: PoCL compiles most
-  /// of it then.
+  /// Launches nothing, which makes the driver finish what it puts off until a kernel's first launch: PoCL
+  /// compiles most of it then.
   void warm_up();
 
   /// Jobs that the next launch should have to last about Settings::launch_seconds, given how many are left.

@@ -20,7 +20,7 @@ struct Settings {
   std::string integrator = "path";
   std::string strategy = "exact"; ///< how directions are sampled, MATH.md 2.3
   Connect connect = Connect::mis;
-  std::optional<double> ambient;        ///< radiance of a control variate (CW 197, 2.2 and its reference 15)
+  std::optional<double> ambient;      ///< radiance of a control variate (CW 197, 2.2 and its reference 15)
   int samples_per_pixel = 4;          ///< ignored where a time or an error is asked for
   std::optional<double> time_limit;   ///< seconds of rendering
   std::optional<double> target_error; ///< mean relative standard error

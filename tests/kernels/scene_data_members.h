@@ -13,7 +13,7 @@
   MEMBER(MaterialRecord, diffuse_max)                                                                        \
   MEMBER(MaterialRecord, specular_max)                                                                       \
   MEMBER(MaterialRecord, table_scale)                                                                        \
-  MEMBER(MaterialRecord, edge_share)                                                                         \
+  MEMBER(MaterialRecord, grazing_reflectivity)                                                               \
   MEMBER(MaterialRecord, table_row)                                                                          \
   MEMBER(MaterialRecord, flags)                                                                              \
   MEMBER(LightRecord, kind)                                                                                  \
