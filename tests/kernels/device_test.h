@@ -169,14 +169,16 @@ private:
   cl::Program program_;
 };
 
-/// A program of tests/kernels/NAME for each variant, built when it is first asked for.
-inline const Program& program_of(const std::string& name, Variant variant) {
+/// A program of tests/kernels/NAME, built when it is first asked for.
+inline const Program& program_of(const std::string& name, Variant variant,
+                                 const std::map<std::string, std::string>& defines = {}) {
   static std::map<std::string, Program> programs;
   std::ostringstream key;
-  key << name << variant;
+  key << name << ' ' << variant;
+  for (const auto& [macro, value] : defines) key << ' ' << macro << '=' << value;
   const auto found = programs.find(key.str());
   if (found != programs.end()) return found->second;
-  return programs.emplace(key.str(), Program(variant, read_file(name))).first->second;
+  return programs.emplace(key.str(), Program(variant, read_file(name), defines)).first->second;
 }
 
 } // namespace device_test

@@ -1,14 +1,12 @@
 // Materials on the device: evaluated, sampled, and so on, for any strategy and width.
 #pragma once
 
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "device_test.h"
 #include "directions.h"
-#include "render/device_scene.h"
-#include "render/parts.h"
+#include "scene_test.h"
 
 namespace device_test {
 
@@ -21,18 +19,8 @@ struct Sample {
 class MaterialProgram {
 public:
   MaterialProgram(Variant variant, const std::vector<phlux::scene::Material>& materials,
-                  const std::string& strategy) {
-    phlux::scene::Scene scene;
-    scene.materials = materials;
-    scene.spheres.push_back({}); // a scene has some shape
-    phlux::render::Settings settings;
-    settings.strategy = strategy;
-    settings.connect = phlux::render::Connect::none;
-    const auto host = phlux::render::prepare(scene, phlux::render::Traversal::brute_force, variant.width);
-    const auto parts = phlux::render::find_parts(scene, host.geometry, host.lights, settings, variant.width);
-    program_ = std::make_unique<Program>(variant, read_file("material.cl"), parts.defines());
-    scene_ = std::make_unique<phlux::render::DeviceScene>(test_device(), host, parts);
-  }
+                  const std::string& strategy)
+      : program_(variant, "material.cl", scene_of(materials), strategy) {}
 
   [[nodiscard]] std::vector<Float3> eval(int material, const std::vector<Float3>& fixed,
                                          const std::vector<Float3>& generated) const {
@@ -63,15 +51,18 @@ public:
   }
 
 private:
+  static phlux::scene::Scene scene_of(const std::vector<phlux::scene::Material>& materials) {
+    phlux::scene::Scene scene;
+    scene.materials = materials;
+    scene.spheres.push_back({}); // a scene has some shape
+    return scene;
+  }
   template<typename... Arguments>
   void run(const char* name, std::size_t count, const Arguments&... arguments) const {
-    cl::Kernel kernel = program_->kernel(name);
-    const cl_uint first = scene_->bind(kernel);
-    program_->run_bound(kernel, first, count, arguments...);
+    program_.run(name, count, arguments...);
   }
 
-  std::unique_ptr<Program> program_;
-  std::unique_ptr<phlux::render::DeviceScene> scene_;
+  SceneProgram program_;
 };
 
 inline phlux::scene::Material phong(const phlux::scene::Rgb& diffuse, const phlux::scene::Rgb& specular,

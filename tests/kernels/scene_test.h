@@ -1,0 +1,45 @@
+// Kernels that take a scene: SCENE_PARAMETERS, then a test's own arguments.
+#pragma once
+
+#include <string>
+
+#include "device_test.h"
+#include "render/device_scene.h"
+#include "render/parts.h"
+
+namespace device_test {
+
+class SceneProgram {
+public:
+  /// The kernels of tests/kernels/FILE with what this scene needs.
+  SceneProgram(Variant variant, const std::string& file, const phlux::scene::Scene& scene,
+               const std::string& strategy = "exact",
+               phlux::render::Traversal traversal = phlux::render::Traversal::brute_force)
+      : host_(phlux::render::prepare(scene, traversal, variant.width)),
+        parts_(parts_of(scene, host_, strategy, variant)), device_(test_device(), host_, parts_),
+        program_(&program_of(file, variant, parts_.defines())) {}
+
+  template<typename... Arguments>
+  void run(const char* name, std::size_t count, const Arguments&... arguments) const {
+    cl::Kernel kernel = program_->kernel(name);
+    const cl_uint first = device_.bind(kernel);
+    program_->run_bound(kernel, first, count, arguments...);
+  }
+
+  [[nodiscard]] const phlux::render::HostScene& host() const { return host_; }
+
+private:
+  static phlux::render::Parts parts_of(const phlux::scene::Scene& scene, const phlux::render::HostScene& host,
+                                       const std::string& strategy, Variant variant) {
+    phlux::render::Settings settings;
+    settings.strategy = strategy;
+    return phlux::render::find_parts(scene, host.geometry, host.lights, settings, variant.width);
+  }
+
+  phlux::render::HostScene host_;
+  phlux::render::Parts parts_;
+  phlux::render::DeviceScene device_;
+  const Program* program_;
+};
+
+} // namespace device_test

@@ -1,0 +1,236 @@
+// light_sample against light_density_of_hit, and both against float64.
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "directions.h"
+#include "scene_test.h"
+#include "statistics.h"
+
+using namespace device_test;
+using glm::dvec3;
+using phlux::scene::Patch;
+using phlux::scene::Scene;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+struct Sampled {
+  Float3 origin, direction, radiance;
+  float distance, density;
+  int hittable, valid, blocked, light;
+  float hit_density;
+};
+
+enum class Shape { rectangle, triangle, disk, sphere, inside_of_sphere };
+constexpr Shape shapes[] = {Shape::rectangle, Shape::triangle, Shape::disk, Shape::sphere,
+                            Shape::inside_of_sphere};
+
+constexpr double size = 1.5;
+const dvec3 edge_u(size, 0, 0), edge_v(0.2 * size, 0.8 * size, 0); // all flat lights face z
+
+// Adds a light of its own radiance.
+void add_light(Scene& scene, Shape shape, const dvec3& at) {
+  const auto index = static_cast<int>(scene.area_emitters.size());
+  scene.area_emitters.push_back({dvec3(1, 2, 3) * (1.0 + index)});
+  const phlux::scene::Surface surface{0, index};
+  if (shape == Shape::rectangle)
+    scene.patches.push_back({Patch::Region::parallelogram, at, edge_u, edge_v, surface});
+  if (shape == Shape::disk) scene.patches.push_back({Patch::Region::ellipse, at, edge_u, edge_v, surface});
+  if (shape == Shape::triangle)
+    scene.meshes.push_back({{at, at + edge_u, at + edge_v}, {}, {{0, 1, 2}}, surface});
+  if (shape == Shape::sphere || shape == Shape::inside_of_sphere)
+    scene.spheres.push_back({at, size, shape == Shape::inside_of_sphere, surface});
+}
+
+Scene scene_of(Shape shape) {
+  Scene scene;
+  scene.materials.push_back({});
+  add_light(scene, shape, dvec3(0));
+  return scene;
+}
+
+// Points that see the light's front, from a hundredth of its size to a hundred times, in the scene's
+// coordinates.
+std::vector<dvec3> lit_points(Shape shape, std::size_t count, Random& random) {
+  std::vector<dvec3> points;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double far = size * std::exp2(random.uniform(-6, 6));
+    if (shape == Shape::inside_of_sphere)
+      points.push_back(size * random.uniform(0, 0.99) * random.direction());
+    else if (shape == Shape::sphere)
+      points.push_back((size + far) * random.direction());
+    else
+      points.push_back(2 * size * random.uniform() * dvec3(glm::dvec2(random.point()), 0) +
+                       far * random.direction_above());
+  }
+  return points;
+}
+
+std::vector<Sampled> sample(const SceneProgram& program, const std::vector<dvec3>& points, Random& random) {
+  std::vector<Float3> positions, normals;
+  std::vector<std::uint32_t> paths;
+  for (const dvec3& point : points) {
+    positions.push_back(to_float(point));
+    normals.push_back(to_float(random.direction()));
+    paths.push_back(static_cast<std::uint32_t>(paths.size()));
+  }
+  std::vector<Sampled> sampled(points.size());
+  const cl_uint2 seed = {{random.word(), 0}};
+  program.run("sample_lights", points.size(), positions, normals, seed, paths, out(sampled));
+  return sampled;
+}
+
+// Where a flat light was met, as two numbers that are uniform in (0, 1) if points are uniform over its area.
+glm::dvec2 square_of(Shape shape, const dvec3& point) {
+  const double v = point.y / edge_v.y, u = (point.x - v * edge_v.x) / edge_u.x;
+  if (shape == Shape::rectangle) return {(u + 1) / 2, (v + 1) / 2};
+  if (shape == Shape::triangle) return {(1 - u) * (1 - u), v / (1 - u)};
+  return {u * u + v * v, std::atan2(v, u) / (2 * pi) + 0.5};
+}
+
+// What a density of distance^2 / (cosine area) may be off by: rays end some 1e-6 of the light's size and of
+// their own length above the light.
+double density_slack(double distance, double cosine) {
+  return 1e-5 + 6e-6 * (distance + 2 * size) / (cosine * distance);
+}
+
+void check_flat(Shape shape, const SceneProgram& program, const std::vector<dvec3>& points,
+                const std::vector<Sampled>& sampled) {
+  const dvec3 origin = program.host().geometry.origin;
+  const double area = program.host().lights.records.at(0).area;
+  constexpr int cells = 8;
+  std::vector<double> observed(cells * cells, 0.0);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < sampled.size(); ++i) {
+    const Sampled& s = sampled[i];
+    if (s.valid == 0) continue;
+    const dvec3 from = to_double(s.origin) + origin, direction = to_double(s.direction);
+    const double distance = from.z / -direction.z, cosine = -direction.z;
+    CAPTURE(i, distance, cosine, points[i].z);
+    const double right = distance * distance / (cosine * area);
+    REQUIRE(std::abs(s.density / right - 1) <= density_slack(distance, cosine));
+    const glm::dvec2 square = square_of(shape, from + distance * direction);
+    const auto cell = [](double x) { return std::clamp(static_cast<int>(x * cells), 0, cells - 1); };
+    observed[static_cast<std::size_t>(cell(square.x) * cells + cell(square.y))] += 1;
+    ++count;
+  }
+  CHECK(count > sampled.size() * 9 / 10);
+  const std::vector<double> expected(observed.size(), static_cast<double>(count) / (cells * cells));
+  CHECK(chi_square_p(observed, expected) > one_of(3 * std::size(variants)));
+}
+
+void check_sphere(const std::vector<dvec3>& points, const std::vector<Sampled>& sampled) {
+  constexpr std::size_t cells = 32;
+  std::vector<double> observed(cells, 0.0);
+  for (std::size_t i = 0; i < sampled.size(); ++i) {
+    const Sampled& s = sampled[i];
+    CAPTURE(i, glm::length(points[i]));
+    REQUIRE(s.valid == 1);
+    const double sine = size / glm::length(points[i]);
+    const double cone = sine * sine / (1 + std::sqrt(1 - sine * sine)); // 1 - cosine
+    // sqrt(1 - sine^2) has few digits next to the surface.
+    REQUIRE(std::abs(s.density * 2 * pi * cone - 1) <= 1e-6 + 1e-6 / std::sqrt(1 - sine * sine));
+    const dvec3 to_center = -glm::normalize(points[i]);
+    const double across = glm::length(glm::cross(to_center, to_double(s.direction)));
+    const double drop = across * across / (1 + std::sqrt(std::max(0.0, 1 - across * across)));
+    observed[std::min(static_cast<std::size_t>(drop / cone * cells), cells - 1)] += 1;
+  }
+  const std::vector<double> expected(cells, static_cast<double>(sampled.size()) / cells);
+  CHECK(chi_square_p(observed, expected) > one_of(std::size(variants)));
+}
+
+} // namespace
+
+TEST_CASE("lights: a sample's density is that of the hit of the same ray, and of the geometry") {
+  for (const Variant v : variants)
+    for (const Shape shape : shapes) {
+      CAPTURE(v, static_cast<int>(shape));
+      Random random(71);
+      const SceneProgram program(v, "lights.cl", scene_of(shape));
+      const dvec3 origin = program.host().geometry.origin;
+      auto points = lit_points(shape, thinned(10000), random);
+      for (dvec3& point : points) point = to_double(to_float(point - origin)) + origin;
+      std::vector<dvec3> about_origin;
+      for (const dvec3& point : points) about_origin.push_back(point - origin);
+      const auto sampled = sample(program, about_origin, random);
+      std::size_t lost = 0, valid = 0;
+      for (std::size_t i = 0; i < sampled.size(); ++i) {
+        const Sampled& s = sampled[i];
+        if (s.valid == 0) continue;
+        ++valid;
+        CAPTURE(i, points[i].x, points[i].y, points[i].z, s.distance);
+        REQUIRE(s.hittable == 1);
+        REQUIRE(s.blocked == 0); // by the light itself
+        REQUIRE(std::abs(glm::length(to_double(s.direction)) - 1) < 3e-7);
+        if (s.light != 0) { // past the light's edge by rounding
+          ++lost;
+          continue;
+        }
+        const double cosine = shape <= Shape::disk ? std::abs(s.direction.z) : 1;
+        REQUIRE(std::abs(s.hit_density / s.density - 1) <= density_slack(s.distance, cosine));
+      }
+      CHECK(lost <= valid / 200);
+      if (shape == Shape::sphere) check_sphere(points, sampled);
+      if (shape <= Shape::disk) check_flat(shape, program, points, sampled);
+    }
+}
+
+TEST_CASE("lights: of many, each is chosen in proportion to its power; densities include the choice") {
+  Scene scene;
+  scene.materials.push_back({});
+  for (int i = 0; i < 5; ++i) add_light(scene, shapes[i], dvec3(8 * i, 0, 0));
+  scene.point_lights.push_back({dvec3(3, 3, 5), dvec3(60)});
+  scene.point_lights.push_back({dvec3(5, -3, 5), dvec3(0)}); // without power: never
+  scene.directional_lights.push_back({dvec3(0, 0, -1), dvec3(0.5)});
+  scene.constant_radiance = dvec3(0.25);
+  for (const Variant v : variants) {
+    CAPTURE(v);
+    Random random(72);
+    const SceneProgram program(v, "lights.cl", scene);
+    const auto& records = program.host().lights.records;
+    std::vector<dvec3> points;
+    while (points.size() < thinned(40000)) points.push_back(20.0 * random.point());
+    const auto sampled = sample(program, points, random);
+    std::vector<double> observed(records.size(), 0.0), expected;
+    for (const LightRecord& record : records)
+      expected.push_back(record.probability * static_cast<double>(sampled.size()));
+    for (std::size_t i = 0; i < sampled.size(); ++i) {
+      const Sampled& s = sampled[i];
+      // Emitters' radiances come in proportions 1 : 2 : 3; the others are grey.
+      std::size_t light = records.size();
+      if (s.radiance.y > 1.5f * s.radiance.x) {
+        light = 0;
+        while (std::abs(records[light].power[0] - s.radiance.x) > 1e-4f) ++light;
+      } else {
+        const bool finite = std::isfinite(s.distance);
+        for (std::size_t k = 0; k < records.size(); ++k) {
+          const int kind = records[k].kind;
+          if (kind == LIGHT_POINT && !finite && s.hittable == 0) continue;
+          if (kind == LIGHT_POINT         ? finite && records[k].probability > 0
+              : kind == LIGHT_DIRECTIONAL ? !finite && s.hittable == 0
+              : kind == LIGHT_CONSTANT    ? !finite && s.hittable == 1
+                                          : false)
+            light = k;
+        }
+      }
+      REQUIRE(light < records.size());
+      observed[light] += 1;
+      const LightRecord& record = records[light];
+      CAPTURE(i, record.kind);
+      if (record.kind == LIGHT_POINT) {
+        const dvec3 at(record.position[0], record.position[1], record.position[2]);
+        const dvec3 way = at - to_double(s.origin);
+        REQUIRE(s.radiance.x / s.density ==
+                Approx(60 / glm::dot(way, way) / record.probability).epsilon(1e-5));
+      } else if (record.kind == LIGHT_DIRECTIONAL) {
+        REQUIRE(s.direction.z == 1);
+        REQUIRE(s.radiance.x / s.density == Approx(0.5 / record.probability).epsilon(1e-5));
+      } else if (s.valid != 0 && s.light == static_cast<int>(light)) {
+        REQUIRE(s.hit_density == Approx(s.density).epsilon(2e-3));
+      }
+    }
+    CHECK(chi_square_p(observed, expected) > one_of(std::size(variants)));
+  }
+}
