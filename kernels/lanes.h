@@ -143,9 +143,16 @@ static inline Int gather_int(const __global int* base, Int index) {
 #endif
 }
 
-// table[index].member in every lane, for a __global array of structs of 4-byte members.
-#define GATHER_REAL(table, index, member) gather_real(&(table)->member, (index) * (int)(sizeof(*(table)) / 4))
-#define GATHER_INT(table, index, member) gather_int(&(table)->member, (index) * (int)(sizeof(*(table)) / 4))
+// table[index].member in every lane, for a __global array of structs of 4-byte members. The member's place is taken from
+// the table's start, so that no array member is indexed beyond its end.
+#define MEMBER_PLACE(type, table, member)                                                                              \
+  (int)((const __global type*)&(table)->member - (const __global type*)(table))
+#define GATHER_REAL(table, index, member)                                                                              \
+  gather_real((const __global float*)(table), (index) * (int)(sizeof(*(table)) / 4) + MEMBER_PLACE(float, table, member))
+#define GATHER_INT(table, index, member)                                                                               \
+  gather_int((const __global int*)(table), (index) * (int)(sizeof(*(table)) / 4) + MEMBER_PLACE(int, table, member))
+#define GATHER_VEC3(table, index, member)                                                                              \
+  vec3(GATHER_REAL(table, index, member[0]), GATHER_REAL(table, index, member[1]), GATHER_REAL(table, index, member[2]))
 
 // base[index] = value in the lanes of m, in lane order.
 static inline void scatter_real(__global float* base, Int index, Real value, Mask m) {

@@ -18,11 +18,6 @@ typedef struct {
   Mask valid;     // something arrives: the light faces the point
 } LightSample;
 
-static inline Vec3 gather_light_rgb(const Scene* scene, Int light) {
-  return vec3(GATHER_REAL(scene->lights, light, power[0]), GATHER_REAL(scene->lights, light, power[1]),
-              GATHER_REAL(scene->lights, light, power[2]));
-}
-
 // The light for one random word (the other decides between the two lights of the cell), by the alias method.
 static inline Int choose_light(const Scene* scene, Uint cell_word, Uint alias_word) {
 #ifdef PHLUX_LIGHT_CHOICE
@@ -88,6 +83,16 @@ static inline void aim_at(LightSample* s, SurfacePoint lit, Vec3 target, Vec3 no
   s->ray.direction = vec_scale((Real)(1.0f) / s->distance, way);
 }
 
+// Takes `mine`, a point of a light's surface, into *s in the lanes of m.
+static inline void keep_surface_sample(LightSample* s, LightSample mine, Mask m, Mask faces) {
+  s->ray.origin = vec_select(m, mine.ray.origin, s->ray.origin);
+  s->ray.direction = vec_select(m, mine.ray.direction, s->ray.direction);
+  s->distance = m ? mine.distance : s->distance;
+  s->density = m ? mine.density : s->density;
+  s->hittable = s->hittable | m;
+  s->valid = s->valid | (m & faces);
+}
+
 #ifdef PHLUX_LIGHT_PLANAR
 // A point of a flat light, uniform over its area.
 static inline void sample_planar_light(const Scene* scene, LightSample* s, SurfacePoint lit, Int light, Mask m, Real u1,
@@ -128,13 +133,7 @@ static inline void sample_planar_light(const Scene* scene, LightSample* s, Surfa
   aim_at(&mine, lit, target, normal, ERROR_UNITS * (vec_largest(target) + vec_largest(from_origin)));
   const Real cosine = -vec_dot(normal, mine.ray.direction);
   mine.density = light_probability(scene, light) * mine.distance * mine.distance / (cosine * area);
-  mine.valid = m & (cosine > 0.0f);
-  s->ray.origin = vec_select(m, mine.ray.origin, s->ray.origin);
-  s->ray.direction = vec_select(m, mine.ray.direction, s->ray.direction);
-  s->distance = m ? mine.distance : s->distance;
-  s->density = m ? mine.density : s->density;
-  s->hittable = s->hittable | m;
-  s->valid = s->valid | mine.valid;
+  keep_surface_sample(s, mine, m, cosine > 0.0f);
 }
 #endif
 
@@ -177,13 +176,7 @@ static inline void sample_sphere_light(const Scene* scene, LightSample* s, Surfa
   const Real by_area =
       choice * mine.distance * mine.distance / (cosine * GATHER_REAL(scene->lights, light, area));
   mine.density = in_cone ? choice * (0.5f * PHONG_INV_PI) / cone : by_area;
-  mine.valid = m & (cosine > 0.0f);
-  s->ray.origin = vec_select(m, mine.ray.origin, s->ray.origin);
-  s->ray.direction = vec_select(m, mine.ray.direction, s->ray.direction);
-  s->distance = m ? mine.distance : s->distance;
-  s->density = m ? mine.density : s->density;
-  s->hittable = s->hittable | m;
-  s->valid = s->valid | mine.valid;
+  keep_surface_sample(s, mine, m, cosine > 0.0f);
 }
 #endif
 
@@ -191,18 +184,14 @@ static inline void sample_sphere_light(const Scene* scene, LightSample* s, Surfa
 // A light without extent: radiance / density is intensity / distance^2 / the probability of choosing it.
 static inline void sample_point_light(const Scene* scene, LightSample* s, SurfacePoint lit, Int light, Int kind,
                                       Mask m) {
-  const Vec3 position = vec3(GATHER_REAL(scene->lights, light, position[0]),
-                             GATHER_REAL(scene->lights, light, position[1]),
-                             GATHER_REAL(scene->lights, light, position[2]));
+  const Vec3 position = GATHER_VEC3(scene->lights, light, position);
   const Vec3 origin = step_off(lit.position, lit.normal, lit.error, vec_sub(position, lit.position));
   const Vec3 way = vec_sub(position, origin);
   const Real distance2 = vec_dot(way, way), distance = sqrt(distance2);
   const Vec3 direction = vec_scale(1.0f / distance, way);
   Real falloff = 1.0f / (distance2 * light_probability(scene, light));
 #ifdef PHLUX_LIGHT_SPOT
-  const Vec3 axis = vec3(GATHER_REAL(scene->lights, light, direction[0]),
-                         GATHER_REAL(scene->lights, light, direction[1]),
-                         GATHER_REAL(scene->lights, light, direction[2]));
+  const Vec3 axis = GATHER_VEC3(scene->lights, light, direction);
   const Real angle = acos(clamp(-vec_dot(axis, direction), (Real)(-1.0f), (Real)(1.0f)));
   const Real cone = clamp((GATHER_REAL(scene->lights, light, cutoff) - angle) *
                               GATHER_REAL(scene->lights, light, inv_transition),
@@ -242,7 +231,7 @@ static inline LightSample light_sample(const Scene* scene, SurfacePoint lit, Ran
   s.ray.origin = lit.position;
   s.ray.direction = lit.normal;
   s.distance = (Real)(0.0f);
-  s.radiance = gather_light_rgb(scene, light);
+  s.radiance = GATHER_VEC3(scene->lights, light, power);
   s.density = (Real)(1.0f);
   s.hittable = NO_LANES;
   s.valid = NO_LANES;
@@ -262,9 +251,7 @@ static inline LightSample light_sample(const Scene* scene, SurfacePoint lit, Ran
 #ifdef PHLUX_LIGHT_DIRECTIONAL
   {
     const Mask m = LIGHT_IS(LIGHT_DIRECTIONAL);
-    const Vec3 against = vec3(-GATHER_REAL(scene->lights, light, direction[0]),
-                              -GATHER_REAL(scene->lights, light, direction[1]),
-                              -GATHER_REAL(scene->lights, light, direction[2]));
+    const Vec3 against = vec_scale((Real)(-1.0f), GATHER_VEC3(scene->lights, light, direction));
     aim_to_infinity(&s, lit, against, m);
     s.radiance = vec_select(m, vec_scale(1.0f / light_probability(scene, light), s.radiance), s.radiance);
   }

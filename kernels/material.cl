@@ -14,32 +14,28 @@ typedef struct {
 #endif
 } Material;
 
-static inline Vec3 gather_material_rgb(const __global float* base, Int words) {
-  return vec3(gather_real(base, words), gather_real(base + 1, words), gather_real(base + 2, words));
-}
-
 static inline Material material_at(const Scene* scene, Int index) {
   Material m;
-  const Int words = index * (int)(sizeof(MaterialRecord) / 4);
-  m.phong.diffuse = gather_material_rgb(scene->materials->diffuse, words);
+  const __global MaterialRecord* materials = scene->materials;
+  m.phong.diffuse = GATHER_VEC3(materials, index, diffuse);
 #ifdef PHLUX_PHONG_LOBE
-  m.phong.specular = gather_material_rgb(scene->materials->specular, words);
-  m.phong.exponent = gather_real(&scene->materials->exponent, words);
-  m.phong.diffuse_max = gather_real(&scene->materials->diffuse_max, words);
-  m.phong.specular_max = gather_real(&scene->materials->specular_max, words);
-  m.phong.table_scale = gather_real(&scene->materials->table_scale, words);
-  m.phong.grazing_reflectivity = gather_real(&scene->materials->grazing_reflectivity, words);
-  m.phong.table_row = gather_int(&scene->materials->table_row, words);
+  m.phong.specular = GATHER_VEC3(materials, index, specular);
+  m.phong.exponent = GATHER_REAL(materials, index, exponent);
+  m.phong.diffuse_max = GATHER_REAL(materials, index, diffuse_max);
+  m.phong.specular_max = GATHER_REAL(materials, index, specular_max);
+  m.phong.table_scale = GATHER_REAL(materials, index, table_scale);
+  m.phong.grazing_reflectivity = GATHER_REAL(materials, index, grazing_reflectivity);
+  m.phong.table_row = GATHER_INT(materials, index, table_row);
   m.phong.table = scene->reflectivity;
 #endif
 #ifdef PHLUX_ANISOTROPIC
-  m.is_anisotropic = (gather_int(&scene->materials->flags, words) & MATERIAL_ANISOTROPIC) != 0;
+  m.is_anisotropic = (GATHER_INT(materials, index, flags) & MATERIAL_ANISOTROPIC) != 0;
   m.anisotropic.diffuse = m.phong.diffuse;
-  m.anisotropic.specular = gather_material_rgb(scene->materials->specular, words);
-  m.anisotropic.exponent_u = gather_real(&scene->materials->exponent, words);
-  m.anisotropic.exponent_v = gather_real(&scene->materials->exponent_v, words);
-  m.anisotropic.diffuse_max = gather_real(&scene->materials->diffuse_max, words);
-  m.anisotropic.specular_max = gather_real(&scene->materials->specular_max, words);
+  m.anisotropic.specular = GATHER_VEC3(materials, index, specular);
+  m.anisotropic.exponent_u = GATHER_REAL(materials, index, exponent);
+  m.anisotropic.exponent_v = GATHER_REAL(materials, index, exponent_v);
+  m.anisotropic.diffuse_max = GATHER_REAL(materials, index, diffuse_max);
+  m.anisotropic.specular_max = GATHER_REAL(materials, index, specular_max);
 #endif
   return m;
 }

@@ -97,8 +97,6 @@ static inline SurfacePoint surface_point(const Scene* scene, Ray ray, Hit hit) {
   {
 #ifdef PHLUX_PLANARS
     const Mask round = primitive >= scene->first_sphere;
-#else
-    const Mask round = ALL_LANES;
 #endif
     const SphereShape sphere = gather_sphere(scene, max(primitive - scene->first_sphere, (Int)(0)));
     const Vec3 unit = vec_normalize(vec_sub(seen, sphere.center));

@@ -1,4 +1,4 @@
-// Traversal for a few dozen primitives: WIDTH rays against each in turn.
+// Traversal for a few dozen primitives: all lanes' rays against each in turn.
 #ifndef PHLUX_TRAVERSE_BRUTE_CL
 #define PHLUX_TRAVERSE_BRUTE_CL
 
@@ -73,7 +73,9 @@ static inline Hit scene_intersect(const Scene* scene, Ray ray, Mask alive) {
 
 // Lanes of `asking` whose ray meets something before `distance`.
 static inline Mask scene_occluded(const Scene* scene, Ray ray, Real distance, Mask asking) {
+#ifdef PHLUX_PLANARS
   const ClosestHit limit = no_hit_within(distance);
+#endif
   Mask blocked = !asking;
 #ifdef PHLUX_TRIANGLES
   ANY_OF(in_triangle, 0, scene->triangle_end)
