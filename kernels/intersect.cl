@@ -1,5 +1,5 @@
-// Rays against flat primitives and spheres. Each test serves both ways of filling lanes: WIDTH rays against one
-// primitive (its values the same in every lane) and one ray against WIDTH primitives.
+// Rays against flat primitives and spheres. Each test serves both ways of filling lanes: many rays against one
+// primitive (its values the same in every lane) and one ray against many primitives.
 #ifndef PHLUX_INTERSECT_CL
 #define PHLUX_INTERSECT_CL
 
@@ -30,6 +30,8 @@ static inline ClosestHit no_hit_within(Real distance) {
 }
 
 // ---- Flat primitives
+
+#ifdef PHLUX_PLANARS
 
 typedef struct {
   Vec3 origin, edge_v, minus_u, normal; // scaled as enum PlanarValues says
@@ -62,7 +64,11 @@ static inline Mask crosses_before(PlaneCrossing c, ClosestHit hit) {
   return (c.distance > 0.0f) & (c.distance * hit.denominator < hit.numerator * c.facing);
 }
 
+#endif
+
 // ---- Spheres
+
+#ifdef PHLUX_SPHERES
 
 typedef struct {
   Vec3 center;
@@ -85,5 +91,7 @@ static inline Real cross_sphere(Ray ray, SphereShape s) {
   const Real distance = near > 0.0f ? near : far;
   return ((discriminant >= 0.0f) & (distance > 0.0f)) ? distance : (Real)(0.0f);
 }
+
+#endif
 
 #endif

@@ -1,3 +1,5 @@
+#define PHLUX_PLANARS
+#define PHLUX_SPHERES
 #include "intersect.cl"
 
 typedef struct {
