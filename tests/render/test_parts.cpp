@@ -30,20 +30,19 @@ std::string program_of(const render::Parts& parts, const device::KernelFiles& fi
 // What stands in a program just for one part.
 const std::map<std::string, Names> marks = {
     {"hierarchy", {"push_children", "nodes"}},
-    {"triangles", {"in_triangle(", "REGION_TRIANGLE;"}},
-    {"parallelograms", {"in_parallelogram("}},
-    {"ellipses", {"in_ellipse("}},
+    {"triangles", {"CLOSEST_OF(in_triangle,", "== REGION_TRIANGLE;"}},
+    {"parallelograms", {"CLOSEST_OF(in_parallelogram,"}},
+    {"ellipses", {"CLOSEST_OF(in_ellipse,"}},
     {"spheres", {"cross_sphere", "gather_sphere", "SphereShape"}},
     {"planars", {"cross_plane", "gather_planar"}},
     {"smooth_normals", {"interpolated_normal", "vertex_normals"}},
-    {"two_sided", {"& MATERIAL_TWO_SIDED"}},
-    {"phong_lobe", {"log1p", "expm1", "phong_lobe", "reflectivity_table", "cosine_power"}},
+    {"phong_lobe", {"log1p", "expm1", "phong_lobe", "cosine_power"}},
     {"anisotropic", {"anisotropic_"}},
-    {"emission", {"light_density_of_hit"}},
+    {"emission", {"Mask emits"}},
     {"light_planar", {"sample_planar_light"}},
     {"light_sphere", {"sample_sphere_light", "one_minus_cone_cosine"}},
-    {"light_spot", {"cos_cutoff)", "inv_transition)", "acos("}},
-    {"light_choice", {"alias_word) <", "alias_threshold)"}},
+    {"light_spot", {"inv_transition)", "acos("}},
+    {"light_choice", {"alias_threshold)"}},
 };
 
 bool holds(const std::string& text, const std::string& mark) {
@@ -105,7 +104,7 @@ TEST_CASE("the marks of the parts are in the kernels, so that their absence says
 
 TEST_CASE("a diffuse scene lit by hits alone has neither lobe nor light samples") {
   const std::string program = program_of(parts_of(shipped("furnace-box", 4, 4), render::Connect::none));
-  for (const char* absent : {"light_sample", "scene_occluded", "LightSample", "log1p", "choose_light"}) {
+  for (const char* absent : {"light_sample(", "add_light_sample", "LightSample", "log1p", "choose_light"}) {
     CAPTURE(absent);
     CHECK_FALSE(holds(program, absent));
   }
