@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <fstream>
+#include <cstdio>
 #include <functional>
 #include <memory>
 #include <numbers>
@@ -12,9 +12,9 @@
 
 #include <embree3/rtcore.h>
 #include <fmt/format.h>
-#include <fmt/ostream.h>
 #include <glm/geometric.hpp>
 
+#include "bench/csv.h"
 #include "bench/knot_scene.h"
 #include "device/program.h"
 #include "errors.h"
@@ -220,23 +220,14 @@ void check_agreement(const std::vector<float>& ours, const std::vector<float>& t
                     different, ours.size()));
 }
 
-class Report {
-public:
-  explicit Report(const std::filesystem::path& folder) : path_(folder / "rays.csv") {
-    std::filesystem::create_directories(folder);
-    file_.open(path_);
-    line("scene,triangles,kind,device,layout,mrays_per_s,embree_mrays_per_s,ratio,embree_call");
-  }
-  void line(const std::string& text) {
-    file_ << text << '\n' << std::flush;
-    if (!file_) throw WriteError(path_.string() + ": cannot be written");
-    fmt::print("{}\n", text);
-  }
+constexpr const char* columns =
+    "scene,triangles,kind,device,layout,mrays_per_s,embree_mrays_per_s,ratio,embree_call";
 
-private:
-  std::filesystem::path path_;
-  std::ofstream file_;
-};
+void print_line(CsvFile& table, const std::string& text) {
+  table.line(text);
+  fmt::print("{}\n", text);
+  std::fflush(stdout);
+}
 
 struct Kind {
   const char* name;
@@ -244,7 +235,7 @@ struct Kind {
   const std::vector<Ray>& rays;
 };
 
-void measure(Report& report, const RaysOptions& options, const std::string& label, DeviceRays& ours,
+void measure(CsvFile& table, const RaysOptions& options, const std::string& label, DeviceRays& ours,
              const Embree& theirs, const Kind& kind) {
   const bool closest = std::string(kind.kernel) == "find_closest";
   std::vector<float> found(kind.rays.size()), expected(kind.rays.size());
@@ -257,15 +248,16 @@ void measure(Report& report, const RaysOptions& options, const std::string& labe
     rates.push_back(count / a), embree_rates.push_back(count / b), ratios.push_back(b / a);
   }
   check_agreement(found, expected);
-  report.line(fmt::format("{},{:.3f},{:.3f},{:.3f},{}", fmt::format(fmt::runtime(label), kind.name),
-                          median(rates), median(embree_rates), median(ratios),
-                          closest ? "rtcIntersect1" : "rtcOccluded1"));
+  print_line(table, fmt::format("{},{:.3f},{:.3f},{:.3f},{}", fmt::format(fmt::runtime(label), kind.name),
+                                median(rates), median(embree_rates), median(ratios),
+                                closest ? "rtcIntersect1" : "rtcOccluded1"));
 }
 
 } // namespace
 
 void measure_rays(const RaysOptions& options) {
-  Report report(options.folder);
+  CsvFile table(options.folder, "rays.csv", columns);
+  fmt::print("{}\n", columns);
   const device::Device device = device::open_devices(options.devices).front();
   const device::KernelFiles files =
       options.kernel_dir.empty() ? device::KernelFiles() : device::KernelFiles(options.kernel_dir);
@@ -281,12 +273,12 @@ void measure_rays(const RaysOptions& options) {
     theirs.closest(camera, distances);
     const SecondaryRays secondary = secondary_rays(camera, distances);
     const std::string layout = fmt::format("{} x{}", parts.hierarchy ? "bvh" : "brute_force", lanes);
-    const std::string label =
-        fmt::format("knot,{},{{}},{},{}", scene.meshes.front().triangles.size(), device.info.name, layout);
+    const std::string label = fmt::format("knot,{},{{}},{},{}", scene.meshes.front().triangles.size(),
+                                          csv_value(device.info.name), layout);
     for (const Kind& kind :
          {Kind{"camera", "find_closest", camera}, Kind{"bounce", "find_closest", secondary.bounce},
           Kind{"shadow", "find_any", secondary.shadow}})
-      measure(report, options, label, ours, theirs, kind);
+      measure(table, options, label, ours, theirs, kind);
   }
 }
 

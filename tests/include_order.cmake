@@ -1,5 +1,5 @@
-# The steps of the data's way know only those before them: fails when a file of HOST/step includes one of a step that is
-# not in STEPS, "step:itself,and,those,before|...".
+# The steps of the data's way know only those before them: fails when a file of HOST/step, or of bench/ beside HOST,
+# includes one of a step that is not in STEPS, "step:itself,and,those,before|...".
 cmake_minimum_required(VERSION 3.25)
 string(REPLACE "|" ";" steps "${STEPS}")
 set(wrong "")
@@ -7,13 +7,17 @@ foreach(entry IN LISTS steps)
   string(REGEX MATCH "^([^:]+):(.*)$" entry "${entry}")
   set(step ${CMAKE_MATCH_1})
   string(REPLACE "," ";" before "${CMAKE_MATCH_2}")
-  file(GLOB files ${HOST}/${step}/*.h ${HOST}/${step}/*.cpp)
+  set(folder ${HOST}/${step})
+  if(NOT IS_DIRECTORY ${folder})
+    set(folder ${HOST}/../${step})
+  endif()
+  file(GLOB files ${folder}/*.h ${folder}/*.cpp)
   foreach(file IN LISTS files)
     file(STRINGS ${file} includes REGEX "^ *# *include *\"[^\"]+/")
     foreach(include IN LISTS includes)
       string(REGEX MATCH "\"([^/\"]+)/" included "${include}")
       set(included ${CMAKE_MATCH_1})
-      if(IS_DIRECTORY ${HOST}/${included} AND NOT included IN_LIST before)
+      if((IS_DIRECTORY ${HOST}/${included} OR included STREQUAL bench) AND NOT included IN_LIST before)
         string(APPEND wrong "${file}: ${include}: ${step} may include only ${before}\n")
       endif()
     endforeach()

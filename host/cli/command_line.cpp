@@ -2,60 +2,18 @@
 
 #include <limits>
 #include <memory>
-#include <sstream>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "cli/commands.h"
+#include "cli/grammar.h"
 #include "cli/values.h"
 #include "errors.h"
 
 namespace phlux::cli {
 namespace {
-
-// The help's second column starts at first_column and ends at last_column.
-constexpr std::size_t first_column = 30, last_column = 100;
-
-std::string wrapped(const std::string& text) {
-  std::string lines;
-  std::size_t column = first_column;
-  std::istringstream words(text);
-  for (std::string word; words >> word; column += word.size() + 1) {
-    if (!lines.empty()) lines += column + word.size() > last_column ? '\n' : ' ';
-    if (lines.ends_with('\n')) column = first_column;
-    lines += word;
-  }
-  return lines;
-}
-
-// An option with one value, which `set` is given as text; when repeated, the last one counts, as scripts
-// expect.
-template<class Set>
-CLI::Option* add_value(CLI::App& app, const std::string& names, const std::string& value,
-                       const std::string& help, Set set) {
-  return app
-      .add_option_function<std::string>(
-          names, [set](const std::string& text) { set(text); }, wrapped(help))
-      ->type_name(value)
-      ->take_last();
-}
-
-// An option that may be repeated, one value each time.
-template<class Add>
-CLI::Option* add_values(CLI::App& app, const std::string& names, const std::string& value,
-                        const std::string& help, Add add) {
-  return app
-      .add_option_function<std::vector<std::string>>(
-          names,
-          [add](const std::vector<std::string>& texts) {
-            for (const std::string& text : texts) add(text);
-          },
-          wrapped(help))
-      ->type_name(value)
-      ->allow_extra_args(false);
-}
 
 void add_method(CLI::App& app, RenderOptions& options) {
   app.option_defaults()->group("How light is found");
@@ -208,12 +166,23 @@ std::vector<std::string> option_names(const CLI::App& app) {
   return names;
 }
 
+// The innermost command that the line names.
+const CLI::App& chosen_of(const CLI::App& program) {
+  const CLI::App* app = &program;
+  while (!app->get_subcommands().empty()) app = app->get_subcommands().front();
+  return *app;
+}
+
+// "phlux", or "phlux bench rays".
+std::string full_name(const CLI::App& app) {
+  return app.get_parent() == nullptr ? app.get_name()
+                                     : fmt::format("{} {}", full_name(*app.get_parent()), app.get_name());
+}
+
 // CLI11 puts what it does not know aside; the first such option explains more than what it then misses.
 [[noreturn]] void reject(const CLI::App& program, const CLI::ParseError& error) {
-  const std::vector<CLI::App*> chosen = program.get_subcommands();
-  const CLI::App& app = chosen.empty() ? program : *chosen.front();
-  const std::string help =
-      app.get_parent() == nullptr ? "phlux --help" : fmt::format("phlux {} --help", app.get_name());
+  const CLI::App& app = chosen_of(program);
+  const std::string help = full_name(app) + " --help";
   const std::vector<std::string> unknown = program.remaining(true);
   for (const std::string& text : unknown) {
     if (!text.starts_with('-')) continue;
@@ -222,12 +191,12 @@ std::vector<std::string> option_names(const CLI::App& app) {
         fmt::format("unknown option {}: {}", text,
                     meant.empty() ? help + " lists the options" : fmt::format("did you mean {}?", meant)));
   }
-  if (chosen.empty()) {
+  if (const auto commands = app.get_subcommands({}); !commands.empty()) {
     std::vector<std::string> names;
-    for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
+    for (const CLI::App* command : commands) names.push_back(command->get_name());
     const std::string meant = unknown.empty() ? "" : nearest(unknown.front(), names);
-    throw UsageError(fmt::format("{}: {}",
-                                 unknown.empty() ? "no command" : "unknown command " + unknown.front(),
+    const std::string missing = app.get_parent() == nullptr ? "no command" : app.get_name() + ": no command";
+    throw UsageError(fmt::format("{}: {}", unknown.empty() ? missing : "unknown command " + unknown.front(),
                                  meant.empty() ? fmt::format("must be one of {}", fmt::join(names, ", "))
                                                : fmt::format("did you mean {}?", meant)));
   }
@@ -254,6 +223,7 @@ std::optional<Command> parse(int argc, char** argv) {
   add_render(program, command);
   add_devices(program, command);
   add_compare(program, command);
+  add_bench(program, command);
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& help_or_version) {

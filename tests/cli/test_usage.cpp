@@ -13,7 +13,7 @@ struct Wrong {
 const std::vector<Wrong> wrong_usage = {
     {{}, "no command"},
     {{"rendr", "scene.xml"}, "did you mean render?"},
-    {{"paint"}, "must be one of render, devices, compare"},
+    {{"paint"}, "must be one of render, devices, compare, bench"},
     {{"render"}, "SCENE.xml"},
     {{"render", "scene.xml", "other.xml"}, "other.xml: one argument too many"},
     {{"render", "scene.xml", "--ssp", "4"}, "unknown option --ssp: did you mean --spp?"},

@@ -1,0 +1,38 @@
+#include "bench/csv.h"
+
+#include <algorithm>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "errors.h"
+
+namespace phlux::bench {
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw WriteError(fmt::format("{}: cannot be created: {}", folder.string(), error.message()));
+  if (!std::filesystem::is_directory(folder))
+    throw WriteError(fmt::format("{}: must be a folder", folder.string()));
+}
+
+CsvFile::CsvFile(const std::filesystem::path& folder, const std::string& name, const std::string& header)
+    : path_(folder / name) {
+  make_folder(folder);
+  file_.open(path_);
+  line(header);
+}
+
+void CsvFile::line(const std::string& text) {
+  file_ << text << '\n' << std::flush;
+  if (!file_) throw WriteError(path_.string() + ": cannot be written");
+}
+
+std::string csv_value(std::string text) {
+  std::ranges::replace_if(
+      text, [](char c) { return c == ',' || c == '\n' || c == '\r'; }, ' ');
+  return text;
+}
+
+} // namespace phlux::bench

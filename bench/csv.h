@@ -1,0 +1,30 @@
+// Tables of figures that grow line by line, so that what was measured before an interruption is kept.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace phlux::bench {
+
+/// Creates `folder`, with those above it, where it is not there. @throws WriteError
+void make_folder(const std::filesystem::path& folder);
+
+class CsvFile {
+public:
+  /// Begins `folder`/`name` anew with this line of column names. @throws WriteError
+  CsvFile(const std::filesystem::path& folder, const std::string& name, const std::string& header);
+
+  /// Adds a line, whose values contain no commas. @throws WriteError
+  void line(const std::string& text);
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+private:
+  std::filesystem::path path_;
+  std::ofstream file_;
+};
+
+/// Fit to be a value of a table: without commas and line ends.
+[[nodiscard]] std::string csv_value(std::string text);
+
+} // namespace phlux::bench
