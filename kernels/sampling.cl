@@ -1,24 +1,14 @@
 // The sampler of phong.cl alone, for measuring it: one material, one angle of incidence, radiance 1 from everywhere.
-#include "phong.cl"
-#include "scene_data.h"
+#include "material.cl"
 
-static inline Vec3 rgb_of(const __global float* rgb) { return vec3((Real)(rgb[0]), (Real)(rgb[1]), (Real)(rgb[2])); }
-
-// What phong.cl needs of a material, the same in every lane.
-static inline Phong phong_of(const __global MaterialRecord* record, const __global float* reflectivity) {
-  Phong m;
-  m.diffuse = rgb_of(record->diffuse);
+// A table of one Phong material.
+static inline Phong only_material(const __global MaterialRecord* materials, const __global float* reflectivity) {
+  Scene scene;
+  scene.materials = materials;
 #ifdef PHLUX_PHONG_LOBE
-  m.specular = rgb_of(record->specular);
-  m.exponent = (Real)(record->exponent);
-  m.diffuse_max = (Real)(record->diffuse_max);
-  m.specular_max = (Real)(record->specular_max);
-  m.table_scale = (Real)(record->table_scale);
-  m.table_row = (Int)(record->table_row);
-  m.table = reflectivity;
-  m.edge_share = (Real)(record->edge_share);
+  scene.reflectivity = reflectivity;
 #endif
-  return m;
+  return material_at(&scene, (Int)(0)).phong;
 }
 
 // One of FIXED_DIRECTIONS directions that differ in their longitude alone, in each lane: three times LANES floats each.
@@ -45,11 +35,11 @@ static inline void add_powers(PowerSums* sums, Real d) {
 // sums: four floats for every block and lane, at [((item * blocks + block) * 4 + power - 1) * LANES + lane].
 // counts, three for each work-item: rays that go on, directions that were drawn, and samples that are wrong by
 // themselves: not a unit vector, no density, no finite weight.
-__kernel void sample_moments(const __global MaterialRecord* material, const __global float* reflectivity,
+__kernel void sample_moments(const __global MaterialRecord* materials, const __global float* reflectivity,
                              const __global float* directions, uint2 seed, uint first_sample, int blocks,
                              int block_samples, int roulette, float centre, __global float* sums,
                              __global uint* counts) {
-  const Phong m = phong_of(material, reflectivity);
+  const Phong m = only_material(materials, reflectivity);
   const int item = (int)get_global_id(0);
   RandomSequence sequence;
   sequence.pixel = int_to_uint((Int)(item * LANES) + LANE_NUMBERS);

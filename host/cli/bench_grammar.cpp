@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "bench/rays.h"
+#include "bench/sampling.h"
 #include "cli/grammar.h"
 #include "cli/values.h"
 #include "errors.h"
@@ -73,6 +74,48 @@ void add_rays(CLI::App& bench, std::optional<Command>& command) {
   });
 }
 
+bench::Case case_of(const std::string& text) {
+  const std::vector<std::string> parts = split(text);
+  if (parts.size() != 4) throw UsageError(fmt::format("--case {}: must be KD,KS,N,DEGREES", text));
+  const auto number = [&](std::size_t i, double most) { return number_within("--case", parts[i], 0, most); };
+  constexpr double largest_exponent = 1e6, largest_angle = 89.999;
+  const bench::Case one{number(0, 1), number(1, 1), number(2, largest_exponent), number(3, largest_angle)};
+  if (one.diffuse + one.specular > 1 || one.specular == 0)
+    throw UsageError(fmt::format("--case {}: KD + KS must be at most 1, and KS above 0", text));
+  return one;
+}
+
+void add_sampling(CLI::App& bench, std::optional<Command>& command) {
+  CLI::App& app = *bench.add_subcommand(
+      "sampling", "Mean, variance, rays and time of a sample by every strategy: sampling.csv");
+  const auto options = std::make_shared<bench::SamplingOptions>();
+  add_common(app, *options);
+  app.add_flag("--quick", options->quick, "ten cases with a million samples each");
+  add_value(app, "--samples", "N",
+            "samples for each strategy and case; default: 4 million, or a million with --quick",
+            [options](const std::string& text) {
+              constexpr std::uint64_t most = 1'000'000'000'000;
+              options->samples = whole_number("--samples", text, 1, most);
+            });
+  add_values(app, "--strategy", "NAME", "only this one; may be repeated", [options](const std::string& text) {
+    options->strategies.push_back(
+        render::strategy_names()[choice("--strategy", text, render::strategy_names())]);
+  });
+  add_values(app, "--case", "KD,KS,N,DEGREES",
+             "only this material and angle of incidence; may be repeated; default: a grid",
+             [options](const std::string& text) { options->cases.push_back(case_of(text)); });
+  add_value(app, "--seed", "N", "of the random numbers; default: 1", [options](const std::string& text) {
+    constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
+    options->seed = static_cast<std::uint32_t>(whole_number("--seed", text, 0, most));
+  });
+  app.final_callback([&command, options] {
+    command = [options] {
+      bench::measure_sampling(*options);
+      return 0;
+    };
+  });
+}
+
 } // namespace
 
 void add_bench(CLI::App& program, std::optional<Command>& command) {
@@ -80,6 +123,7 @@ void add_bench(CLI::App& program, std::optional<Command>& command) {
   app.require_subcommand(1);
   app.footer("phlux bench COMMAND --help lists the options of one.");
   add_rays(app, command);
+  add_sampling(app, command);
 }
 
 } // namespace phlux::cli

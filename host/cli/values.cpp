@@ -67,6 +67,13 @@ double positive_number(const std::string& option, const std::string& text) {
   return *number;
 }
 
+double number_within(const std::string& option, const std::string& text, double least, double most) {
+  const std::optional<double> number = parse<double>(text);
+  if (!number || !(*number >= least && *number <= most))
+    wrong(option, text, fmt::format("must be a number from {} to {}", least, most));
+  return *number;
+}
+
 std::array<int, 2> size(const std::string& option, const std::string& text) {
   constexpr std::int64_t most_pixels = std::int64_t{1} << 28;
   const std::size_t x = text.find_first_of("xX");

@@ -17,6 +17,9 @@ namespace phlux::cli {
 [[nodiscard]] int depth(const std::string& option, const std::string& text);
 /// A finite number above 0.
 [[nodiscard]] double positive_number(const std::string& option, const std::string& text);
+/// A number from `least` to `most`.
+[[nodiscard]] double number_within(const std::string& option, const std::string& text, double least,
+                                   double most);
 /// WIDTHxHEIGHT in pixels; at most 2^28 pixels, which take 15 GB.
 [[nodiscard]] std::array<int, 2> size(const std::string& option, const std::string& text);
 /// NAME=VALUE; the value may be empty.

@@ -36,6 +36,27 @@ TEST_CASE("phlux bench rays writes the contract's columns") {
     CHECK_THAT(outcome.out, Catch::Contains(kind));
 }
 
+TEST_CASE("phlux bench sampling writes the contract's columns, a row for each strategy and case") {
+  const TemporaryFolder folder;
+  const Outcome outcome = run({{"bench", "sampling", "--out", ".", "--samples", "1000", "--strategy", "exact",
+                                "--strategy", "rejection", "--case", ".4,.05,50,30", "--case", "0,1,1e6,89"},
+                               folder.path(),
+                               {},
+                               {}});
+  CAPTURE(outcome.err);
+  CHECK(outcome.exit_code == 0);
+  const auto lines = lines_of(TemporaryFolder::read(folder / "sampling.csv"));
+  REQUIRE(lines.size() == 4); // rejection would need too many proposals in the second case
+  CHECK_THAT(lines[0], Catch::StartsWith("strategy,kd,ks,n,theta_deg,samples,mean,exact,bias_sigma,variance,"
+                                         "variance_standard_error,rays_per_sample,ns_per_sample,"
+                                         "variance_times_cost"));
+  CHECK_THAT(lines[1], Catch::StartsWith("exact,0.4,0.05,50,30,"));
+  CHECK_THAT(lines[2], Catch::StartsWith("rejection,0.4,0.05,50,30,"));
+  CHECK_THAT(lines[3], Catch::StartsWith("exact,0,1,1000000,89,"));
+  for (const std::string& line : lines) CHECK(columns_of(line) == columns_of(lines[0]));
+  CHECK_THAT(outcome.out, Catch::Contains("rejection is left out of 1 cases"));
+}
+
 TEST_CASE("phlux bench: bad input is one line and its exit code") {
   struct Bad {
     std::vector<std::string> arguments;
@@ -52,6 +73,15 @@ TEST_CASE("phlux bench: bad input is one line and its exit code") {
       {{"rays", "--out", "/proc/phlux"}, 5, "/proc/phlux"},
       {{"rays", "--out", "file"}, 5, "file"},
       {{"rays", "--device", "none such"}, 4, "none such"},
+      {{"sampling", "--strategy", "magic"}, 2, "--strategy magic: must be one of uniform"},
+      {{"sampling", "--strategy", "exct"}, 2, "did you mean exact?"},
+      {{"sampling", "--samples", "0"}, 2, "--samples 0"},
+      {{"sampling", "--case", ".4,.05,50"}, 2, "must be KD,KS,N,DEGREES"},
+      {{"sampling", "--case", ".4,.7,50,30"}, 2, "at most 1"},
+      {{"sampling", "--case", ".4,.05,-1,30"}, 2, "--case -1: must be a number from 0 to"},
+      {{"sampling", "--case", ".4,.05,50,90"}, 2, "--case 90"},
+      {{"sampling", "--out", "/proc/phlux"}, 5, "/proc/phlux"},
+      {{"sampling", "--device", "none such"}, 4, "none such"},
   };
   const TemporaryFolder folder;
   folder.write("file", "");

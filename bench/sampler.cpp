@@ -1,0 +1,162 @@
+#include "bench/sampler.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "errors.h"
+#include "render/material_table.h"
+#include "render/parts.h"
+
+namespace phlux::bench {
+namespace {
+
+// Float sums of so many terms lose at most a few parts in 1e6 of their standard deviation.
+constexpr std::uint64_t block_samples = 256;
+constexpr int fixed_directions = 16;
+constexpr int powers = 4, counters = 3;
+
+scene::Material material_of(const Case& one) {
+  scene::Material material;
+  material.diffuse = scene::Rgb(one.diffuse);
+  material.specular = scene::Rgb(one.specular);
+  material.exponent_u = one.exponent;
+  return material;
+}
+
+// Directions at the case's angle and even longitudes, in the layout that the kernel reads.
+std::vector<float> directions_at(double degrees, int lanes) {
+  const double angle = degrees * std::numbers::pi / 180;
+  std::vector<float> values;
+  for (int i = 0; i < fixed_directions; ++i) {
+    const double longitude = 2 * std::numbers::pi * (i + 0.25) / fixed_directions;
+    const double direction[3] = {std::sin(angle) * std::cos(longitude), std::sin(angle) * std::sin(longitude),
+                                 std::cos(angle)};
+    for (const double component : direction)
+      values.insert(values.end(), static_cast<std::size_t>(lanes), static_cast<float>(component));
+  }
+  return values;
+}
+
+template<typename T>
+cl::Buffer upload(const device::Device& device, const std::vector<T>& table) {
+  return {device.context, CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR, table.size() * sizeof(T),
+          const_cast<T*>(table.data())};
+}
+
+std::map<std::string, std::string> defines(const std::string& strategy, int lanes) {
+  const auto& names = render::strategy_names();
+  const auto found = std::ranges::find(names, strategy);
+  if (found == names.end())
+    throw UsageError(fmt::format("--strategy {}: there is no such strategy", strategy));
+  return {{"WIDTH", std::to_string(lanes)},
+          {"PHLUX_PHONG_LOBE", "1"},
+          {"PHLUX_STRATEGY", std::to_string(found - names.begin() + 1)},
+          {"PHONG_TABLE_INTERVALS", std::to_string(render::reflectivity_intervals)},
+          {"FIXED_DIRECTIONS", std::to_string(fixed_directions)}};
+}
+
+double seconds_of(const cl::Event& event) {
+  return 1e-9 * static_cast<double>(event.getProfilingInfo<CL_PROFILING_COMMAND_END>() -
+                                    event.getProfilingInfo<CL_PROFILING_COMMAND_START>());
+}
+
+} // namespace
+
+double exact_reflectivity(const Case& one) {
+  const double cosine = std::cos(one.degrees * std::numbers::pi / 180);
+  return one.diffuse + one.specular * render::lobe_reflectivity(one.exponent, cosine);
+}
+
+double rejection_proposals(const Case& one) {
+  return (one.diffuse + one.specular * (one.exponent + 2) / 2) / exact_reflectivity(one);
+}
+
+bool has_roulette(const std::string& strategy) {
+  return strategy != "uniform" && strategy != "theta-phi" && strategy != "cosine" && strategy != "disk";
+}
+
+device::KernelFiles kernel_files(const std::filesystem::path& folder) {
+  return folder.empty() ? device::KernelFiles() : device::KernelFiles(folder);
+}
+
+void Sampler::Run::add(const Run& other) {
+  sums.d += other.sums.d;
+  sums.d2 += other.sums.d2;
+  sums.d3 += other.sums.d3;
+  sums.d4 += other.sums.d4;
+  sums.count += other.sums.count;
+  sums.centre = other.sums.centre;
+  rays += other.rays;
+  draws += other.draws;
+  defects += other.defects;
+  seconds += other.seconds;
+}
+
+Sampler::Sampler(const device::Device& device, const device::KernelFiles& files, const std::string& strategy,
+                 int lanes)
+    : device_(device), strategy_(strategy), lanes_(lanes),
+      items_(device.info.compute_units * (device.info.type == "cpu" ? 4 : 1024)),
+      local_(device.info.type == "cpu" ? 1 : 64),
+      program_(device::build(device, files, {"sampling.cl", defines(strategy, lanes), {}}).program),
+      kernel_(program_, "sample_moments") {}
+
+std::uint64_t Sampler::blocks(std::uint64_t samples) const {
+  const std::uint64_t a_block = items_ * static_cast<std::uint64_t>(lanes_) * block_samples;
+  return std::max<std::uint64_t>(1, (samples + a_block - 1) / a_block);
+}
+
+std::uint32_t Sampler::samples_per_lane(std::uint64_t samples) const {
+  return static_cast<std::uint32_t>(blocks(samples) * block_samples);
+}
+
+void Sampler::prepare(const Case& one) {
+  if (one == prepared_) return;
+  const render::MaterialTable table = render::material_table({material_of(one)});
+  material_ = upload(device_, table.records);
+  reflectivity_ = upload(device_, table.reflectivity.empty() ? std::vector<float>{0} : table.reflectivity);
+  directions_ = upload(device_, directions_at(one.degrees, lanes_));
+  prepared_ = one;
+}
+
+Sampler::Run Sampler::run(const Case& one, std::uint64_t samples, cl_uint2 seed, std::uint32_t first) try {
+  prepare(one);
+  const std::uint64_t block_count = blocks(samples);
+  const auto centre = static_cast<float>(exact_reflectivity(one));
+  std::vector<float> sums(items_ * static_cast<std::size_t>(lanes_) * block_count * powers);
+  std::vector<cl_uint> counts(items_ * counters);
+  const cl::Buffer device_sums(device_.context, CL_MEM_WRITE_ONLY, sums.size() * sizeof(float));
+  const cl::Buffer device_counts(device_.context, CL_MEM_WRITE_ONLY, counts.size() * sizeof(cl_uint));
+  cl_uint index = 0;
+  const auto set = [&](const auto&... arguments) { (kernel_.setArg(index++, arguments), ...); };
+  set(material_, reflectivity_, directions_, seed, cl_uint{first}, static_cast<cl_int>(block_count),
+      static_cast<cl_int>(block_samples), static_cast<cl_int>(has_roulette(strategy_)), cl_float{centre},
+      device_sums, device_counts);
+  cl::Event done;
+  device_.queue.enqueueNDRangeKernel(kernel_, cl::NullRange, cl::NDRange(items_), cl::NDRange(local_),
+                                     nullptr, &done);
+  device_.queue.enqueueReadBuffer(device_sums, CL_TRUE, 0, sums.size() * sizeof(float), sums.data());
+  device_.queue.enqueueReadBuffer(device_counts, CL_TRUE, 0, counts.size() * sizeof(cl_uint), counts.data());
+
+  Run run;
+  const auto lanes = static_cast<std::size_t>(lanes_);
+  double* const totals[powers] = {&run.sums.d, &run.sums.d2, &run.sums.d3, &run.sums.d4};
+  for (std::size_t i = 0; i < sums.size(); ++i) *totals[i / lanes % powers] += static_cast<double>(sums[i]);
+  for (std::size_t item = 0; item < items_; ++item) {
+    run.rays += counts[item * counters];
+    run.draws += counts[item * counters + 1];
+    run.defects += counts[item * counters + 2];
+  }
+  run.sums.count = items_ * lanes * block_count * block_samples;
+  run.sums.centre = static_cast<double>(centre);
+  run.seconds = seconds_of(done);
+  return run;
+} catch (const cl::Error& error) {
+  throw DeviceError(
+      fmt::format("{}: {} with strategy {}", device_.info.name, device::describe(error), strategy_));
+}
+
+} // namespace phlux::bench
