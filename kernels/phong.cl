@@ -40,7 +40,7 @@
 
 // Intervals of a row of the reflectivity table; a row has one value more. The host that fills the table defines it.
 #ifndef PHONG_TABLE_INTERVALS
-#define PHONG_TABLE_INTERVALS 256
+#define PHONG_TABLE_INTERVALS 512
 #endif
 
 // Material parameters in every lane. The largest colour channels decide how often each lobe is drawn.
