@@ -37,11 +37,17 @@ static inline RandomWords philox(RandomWords counter, uint2 key) {
 typedef struct {
   Uint pixel, sample;
   uint2 seed;
+#ifdef PHLUX_GIVEN_WORDS
+  RandomWords given; // what the first draw gives: verify.cl drives samplers with numbers of its choice
+#endif
 } RandomSequence;
 
 // Four random words for one purpose on one path. `dimension` numbers the purpose (say, 2 bounce + 1), `draw` the
 // repetition of a sampler that draws until it accepts.
 static inline RandomWords random_words(RandomSequence sequence, Uint dimension, uint draw) {
+#ifdef PHLUX_GIVEN_WORDS
+  if (draw == 0) return sequence.given;
+#endif
   RandomWords counter;
   counter.x = sequence.pixel;
   counter.y = sequence.sample;

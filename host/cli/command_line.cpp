@@ -218,12 +218,13 @@ std::optional<Command> parse(int argc, char** argv) {
   program.get_formatter()->label("REQUIRED", ""); // the usage line says it
   program.footer(
       "phlux COMMAND --help lists the options of a command.\n"
-      "Exit codes: 0 done, 1 a comparison failed, 2 wrong usage, 3 bad scene or file, 4 no device or it "
+      "Exit codes: 0 done, 1 a check or comparison failed, 2 wrong usage, 3 bad scene or file, 4 no device or it "
       "failed,\n5 write failed, 130 interrupted.");
   add_render(program, command);
   add_devices(program, command);
   add_compare(program, command);
   add_bench(program, command);
+  add_verify(program, command);
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& help_or_version) {

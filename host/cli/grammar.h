@@ -57,4 +57,7 @@ CLI::Option* add_values(CLI::App& app, const std::string& names, const std::stri
 /// `phlux bench`, with all that it measures. @throws UsageError while parsing
 void add_bench(CLI::App& program, std::optional<Command>& command);
 
+/// `phlux verify`. @throws UsageError while parsing
+void add_verify(CLI::App& program, std::optional<Command>& command);
+
 } // namespace phlux::cli

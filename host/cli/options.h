@@ -48,4 +48,13 @@ struct DevicesOptions {
   bool json = false;
 };
 
+struct VerifyOptions {
+  std::vector<std::string> devices;    ///< one at most
+  std::vector<std::string> strategies; ///< empty: all
+  int lanes = 0;                       ///< 0: what suits the device
+  std::size_t samples = 0;             ///< per case; 0: the default
+  std::filesystem::path kernel_dir, json;
+  bool quick = false;
+};
+
 } // namespace phlux::cli

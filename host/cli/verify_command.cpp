@@ -1,0 +1,153 @@
+#include <algorithm>
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "cli/commands.h"
+#include "device/device.h"
+#include "files/json.h"
+#include "files/output.h"
+#include "verify/statistics.h"
+#include "verify/verify.h"
+
+namespace phlux::cli {
+namespace {
+
+using verify::Report;
+using verify::Result;
+using verify::Sense;
+
+std::string figure(const Result& result) {
+  if (!result.passed) return fmt::format("FAIL {:.1e}", result.worst);
+  return fmt::format("{}{:.2g}", result.sense == Sense::probability ? "p " : "", result.worst);
+}
+
+// In the order of their first appearance.
+std::vector<std::string> distinct(const Report& report, bool of_strategies, std::string Result::*member) {
+  std::vector<std::string> names;
+  for (const Result& result : report.results())
+    if (result.strategy.empty() != of_strategies && std::ranges::find(names, result.*member) == names.end())
+      names.push_back(result.*member);
+  return names;
+}
+
+void print_grid(const std::vector<std::vector<std::string>>& rows) {
+  std::vector<std::size_t> widths;
+  for (const auto& row : rows)
+    for (std::size_t column = 0; column < row.size(); ++column) {
+      if (column == widths.size()) widths.push_back(0);
+      widths[column] = std::max(widths[column], row[column].size());
+    }
+  for (const auto& row : rows) {
+    std::string line;
+    for (std::size_t column = 0; column < row.size(); ++column)
+      line += fmt::format("{:<{}}  ", row[column], widths[column]);
+    line.erase(line.find_last_not_of(' ') + 1);
+    fmt::print("{}\n", line);
+  }
+}
+
+std::string limit_text(const Result& result) {
+  return fmt::format("{} {:.3g}", result.sense == Sense::probability ? "p >" : "<=", result.limit);
+}
+
+void print_strategies(const Report& report) {
+  const auto checks = distinct(report, true, &Result::check);
+  std::vector<std::vector<std::string>> rows{{"STRATEGY"}, {"  limit"}};
+  for (const std::string& check : checks) {
+    rows[0].push_back(check);
+    const auto any = std::ranges::find_if(
+        report.results(), [&](const Result& r) { return r.check == check && !r.strategy.empty(); });
+    rows[1].push_back(limit_text(*any));
+  }
+  for (const std::string& strategy : distinct(report, true, &Result::strategy)) {
+    rows.push_back({strategy});
+    for (const std::string& check : checks) {
+      const auto found = std::ranges::find_if(
+          report.results(), [&](const Result& r) { return r.strategy == strategy && r.check == check; });
+      rows.back().push_back(found == report.results().end() ? "-" : figure(*found));
+    }
+  }
+  print_grid(rows);
+}
+
+void print_model(const Report& report) {
+  std::vector<std::vector<std::string>> rows{{"MODEL", "worst", "limit", "where"}};
+  for (const Result& result : report.results())
+    if (result.strategy.empty())
+      rows.push_back({result.check, figure(result), limit_text(result), result.where});
+  if (rows.size() > 1) print_grid(rows);
+}
+
+void print_notes(const Report& report) {
+  for (const Result& result : report.results())
+    if (!result.note.empty())
+      fmt::print("{}{}: {}\n", result.strategy.empty() ? "" : result.strategy + ": ", result.check,
+                 result.note);
+  for (const Result& result : report.results()) {
+    if (result.passed) continue;
+    fmt::print("FAILED {} {}: {:.6g}, must be {}, for {}\n",
+               result.strategy.empty() ? "model" : result.strategy, result.check, result.worst,
+               limit_text(result), result.where);
+    for (const std::string& file : result.files) fmt::print("  written: {}\n", file);
+  }
+}
+
+nlohmann::ordered_json json_of(const Report& report, const device::DeviceInfo& info, int lanes,
+                               double seconds) {
+  nlohmann::ordered_json json = {{"device", info.name},
+                                 {"platform", info.platform},
+                                 {"driver", info.driver},
+                                 {"width", lanes},
+                                 {"seconds", seconds},
+                                 {"false_alarm_rate", verify::false_alarm_rate},
+                                 {"p_values", report.questions()},
+                                 {"passed", report.passed()},
+                                 {"results", nlohmann::ordered_json::array()}};
+  for (const Result& r : report.results())
+    json["results"].push_back({{"strategy", r.strategy.empty() ? "model" : r.strategy},
+                               {"check", r.check},
+                               {"figure", r.sense == Sense::probability ? "p_value" : "worst"},
+                               {"worst", r.worst},
+                               {"limit", r.limit},
+                               {"passed", r.passed},
+                               {"figures", r.seen},
+                               {"where", r.where},
+                               {"note", r.note},
+                               {"files", r.files}});
+  return json;
+}
+
+} // namespace
+
+int verify(const VerifyOptions& options) {
+  const device::Device device = device::open_devices(options.devices).front();
+  if (!options.json.empty()) files::check_writable(options.json);
+  verify::Settings settings;
+  settings.lanes = options.lanes != 0 ? options.lanes : device.info.lanes;
+  settings.quick = options.quick;
+  settings.samples = options.samples;
+  settings.strategies = options.strategies;
+  if (!options.kernel_dir.empty()) settings.kernels = device::KernelFiles(options.kernel_dir);
+  fmt::print("{} ({}, driver {}), WIDTH {}\n", device.info.name, device.info.platform, device.info.driver,
+             settings.lanes);
+  const auto start = std::chrono::steady_clock::now();
+  Report report = verify::run(device, settings);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  verify::write_failures(report);
+  print_strategies(report);
+  fmt::print("\n");
+  print_model(report);
+  fmt::print("\n");
+  print_notes(report);
+  if (!options.json.empty())
+    files::write_file(options.json, files::json_text(json_of(report, device.info, settings.lanes, seconds)));
+  fmt::print("{}: {} checks, {} p-values with a false alarm in {:g} runs, {:.1f} s\n",
+             report.passed() ? "passed" : "FAILED", report.results().size(), report.questions(),
+             1 / verify::false_alarm_rate, seconds);
+  return report.passed() ? 0 : 1;
+}
+
+} // namespace phlux::cli

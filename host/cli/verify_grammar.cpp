@@ -1,0 +1,66 @@
+// The grammar of `phlux verify`.
+#include <memory>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "cli/commands.h"
+#include "cli/grammar.h"
+#include "cli/values.h"
+#include "errors.h"
+#include "render/render.h"
+
+namespace phlux::cli {
+namespace {
+
+void add_amount(CLI::App& app, VerifyOptions& options) {
+  add_values(app, "--strategy", "NAME",
+             fmt::format("may be repeated: {}; default: all", fmt::join(render::strategy_names(), ", ")),
+             [&options](const std::string& text) {
+               const auto& names = render::strategy_names();
+               options.strategies.push_back(names[choice("--strategy", text, names)]);
+             });
+  app.add_flag("--quick", options.quick, "fewer materials, angles and samples: a few seconds");
+  add_value(app, "--samples", "N", "of each material and angle; default: 16384, quick 8192",
+            [&options](const std::string& text) {
+              constexpr std::uint64_t least = 16, most = 1u << 24;
+              options.samples = whole_number("--samples", text, least, most);
+            });
+}
+
+void add_device(CLI::App& app, VerifyOptions& options) {
+  add_value(app, "--device", "SPEC", "P:D as `phlux devices` lists them, cpu, gpu, or a part of a name",
+            [&options](const std::string& text) { options.devices = {text}; });
+  add_value(app, "--width", "N", "lanes of a work item: 1, 4, 8 or 16; default: what suits the device",
+            [&options](const std::string& text) {
+              const std::vector<std::string> widths = {"1", "4", "8", "16"};
+              options.lanes = std::stoi(widths[choice("--width", text, widths)]);
+            });
+  add_value(app, "--kernel-dir", "FOLDER",
+            "kernel sources to use instead of the built-in ones, while developing",
+            [&options](const std::string& text) {
+              if (!std::filesystem::is_directory(text))
+                throw UsageError(fmt::format("--kernel-dir {}: must be a folder of kernel files", text));
+              options.kernel_dir = text;
+            });
+}
+
+} // namespace
+
+void add_verify(CLI::App& program, std::optional<Command>& command) {
+  CLI::App& app =
+      *program.add_subcommand("verify", "Proves that the reflectance model's functions agree on a device");
+  const auto options = std::make_shared<VerifyOptions>();
+  add_device(app, *options);
+  add_amount(app, *options);
+  add_value(app, "--json", "FILE", "every figure, as JSON", [options](const std::string& text) {
+    if (text.empty()) throw UsageError("--json '': must be a file name");
+    options->json = text;
+  });
+  app.footer(
+      "Exit code: 0, or 1 when a check failed; what was expected and what was seen is then in verify-*.csv "
+      "and .png.");
+  app.final_callback([&command, options] { command = [options] { return verify(*options); }; });
+}
+
+} // namespace phlux::cli

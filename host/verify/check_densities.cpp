@@ -1,0 +1,42 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "verify/checks.h"
+
+namespace phlux::verify {
+namespace {
+
+constexpr double density_error = 1e-5; // relative, against float64's for the same float32 directions
+constexpr double unit_error = 4 * 0x1p-23;
+constexpr double smallest_density = 1e-30; // float32's exponents end soon below
+
+bool is_finite(const Direction& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+} // namespace
+
+void check_densities(const Subject& subject, const Drawn& drawn) {
+  const Strategy& strategy = subject.strategy;
+  const Situation& at = drawn.one.at;
+  double worst = 0, length = 0, wrong = 0;
+  for (const Sample& s : drawn.samples) {
+    if (!s.survives) continue;
+    if (!is_finite(s.direction) || !is_finite(s.weight) || !std::isfinite(s.density) || s.density < 0 ||
+        glm::min(s.weight.x, glm::min(s.weight.y, s.weight.z)) < 0 || s.draws < 1)
+      ++wrong;
+    length = std::max(length, std::abs(glm::length(s.direction) - 1));
+    if (strategy.family == Family::fold && std::abs(image_height(at.fixed, s.direction)) < 1e-6)
+      continue; // float32 may see it on the other side of the fold
+    const double right = density(strategy, at, s.direction);
+    if (right > smallest_density) worst = std::max(worst, std::abs(s.density - right) / right);
+  }
+  subject.report.see(strategy.name, "densities", worst, density_error, drawn.where);
+  subject.report.see(strategy.name, "unit", length, unit_error, drawn.where);
+  subject.report.see(strategy.name, "finite", wrong, 0, drawn.where);
+}
+
+} // namespace phlux::verify

@@ -1,0 +1,143 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "verify/checks.h"
+#include "verify/statistics.h"
+
+namespace phlux::verify {
+namespace {
+
+// Directions that stand for none, such as NaN, fall outside all cells.
+bool is_unit(const Direction& d) {
+  return std::abs(glm::dot(d, d) - 1) < 1e-5;
+}
+
+const SphereGrid& plain_grid() { // for densities that know nothing of the lobe
+  static const SphereGrid grid({0, 0, 1}, {0.1, 0.3, 0.75, 1.3, 1.5});
+  return grid;
+}
+
+// Closed forms: the cells end at angles from the normal and at longitudes.
+std::vector<double> plain_cells(const std::string& strategy) {
+  std::vector<double> cells(plain_grid().cells());
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const auto b = plain_grid().bounds(i);
+    if (!b.above || b.angle_to > 1.5708) continue;
+    const double share = 1.0 / SphereGrid::longitudes;
+    const auto below = [&](double angle) {
+      if (strategy == "uniform") return 1 - std::cos(angle);
+      if (strategy == "theta-phi") return angle / std::acos(0.0);
+      return std::sin(angle) * std::sin(angle);
+    };
+    cells[i] = share * (below(b.angle_to) - below(b.angle_from));
+  }
+  return cells;
+}
+
+struct Expected {
+  const SphereGrid* grid;
+  std::vector<double> cells; // probabilities of surviving with a direction in the cell
+};
+
+Expected expected_of(const Strategy& strategy, const Drawn& drawn) {
+  const Situation& at = drawn.one.at;
+  if (strategy.family == Family::smooth) {
+    Expected expected{&plain_grid(), plain_cells(strategy.name)};
+    for (double& cell : expected.cells) cell *= survival_of(at, at.reflectivity, drawn.roulette);
+    return expected;
+  }
+  const PartShares shares = mean_shares(at, guesses_of(strategy, at, drawn.cells), drawn.roulette);
+  const auto& specular = strategy.family == Family::whole  ? drawn.cells.exact
+                         : strategy.family == Family::fold ? drawn.cells.fold
+                                                           : drawn.cells.lobe;
+  Expected expected{&drawn.cells.grid, drawn.cells.diffuse};
+  for (std::size_t i = 0; i < specular.size(); ++i)
+    expected.cells[i] = shares.diffuse * expected.cells[i] + shares.specular * specular[i];
+  return expected;
+}
+
+Histogram histogram_of(const SphereGrid& grid, const std::vector<double>& observed,
+                       const std::vector<double>& expected) {
+  Histogram histogram{
+      {"angle_from", "angle_to", "longitude_from", "longitude_to", "above", "observed", "expected"},
+      {},
+      0,
+      {}};
+  for (std::size_t i = 0; i < grid.cells(); ++i) {
+    const auto b = grid.bounds(i);
+    histogram.rows.push_back({b.angle_from, b.angle_to, b.longitude_from, b.longitude_to, b.above ? 1. : 0.,
+                              observed[i], expected[i]});
+  }
+  return histogram;
+}
+
+} // namespace
+
+void check_directions(const Subject& subject, const Drawn& drawn) {
+  Expected expected = expected_of(subject.strategy, drawn);
+  const std::size_t cells = expected.cells.size();
+  std::vector<double> observed(cells + 1, 0.0); // the last one: absorbed, or no direction
+  double inside = 0;
+  for (const Sample& s : drawn.samples)
+    observed[s.survives && is_unit(s.direction) ? expected.grid->cell_of(s.direction) : cells] += 1;
+  for (const double cell : expected.cells) inside += cell;
+  expected.cells.push_back(std::max(0.0, 1 - inside));
+  for (double& cell : expected.cells) cell *= static_cast<double>(drawn.samples.size());
+  const double p = chi_square_p(observed, expected.cells);
+  if (subject.report.see_p(subject.strategy.name, "directions", p, drawn.where))
+    subject.report.keep(subject.strategy.name, "directions",
+                        histogram_of(*expected.grid, observed, expected.cells));
+}
+
+void check_means(const Subject& subject, const Drawn& drawn, double& pooled, int& pools) {
+  const Strategy& strategy = subject.strategy;
+  const Situation& at = drawn.one.at;
+  if (strategy.family == Family::smooth && at.model.exponent > 100) return; // no sample finds the lobe
+  const double kept = strategy.biased() ? 1 - drawn.cells.below : 1;        // of the specular part
+  const Rgb expected = at.model.diffuse + at.model.specular * (at.reflectivity * kept);
+  for (int channel = 0; channel < 3; ++channel) {
+    Moments moments;
+    for (const Sample& s : drawn.samples) moments.add(s.survives ? s.weight[channel] : 0.0);
+    // Weights of float32, with a reflectivity from a table, cannot be nearer than their own error.
+    constexpr double float_error = 1e-5;
+    const double off = moments.mean() - expected[channel];
+    const double allowed = float_error * expected[channel];
+    const double error = moments.standard_error();
+    const double beyond = std::max(0.0, std::abs(off) - allowed);
+    const double sigmas = beyond == 0 ? 0 : beyond / error; // infinite where all weights are alike and wrong
+    subject.report.see_p(strategy.name, "means", normal_p(sigmas),
+                         fmt::format("{}, channel {}", drawn.where, channel));
+    if (channel == 0 && error > allowed) {
+      pooled += off / error;
+      ++pools;
+    }
+  }
+}
+
+void check_samples(const Subject& subject) {
+  std::uint32_t seed = 1;
+  double pooled = 0;
+  int pools = 0;
+  for (std::size_t i = 0; i < subject.cases.cases.size(); ++i) {
+    const Case& one = subject.cases.cases[i];
+    seed += 2;
+    if (one.at.model.exponent > subject.strategy.largest_exponent) continue;
+    for (const bool roulette : {false, true}) {
+      const auto samples = subject.device.sample(one.material, one.at.fixed, subject.samples,
+                                                 seed + (roulette ? 1 : 0), roulette);
+      const Drawn drawn{one, subject.cells[i], roulette, samples, one.name + (roulette ? ", roulette" : "")};
+      check_directions(subject, drawn);
+      check_means(subject, drawn, pooled, pools);
+      check_weights(subject, drawn);
+      check_densities(subject, drawn);
+    }
+  }
+  if (pools > 0)
+    subject.report.see(subject.strategy.name, "pooled means", std::abs(pooled) / std::sqrt(pools), 4,
+                       fmt::format("{} cases together", pools));
+}
+
+} // namespace phlux::verify

@@ -1,0 +1,157 @@
+#include "verify/device_model.h"
+
+#include <algorithm>
+#include <bit>
+#include <cctype>
+#include <cmath>
+
+namespace phlux::verify {
+namespace {
+
+constexpr std::size_t sample_values = 9, pair_values = 8; // planes of verify.cl
+
+std::string macro_of(const std::string& strategy) {
+  std::string macro = "STRATEGY_" + strategy;
+  for (char& c : macro) c = c == '-' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return macro;
+}
+
+device::ProgramSource source_of(const std::string& strategy, int lanes, bool with_lobe) {
+  device::ProgramSource source{"verify.cl",
+                               {{"WIDTH", std::to_string(lanes)},
+                                {"PHLUX_GIVEN_WORDS", "1"},
+                                {"PHLUX_STRATEGY", macro_of(strategy)},
+                                {"PHONG_TABLE_INTERVALS", std::to_string(render::reflectivity_intervals)}},
+                               ""};
+  if (with_lobe) source.defines["PHLUX_PHONG_LOBE"] = "1";
+  return source;
+}
+
+template<typename T>
+cl::Buffer buffer_of(const device::Device& device, const std::vector<T>& values) {
+  cl::Buffer buffer(device.context, CL_MEM_READ_ONLY, std::max<std::size_t>(1, values.size()) * sizeof(T));
+  if (!values.empty())
+    device.queue.enqueueWriteBuffer(buffer, CL_TRUE, 0, values.size() * sizeof(T), values.data());
+  return buffer;
+}
+
+cl_uint set_fixed(cl::Kernel& kernel, cl_uint index, const Direction& fixed) {
+  for (int axis = 0; axis < 3; ++axis) kernel.setArg(index++, static_cast<cl_float>(fixed[axis]));
+  return index;
+}
+
+constexpr cl_uint first_argument = 3; // after VERIFY_PARAMETERS
+
+} // namespace
+
+std::uint32_t word_for(double u) {
+  return static_cast<std::uint32_t>(std::clamp(std::floor(u * 0x1p23), 0.0, 0x1p23 - 1)) << 9;
+}
+
+DeviceModel::DeviceModel(const device::Device& device, const device::KernelFiles& files, int lanes,
+                         const std::string& strategy, const render::MaterialTable& materials, bool with_lobe)
+    : device_(device), lanes_(static_cast<std::size_t>(lanes)),
+      program_(device::build(device, files, source_of(strategy, lanes, with_lobe)).program),
+      materials_(buffer_of(device, materials.records)), table_(buffer_of(device, materials.reflectivity)) {}
+
+std::size_t DeviceModel::items(std::size_t elements) const {
+  return (elements + lanes_ - 1) / lanes_;
+}
+
+cl::Buffer DeviceModel::planes(const std::vector<std::uint32_t>& words) const {
+  return buffer_of(device_, words);
+}
+
+cl::Kernel DeviceModel::kernel(const char* name, int material) const {
+  cl::Kernel kernel(program_, name);
+  kernel.setArg(0, materials_);
+  kernel.setArg(1, table_);
+  kernel.setArg(2, static_cast<cl_int>(material));
+  return kernel;
+}
+
+std::vector<float> DeviceModel::run(cl::Kernel& kernel, cl_uint last, std::size_t elements,
+                                    std::size_t values) const {
+  const std::size_t work = items(elements);
+  std::vector<float> results(work * lanes_ * values);
+  const cl::Buffer memory(device_.context, CL_MEM_WRITE_ONLY, results.size() * sizeof(float));
+  kernel.setArg(last, memory);
+  device_.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(work), cl::NullRange);
+  device_.queue.enqueueReadBuffer(memory, CL_TRUE, 0, results.size() * sizeof(float), results.data());
+  return results;
+}
+
+std::vector<Sample> DeviceModel::run_samples(cl::Kernel& kernel, cl_uint last, std::size_t elements) const {
+  const std::vector<float> results = run(kernel, last, elements, sample_values);
+  const std::size_t plane = items(elements) * lanes_;
+  std::vector<Sample> samples(elements);
+  for (std::size_t i = 0; i < elements; ++i) {
+    const auto at = [&](std::size_t k) -> double { return results[k * plane + i]; };
+    samples[i] = {{at(0), at(1), at(2)}, {at(3), at(4), at(5)}, at(6), at(7) != 0, static_cast<int>(at(8))};
+  }
+  return samples;
+}
+
+std::vector<Sample> DeviceModel::sample(int material, const Direction& fixed, std::size_t count,
+                                        std::uint32_t seed, bool roulette, std::uint32_t first) const {
+  cl::Kernel kernel = this->kernel("sample_model", material);
+  cl_uint index = set_fixed(kernel, first_argument, fixed);
+  kernel.setArg(index++, cl_uint2{{seed, 0x766572}}); // a family of its own, apart from renders' seeds
+  kernel.setArg(index++, static_cast<cl_uint>(first));
+  kernel.setArg(index++, static_cast<cl_int>(roulette));
+  return run_samples(kernel, index, count);
+}
+
+std::vector<Sample> DeviceModel::drive(int material, const Direction& fixed, const std::vector<Words>& words,
+                                       bool roulette) const {
+  const std::size_t plane = items(words.size()) * lanes_;
+  std::vector<std::uint32_t> arranged(4 * plane);
+  for (std::size_t i = 0; i < plane; ++i)
+    for (std::size_t k = 0; k < 4; ++k) arranged[k * plane + i] = words[std::min(i, words.size() - 1)][k];
+  const cl::Buffer memory = planes(arranged);
+  cl::Kernel kernel = this->kernel("drive_model", material);
+  cl_uint index = set_fixed(kernel, first_argument, fixed);
+  kernel.setArg(index++, memory);
+  kernel.setArg(index++, static_cast<cl_int>(roulette));
+  return run_samples(kernel, index, words.size());
+}
+
+std::vector<PairValues> DeviceModel::evaluate(int material, const std::vector<Pair>& pairs) const {
+  const std::size_t plane = items(pairs.size()) * lanes_;
+  std::vector<std::uint32_t> arranged(6 * plane);
+  for (std::size_t i = 0; i < plane; ++i) {
+    const Pair& pair = pairs[std::min(i, pairs.size() - 1)];
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto k = static_cast<std::size_t>(axis);
+      arranged[k * plane + i] = std::bit_cast<std::uint32_t>(static_cast<float>(pair.a[axis]));
+      arranged[(k + 3) * plane + i] = std::bit_cast<std::uint32_t>(static_cast<float>(pair.b[axis]));
+    }
+  }
+  const cl::Buffer memory = planes(arranged);
+  cl::Kernel kernel = this->kernel("evaluate_model", material);
+  kernel.setArg(first_argument, memory);
+  const std::vector<float> results = run(kernel, first_argument + 1, pairs.size(), pair_values);
+  std::vector<PairValues> values(pairs.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const auto at = [&](std::size_t k) -> double { return results[k * plane + i]; };
+    values[i] = {{at(0), at(1), at(2)}, {at(3), at(4), at(5)}, at(6), at(7)};
+  }
+  return values;
+}
+
+std::vector<Rgb> DeviceModel::reflectivity(int material, const std::vector<double>& cosines) const {
+  const std::size_t plane = items(cosines.size()) * lanes_;
+  std::vector<std::uint32_t> arranged(plane);
+  for (std::size_t i = 0; i < plane; ++i)
+    arranged[i] = std::bit_cast<std::uint32_t>(static_cast<float>(cosines[std::min(i, cosines.size() - 1)]));
+  const cl::Buffer memory = planes(arranged);
+  cl::Kernel kernel = this->kernel("integrate_model", material);
+  kernel.setArg(first_argument, memory);
+  const std::vector<float> results = run(kernel, first_argument + 1, cosines.size(), 3);
+  std::vector<Rgb> values(cosines.size());
+  for (std::size_t i = 0; i < cosines.size(); ++i)
+    values[i] = {results[i], results[plane + i], results[2 * plane + i]};
+  return values;
+}
+
+} // namespace phlux::verify

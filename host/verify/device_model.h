@@ -1,0 +1,68 @@
+// The reflectance model as a device computes it, for one strategy: kernels/verify.cl.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "device/program.h"
+#include "render/material_table.h"
+#include "verify/model.h"
+
+namespace phlux::verify {
+
+struct Sample {
+  Direction direction;
+  Rgb weight;
+  double density = 0;
+  bool survives = true;
+  int draws = 0;
+};
+
+struct Pair {
+  Direction a, b;
+};
+struct PairValues {
+  Rgb value, reversed;                      ///< f_r of (a, b), and of (b, a)
+  double density = 0, reversed_density = 0; ///< of b where a is fixed, and of a where b is
+};
+
+/// Random words that a sampler gets: for roulette and the choice of a lobe, for the direction (two), and for
+/// what the strategy needs besides.
+using Words = std::array<std::uint32_t, 4>;
+
+/// The word for which the kernels' uniform_real gives the value nearest to u in (0, 1).
+[[nodiscard]] std::uint32_t word_for(double u);
+
+class DeviceModel {
+public:
+  /// Builds the kernels. @throws DeviceError
+  DeviceModel(const device::Device& device, const device::KernelFiles& files, int lanes,
+              const std::string& strategy, const render::MaterialTable& materials, bool with_lobe = true);
+
+  /// `count` samples of the sequence `seed`, from its path `first` on; materials by their index in the table.
+  [[nodiscard]] std::vector<Sample> sample(int material, const Direction& fixed, std::size_t count,
+                                           std::uint32_t seed, bool roulette, std::uint32_t first = 0) const;
+  /// One sample for each set of words.
+  [[nodiscard]] std::vector<Sample> drive(int material, const Direction& fixed,
+                                          const std::vector<Words>& words, bool roulette) const;
+  [[nodiscard]] std::vector<PairValues> evaluate(int material, const std::vector<Pair>& pairs) const;
+  [[nodiscard]] std::vector<Rgb> reflectivity(int material, const std::vector<double>& cosines) const;
+
+private:
+  [[nodiscard]] std::size_t items(std::size_t elements) const;
+  [[nodiscard]] cl::Buffer planes(const std::vector<std::uint32_t>& words) const;
+  [[nodiscard]] cl::Kernel kernel(const char* name, int material) const;
+  /// Runs a kernel whose last argument, number `last`, is its result; returns that.
+  [[nodiscard]] std::vector<float> run(cl::Kernel& kernel, cl_uint last, std::size_t elements,
+                                       std::size_t values) const;
+  [[nodiscard]] std::vector<Sample> run_samples(cl::Kernel& kernel, cl_uint last, std::size_t elements) const;
+
+  device::Device device_;
+  std::size_t lanes_;
+  cl::Program program_;
+  cl::Buffer materials_, table_;
+};
+
+} // namespace phlux::verify

@@ -1,0 +1,53 @@
+// The sphere of directions cut into cells, with a quadrature that puts whole rules into each cell.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "verify/model.h"
+
+namespace phlux::verify {
+
+struct Node {
+  Direction direction;
+  double weight = 0; ///< the solid angle that it stands for
+  std::size_t cell = 0;
+};
+
+/// Cells between angles from an axis, between longitudes about it, and above or below the horizon; the normal
+/// is z. Edges lie where densities have kinks: on the horizon and on its mirror image about the axis.
+class SphereGrid {
+public:
+  static constexpr int longitudes = 12;
+
+  /// `cuts`: angles in (0, pi) from the axis where cells are to end besides, where a density varies fast.
+  SphereGrid(const Direction& axis, std::vector<double> cuts);
+
+  [[nodiscard]] std::size_t cells() const { return (angles_.size() - 1) * longitudes * 2; }
+  [[nodiscard]] std::size_t cell_of(const Direction& direction) const;
+  [[nodiscard]] std::vector<Node> nodes() const;
+
+  /// Where a cell is: the angles and longitudes (radians) between which it lies, and whether above the
+  /// horizon.
+  struct Bounds {
+    double angle_from, angle_to, longitude_from, longitude_to;
+    bool above;
+  };
+  [[nodiscard]] Bounds bounds(std::size_t cell) const;
+
+private:
+  [[nodiscard]] Direction direction(double angle, double longitude) const;
+  void add_circle(std::vector<Node>& list, std::size_t ring, double angle, double weight) const;
+
+  Direction x_, y_, z_; // x_ points from the normal, across the axis
+  std::vector<double> angles_;
+};
+
+/// Angles within which a lobe cos^n has given shares of its weight.
+[[nodiscard]] std::vector<double> lobe_cuts(double exponent);
+
+/// Nodes (position, weight) of Gauss and Legendre's rule on [from, to].
+template<std::size_t points>
+[[nodiscard]] std::array<std::array<double, 2>, points> gauss_nodes(double from, double to);
+
+} // namespace phlux::verify

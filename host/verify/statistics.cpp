@@ -1,0 +1,62 @@
+#include "verify/statistics.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <boost/math/special_functions/gamma.hpp>
+
+namespace phlux::verify {
+
+double one_of(std::size_t questions) {
+  return -std::expm1(std::log1p(-false_alarm_rate) /
+                     static_cast<double>(std::max<std::size_t>(questions, 1)));
+}
+
+double chi_square_tail(double statistic, double degrees) {
+  return boost::math::gamma_q(degrees / 2, statistic / 2);
+}
+
+double normal_p(double sigmas) {
+  return std::erfc(std::abs(sigmas) / std::sqrt(2.0));
+}
+
+double chi_square_p(const std::vector<double>& observed, const std::vector<double>& expected) {
+  constexpr double fewest = 10;
+  double statistic = 0, pooled_observed = 0, pooled_expected = 0;
+  int cells = 0;
+  const auto add = [&](double seen, double hoped) {
+    statistic += (seen - hoped) * (seen - hoped) / hoped;
+    ++cells;
+  };
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    if (expected[i] >= fewest) {
+      add(observed[i], expected[i]);
+    } else {
+      pooled_observed += observed[i];
+      pooled_expected += expected[i];
+    }
+  }
+  // A pool that expects fewer than one is no cell, but a sampler that fills it is wrong.
+  if (pooled_expected >= 1)
+    add(pooled_observed, pooled_expected);
+  else if (pooled_observed > 10)
+    return 0;
+  return cells > 1 ? chi_square_tail(statistic, cells - 1) : 1;
+}
+
+double Moments::variance() const {
+  return std::max(0.0, second_ / count() - mean() * mean());
+}
+
+double Moments::standard_error() const {
+  return std::sqrt(variance() / count());
+}
+
+double Moments::variance_standard_error() const {
+  const double m = mean(), v = variance();
+  const double fourth = fourth_ / count() - 4 * m * third_ / count() + 6 * m * m * second_ / count() -
+                        3 * m * m * m * m; // central
+  return std::sqrt(std::max(0.0, fourth - v * v) / count());
+}
+
+} // namespace phlux::verify

@@ -1,0 +1,40 @@
+#include "verify/verify.h"
+
+#include <algorithm>
+
+#include "verify/checks.h"
+
+namespace phlux::verify {
+namespace {
+
+// Interpreters that check every access are some thousand times slower.
+std::size_t samples_of(const device::Device& device, const Settings& settings) {
+  if (settings.samples > 0) return settings.samples;
+  if (device.info.platform == "Oclgrind") return 64;
+  return settings.quick ? 8192 : 16384;
+}
+
+} // namespace
+
+Report run(const device::Device& device, const Settings& settings) {
+  Report report;
+  const Cases cases = make_cases(settings.quick);
+  std::vector<CaseCells> cells;
+  for (const Case& one : cases.cases) cells.push_back(cells_of(one.at));
+  bool first = true;
+  for (const Strategy& strategy : strategies()) {
+    if (!settings.strategies.empty() &&
+        std::ranges::find(settings.strategies, strategy.name) == settings.strategies.end())
+      continue;
+    if (settings.progress) settings.progress(strategy.name);
+    const DeviceModel model(device, settings.kernels, settings.lanes, strategy.name, cases.table);
+    const Subject subject{strategy,       model, cases, cells, samples_of(device, settings),
+                          settings.quick, report};
+    if (first) first = false;
+    check_samples(subject);
+  }
+  report.judge();
+  return report;
+}
+
+} // namespace phlux::verify
