@@ -10,11 +10,11 @@
 #include <random>
 #include <thread>
 
-#include <embree3/rtcore.h>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include "bench/csv.h"
+#include "bench/embree_rays.h"
 #include "bench/knot_scene.h"
 #include "device/program.h"
 #include "errors.h"
@@ -26,11 +26,6 @@ namespace {
 using scene::Vec3;
 using Clock = std::chrono::steady_clock;
 
-// As kernels/rays.cl reads it.
-struct Ray {
-  float origin[3], direction[3], distance, unused = 0;
-};
-
 double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   return values[values.size() / 2];
@@ -41,83 +36,6 @@ double seconds_of(const std::function<void()>& work) {
   work();
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
-
-// ---- Embree
-
-template<auto release>
-struct Releaser {
-  template<typename T>
-  void operator()(T* handle) const {
-    release(handle);
-  }
-};
-
-class Embree {
-public:
-  Embree(const scene::Mesh& mesh, const Vec3& origin, unsigned threads)
-      : threads_(threads), device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_.get())) {
-    RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* positions = static_cast<float*>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), mesh.positions.size()));
-    for (const Vec3& p : mesh.positions)
-      for (int axis = 0; axis < 3; ++axis) *positions++ = static_cast<float>(p[axis] - origin[axis]);
-    auto* corners = static_cast<std::uint32_t*>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                3 * sizeof(std::uint32_t), mesh.triangles.size()));
-    for (const auto& triangle : mesh.triangles)
-      corners = std::copy(triangle.begin(), triangle.end(), corners);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene_.get(), geometry);
-    rtcReleaseGeometry(geometry);
-    rtcCommitScene(scene_.get());
-  }
-
-  void closest(const std::vector<Ray>& rays, std::vector<float>& found) const {
-    in_threads(rays.size(), [&](std::size_t first, std::size_t end) {
-      RTCIntersectContext context;
-      rtcInitIntersectContext(&context);
-      for (std::size_t i = first; i < end; ++i) {
-        RTCRayHit query{};
-        query.ray = ray_of(rays[i], std::numeric_limits<float>::infinity());
-        query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-        rtcIntersect1(scene_.get(), &context, &query);
-        found[i] = query.ray.tfar;
-      }
-    });
-  }
-
-  void any(const std::vector<Ray>& rays, std::vector<float>& found) const {
-    in_threads(rays.size(), [&](std::size_t first, std::size_t end) {
-      RTCIntersectContext context;
-      rtcInitIntersectContext(&context);
-      for (std::size_t i = first; i < end; ++i) {
-        RTCRay query = ray_of(rays[i], rays[i].distance);
-        rtcOccluded1(scene_.get(), &context, &query);
-        found[i] = query.tfar < 0 ? 1.0f : 0.0f;
-      }
-    });
-  }
-
-private:
-  static RTCRay ray_of(const Ray& ray, float distance) {
-    RTCRay r{};
-    r.org_x = ray.origin[0], r.org_y = ray.origin[1], r.org_z = ray.origin[2];
-    r.dir_x = ray.direction[0], r.dir_y = ray.direction[1], r.dir_z = ray.direction[2];
-    r.tfar = distance;
-    r.mask = 0xFFFFFFFF;
-    return r;
-  }
-
-  void in_threads(std::size_t count, const std::function<void(std::size_t, std::size_t)>& work) const {
-    std::vector<std::jthread> threads;
-    for (unsigned t = 0; t < threads_; ++t)
-      threads.emplace_back([=, this] { work(count * t / threads_, count * (t + 1) / threads_); });
-  }
-
-  unsigned threads_;
-  std::unique_ptr<std::remove_pointer_t<RTCDevice>, Releaser<rtcReleaseDevice>> device_;
-  std::unique_ptr<std::remove_pointer_t<RTCScene>, Releaser<rtcReleaseScene>> scene_;
-};
 
 // ---- The device
 
@@ -236,7 +154,7 @@ struct Kind {
 };
 
 void measure(CsvFile& table, const RaysOptions& options, const std::string& label, DeviceRays& ours,
-             const Embree& theirs, const Kind& kind) {
+             const EmbreeRays& theirs, const Kind& kind) {
   const bool closest = std::string(kind.kernel) == "find_closest";
   std::vector<float> found(kind.rays.size()), expected(kind.rays.size());
   std::vector<double> rates, embree_rates, ratios;
@@ -267,7 +185,7 @@ void measure_rays(const RaysOptions& options) {
     render::HostScene host = render::prepare(scene, options.traversal, lanes);
     const render::Parts parts = render::find_parts(scene, host.geometry, host.lights, {}, lanes);
     DeviceRays ours(device, files, host, parts);
-    const Embree theirs(scene.meshes.front(), host.geometry.origin, device.info.compute_units);
+    const EmbreeRays theirs(scene.meshes.front(), host.geometry.origin, device.info.compute_units);
     const std::vector<Ray> camera = camera_rays(scene.camera, host.geometry.origin);
     std::vector<float> distances(camera.size());
     theirs.closest(camera, distances);

@@ -7,8 +7,7 @@
 #include <memory>
 #include <span>
 
-#include <embree3/rtcore.h>
-
+#include "accel/embree.h"
 #include "accel/geometry.h"
 #include "accel/primitive.h"
 #include "errors.h"

@@ -1,0 +1,45 @@
+// Embree as the yardstick for rays.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <type_traits>
+#include <vector>
+
+#include "accel/embree.h"
+#include "scene/scene.h"
+
+namespace phlux::bench {
+
+/// As kernels/rays.cl reads it.
+struct Ray {
+  float origin[3], direction[3], distance, unused = 0;
+};
+
+class EmbreeRays {
+public:
+  /// Builds Embree's own hierarchy over the mesh, in coordinates about `origin`.
+  EmbreeRays(const scene::Mesh& mesh, const scene::Vec3& origin, unsigned threads);
+
+  /// found[i]: the distance at which ray i meets the closest triangle; infinite where it meets none
+  /// (rtcIntersect1).
+  void closest(const std::vector<Ray>& rays, std::vector<float>& found) const;
+  /// found[i]: 1 where something is before ray i's distance, else 0 (rtcOccluded1).
+  void any(const std::vector<Ray>& rays, std::vector<float>& found) const;
+
+private:
+  void in_threads(std::size_t count, const std::function<void(std::size_t, std::size_t)>& work) const;
+
+  template<auto release>
+  struct Releaser {
+    template<typename T>
+    void operator()(T* handle) const {
+      release(handle);
+    }
+  };
+  unsigned threads_;
+  std::unique_ptr<std::remove_pointer_t<RTCDevice>, Releaser<rtcReleaseDevice>> device_;
+  std::unique_ptr<std::remove_pointer_t<RTCScene>, Releaser<rtcReleaseScene>> scene_;
+};
+
+} // namespace phlux::bench
