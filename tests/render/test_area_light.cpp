@@ -92,8 +92,8 @@ scene::Patch disk_facing(const Vec3& front) {
 TEST_CASE("a disk light parallel to the plane") {
   scene::Scene scene = plane();
   scene.patches.push_back(disk_facing({0, 0, -1}));
-  check_all_ways(scene, {Connect::light, Connect::mis},
-                 lit(scene, [](const Vec3& p) { return of_disk(p, disk_center, disk_radius); }));
+  check_all_ways(scene, {Connect::none, Connect::light, Connect::mis},
+                 lit(scene, [](const Vec3& p) { return of_disk(p, disk_center, disk_radius); }), 8192);
   // Straight below its middle: pi L r^2 / (r^2 + h^2).
   CHECK(of_disk({0.2, 0.1, 0}, disk_center, disk_radius) == Approx(0.64 / (0.64 + 2.25)));
 }
