@@ -33,14 +33,15 @@ inline std::ostream& operator<<(std::ostream& to, const Variant& v) {
   return to << "WIDTH " << v.width << (v.portable ? ", portable" : "");
 }
 
+/// Never released, as drivers may be gone when static objects are destroyed.
 inline const phlux::device::Device& test_device() {
-  static const phlux::device::Device device = phlux::device::open_devices({}).front();
+  static const auto& device = *new phlux::device::Device(phlux::device::open_devices({}).front());
   return device;
 }
 
 /// Interpreters of kernels are some thousand times slower: sweeps are thinned out there.
-inline std::size_t thinned(std::size_t count) {
-  return test_device().info.platform == "Oclgrind" ? count / 64 + 1 : count;
+inline std::size_t thinned(std::size_t count, std::size_t factor = 64) {
+  return test_device().info.platform == "Oclgrind" ? count / factor + 1 : count;
 }
 
 /// The kernels under test: the embedded ones, or those of the folder PHLUX_TEST_KERNELS, to see that a test
@@ -169,10 +170,10 @@ private:
   cl::Program program_;
 };
 
-/// A program of tests/kernels/NAME, built when it is first asked for.
+/// A program of tests/kernels/NAME, built when it is first asked for and never released.
 inline const Program& program_of(const std::string& name, Variant variant,
                                  const std::map<std::string, std::string>& defines = {}) {
-  static std::map<std::string, Program> programs;
+  static auto& programs = *new std::map<std::string, Program>;
   std::ostringstream key;
   key << name << ' ' << variant;
   for (const auto& [macro, value] : defines) key << ' ' << macro << '=' << value;
