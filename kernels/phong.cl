@@ -6,8 +6,7 @@
 // direction that is known (towards the eye on an eye path, towards the light on a light path) and must lie above the
 // surface; `generated` is the other one. The model is reciprocal, its sampling densities are not: they depend on which
 // direction was fixed. alpha is the angle between `generated` and the mirror image of `fixed`, clamped to pi / 2.
-// Densities are per solid angle. Every function computes all lanes; a lane that is off may hold anything. phong_sample
-// takes the mask of the lanes that matter, so that no time goes into drawing for the others.
+// Densities are per solid angle. phong_sample takes the mask of the lanes that matter and draws for no others.
 //
 // PHLUX_STRATEGY chooses how phong_sample draws. PHLUX_PHONG_LOBE is defined where some material has ks > 0; without
 // it the model is kd / pi and no code of the lobe is compiled. phong-sampling.md derives what is not in CW 197.
@@ -40,7 +39,7 @@
 
 // Intervals of a row of the reflectivity table; a row has one value more. The host that fills the table defines it.
 #ifndef PHONG_TABLE_INTERVALS
-#define PHONG_TABLE_INTERVALS 512
+#define PHONG_TABLE_INTERVALS 1024
 #endif
 
 // Material parameters in every lane. The largest colour channels decide how often each lobe is drawn.
@@ -112,11 +111,16 @@ static inline Vec3 phong_reflectivity(Phong m, Real cosine) {
 #endif
 }
 
-// Roulette: the probability with which the paths of `roulette` survive; all others do. Where `reflectivity` is that of the
-// largest channel, no channel's throughput rises over a bounce; with the mean over the channels a path between red
-// walls would have infinite variance in red.
+// Roulette: the probability with which the paths of `roulette` survive; all others do. `reflectivity` is the largest
+// channel's: with the channels' mean a path between red walls would have infinite variance in red.
 static inline Real survival_of(Real reflectivity, Mask roulette) {
   return roulette ? smaller(reflectivity, (Real)(PHONG_LARGEST_SURVIVAL)) : (Real)(1.0f);
+}
+
+// f_r cos / density / survival, of the whole model.
+static inline Vec3 whole_weight(Phong m, Vec3 fixed, Vec3 direction, Real density, Real survival) {
+  const Vec3 weight = vec_scale(direction.z / (density * survival), phong_eval(m, fixed, direction));
+  return vec_select((direction.z > 0.0f) & (density > 0.0f), weight, vec_all((Real)(0.0f)));
 }
 
 // ---- Sampling without regard to the lobe
@@ -173,7 +177,7 @@ static inline PhongSample phong_sample(Phong m, Vec3 fixed, RandomSequence seque
   PhongSample s;
   s.direction = plain_direction(uniform_real(words.y), uniform_real(words.z));
   s.density = phong_density(m, fixed, s.direction);
-  s.weight = vec_scale(s.direction.z / (s.density * survival), phong_eval(m, fixed, s.direction));
+  s.weight = whole_weight(m, fixed, s.direction, s.density, survival);
   s.survives = uniform_real(words.x) < survival;
   s.draws = (Int)(1);
   return s;
@@ -183,9 +187,9 @@ static inline PhongSample phong_sample(Phong m, Vec3 fixed, RandomSequence seque
 
 // ---- Sampling one lobe or the other
 
-// How often each lobe is drawn, and with what probability a path survives roulette.
 typedef struct {
-  Real diffuse, specular, survival;
+  Real diffuse, specular; // how often each lobe is drawn, up to a common factor
+  Real survival;          // the probability with which a path survives roulette
 } PhongShares;
 
 // For a lobe that reflects `reflectivity` of what it would at normal incidence, or is taken to.
@@ -205,16 +209,9 @@ static inline PhongShares phong_shares(Phong m, Real cosine) {
 #endif
 }
 
-// f_r cos / density / survival, of the whole model.
-static inline Vec3 whole_weight(Phong m, Vec3 fixed, Vec3 direction, Real density, Real survival) {
-  const Vec3 weight = vec_scale(direction.z / (density * survival), phong_eval(m, fixed, direction));
-  return vec_select((direction.z > 0.0f) & (density > 0.0f), weight, vec_all((Real)(0.0f)));
-}
-
 #if PHLUX_STRATEGY == STRATEGY_EXACT || PHLUX_STRATEGY == STRATEGY_REJECTION
 
 // The density is the model itself, f_r cos / rho, in the largest channels; a colourless material's weight is rho.
-
 static inline Real phong_density(Phong m, Vec3 fixed, Vec3 generated) {
   const PhongShares shares = phong_shares(m, fixed.z);
   const Real value = fma(phong_lobe(m, fixed, generated), m.specular_max, m.diffuse_max);
@@ -331,8 +328,8 @@ static inline PhongSample phong_sample(Phong m, Vec3 fixed, RandomSequence seque
 
 #else
 
-// Density of a direction when a lobe is drawn by its share. (Where the share is an estimate that varies from sample to
-// sample this is the density for its mean, which serves as well for weighting against other strategies.)
+// Density of a direction when a lobe is drawn by its share. Where the share is an estimate, the density for its mean,
+// which serves as well for weighting against other strategies.
 static inline Real phong_density(Phong m, Vec3 fixed, Vec3 generated) {
   const PhongShares shares = phong_shares(m, fixed.z);
   Real lobe = phong_lobe(m, fixed, generated) * (m.exponent + 1.0f) / (m.exponent + 2.0f);
@@ -358,8 +355,7 @@ static inline Real phong_guess(Phong m, Vec3 fixed, RandomSequence sequence, Uin
   const RandomWords words = random_words(sequence, dimension, 1);
   const Vec3 v = cosine_power_direction(m.exponent, uniform_real(words.y), uniform_real(words.z));
   const Real height = mirror_frame_height(mirror_frame(fixed), v);
-  const Real estimate =
-      clamp((m.exponent + 2.0f) / (m.exponent + 1.0f) * height, (Real)(0.0f), (Real)(1.0f));
+  const Real estimate = clamp((m.exponent + 2.0f) / (m.exponent + 1.0f) * height, (Real)(0.0f), (Real)(1.0f));
 #if PHLUX_STRATEGY == STRATEGY_LOBE_ESTIMATE
   return 0.5f + 0.5f * estimate;
 #else
@@ -390,10 +386,8 @@ static inline PhongSample phong_sample(Phong m, Vec3 fixed, RandomSequence seque
   s.weight = whole_weight(m, fixed, s.direction, s.density, survival);
 #else
   // The part that was drawn, over its own density (CW 197, 3.3.2).
-  const Real specular_weight =
-      total / (survival * shares.specular) * (m.exponent + 2.0f) / (m.exponent + 1.0f) * s.direction.z;
-  s.weight = vec_select(from_lobe, vec_scale(specular_weight, m.specular),
-                        vec_scale(total / (survival * shares.diffuse), m.diffuse));
+  const Real lobe = total / (survival * shares.specular) * (m.exponent + 2.0f) / (m.exponent + 1.0f) * s.direction.z;
+  s.weight = vec_select(from_lobe, vec_scale(lobe, m.specular), vec_scale(total / (survival * shares.diffuse), m.diffuse));
   s.weight = vec_select((s.direction.z > 0.0f) & (total > 0.0f), s.weight, vec_all((Real)(0.0f)));
 #endif
   s.survives = u < survival;
