@@ -5,12 +5,6 @@
 #include <numbers>
 #include <vector>
 
-#include <fmt/format.h>
-
-#include "errors.h"
-#include "render/material_table.h"
-#include "render/parts.h"
-
 namespace phlux::bench {
 namespace {
 
@@ -18,14 +12,6 @@ namespace {
 constexpr std::uint64_t block_samples = 256;
 constexpr int fixed_directions = 16;
 constexpr int powers = 4, counters = 3;
-
-scene::Material material_of(const Case& one) {
-  scene::Material material;
-  material.diffuse = scene::Rgb(one.diffuse);
-  material.specular = scene::Rgb(one.specular);
-  material.exponent_u = one.exponent;
-  return material;
-}
 
 // Directions at the case's angle and even longitudes, in the layout that the kernel reads.
 std::vector<float> directions_at(double degrees, int lanes) {
@@ -41,24 +27,6 @@ std::vector<float> directions_at(double degrees, int lanes) {
   return values;
 }
 
-template<typename T>
-cl::Buffer upload(const device::Device& device, const std::vector<T>& table) {
-  return {device.context, CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR, table.size() * sizeof(T),
-          const_cast<T*>(table.data())};
-}
-
-std::map<std::string, std::string> defines(const std::string& strategy, int lanes) {
-  const auto& names = render::strategy_names();
-  const auto found = std::ranges::find(names, strategy);
-  if (found == names.end())
-    throw UsageError(fmt::format("--strategy {}: there is no such strategy", strategy));
-  return {{"WIDTH", std::to_string(lanes)},
-          {"PHLUX_PHONG_LOBE", "1"},
-          {"PHLUX_STRATEGY", std::to_string(found - names.begin() + 1)},
-          {"PHONG_TABLE_INTERVALS", std::to_string(render::reflectivity_intervals)},
-          {"FIXED_DIRECTIONS", std::to_string(fixed_directions)}};
-}
-
 double seconds_of(const cl::Event& event) {
   return 1e-9 * static_cast<double>(event.getProfilingInfo<CL_PROFILING_COMMAND_END>() -
                                     event.getProfilingInfo<CL_PROFILING_COMMAND_START>());
@@ -66,21 +34,12 @@ double seconds_of(const cl::Event& event) {
 
 } // namespace
 
-double exact_reflectivity(const Case& one) {
-  const double cosine = std::cos(one.degrees * std::numbers::pi / 180);
-  return one.diffuse + one.specular * render::lobe_reflectivity(one.exponent, cosine);
-}
-
 double rejection_proposals(const Case& one) {
   return (one.diffuse + one.specular * (one.exponent + 2) / 2) / exact_reflectivity(one);
 }
 
 bool has_roulette(const std::string& strategy) {
   return strategy != "uniform" && strategy != "theta-phi" && strategy != "cosine" && strategy != "disk";
-}
-
-device::KernelFiles kernel_files(const std::filesystem::path& folder) {
-  return folder.empty() ? device::KernelFiles() : device::KernelFiles(folder);
 }
 
 void Sampler::Run::add(const Run& other) {
@@ -98,14 +57,13 @@ void Sampler::Run::add(const Run& other) {
 
 Sampler::Sampler(const device::Device& device, const device::KernelFiles& files, const std::string& strategy,
                  int lanes)
-    : device_(device), strategy_(strategy), lanes_(lanes),
-      items_(device.info.compute_units * (device.info.type == "cpu" ? 4 : 1024)),
-      local_(device.info.type == "cpu" ? 1 : 64),
-      program_(device::build(device, files, {"sampling.cl", defines(strategy, lanes), {}}).program),
-      kernel_(program_, "sample_moments") {}
+    : program_(device, files, "sampling.cl", strategy, lanes,
+               {{"FIXED_DIRECTIONS", std::to_string(fixed_directions)}}),
+      strategy_(strategy), items_(device.info.compute_units * (device.info.type == "cpu" ? 4 : 1024)),
+      local_(device.info.type == "cpu" ? 1 : 64), kernel_(program_.program(), "sample_moments") {}
 
 std::uint64_t Sampler::blocks(std::uint64_t samples) const {
-  const std::uint64_t a_block = items_ * static_cast<std::uint64_t>(lanes_) * block_samples;
+  const std::uint64_t a_block = items_ * static_cast<std::uint64_t>(program_.lanes()) * block_samples;
   return std::max<std::uint64_t>(1, (samples + a_block - 1) / a_block);
 }
 
@@ -114,11 +72,9 @@ std::uint32_t Sampler::samples_per_lane(std::uint64_t samples) const {
 }
 
 void Sampler::prepare(const Case& one) {
+  program_.set_material(one);
   if (one == prepared_) return;
-  const render::MaterialTable table = render::material_table({material_of(one)});
-  material_ = upload(device_, table.records);
-  reflectivity_ = upload(device_, table.reflectivity.empty() ? std::vector<float>{0} : table.reflectivity);
-  directions_ = upload(device_, directions_at(one.degrees, lanes_));
+  directions_ = program_.upload(directions_at(one.degrees, program_.lanes()));
   prepared_ = one;
 }
 
@@ -126,23 +82,23 @@ Sampler::Run Sampler::run(const Case& one, std::uint64_t samples, cl_uint2 seed,
   prepare(one);
   const std::uint64_t block_count = blocks(samples);
   const auto centre = static_cast<float>(exact_reflectivity(one));
-  std::vector<float> sums(items_ * static_cast<std::size_t>(lanes_) * block_count * powers);
+  const auto lanes = static_cast<std::size_t>(program_.lanes());
+  const device::Device& device = program_.device();
+  std::vector<float> sums(items_ * lanes * block_count * powers);
   std::vector<cl_uint> counts(items_ * counters);
-  const cl::Buffer device_sums(device_.context, CL_MEM_WRITE_ONLY, sums.size() * sizeof(float));
-  const cl::Buffer device_counts(device_.context, CL_MEM_WRITE_ONLY, counts.size() * sizeof(cl_uint));
-  cl_uint index = 0;
+  const cl::Buffer device_sums(device.context, CL_MEM_WRITE_ONLY, sums.size() * sizeof(float));
+  const cl::Buffer device_counts(device.context, CL_MEM_WRITE_ONLY, counts.size() * sizeof(cl_uint));
+  cl_uint index = program_.bind_material(kernel_);
   const auto set = [&](const auto&... arguments) { (kernel_.setArg(index++, arguments), ...); };
-  set(material_, reflectivity_, directions_, seed, cl_uint{first}, static_cast<cl_int>(block_count),
-      static_cast<cl_int>(block_samples), static_cast<cl_int>(has_roulette(strategy_)), cl_float{centre},
-      device_sums, device_counts);
+  set(directions_, seed, cl_uint{first}, static_cast<cl_int>(block_count), static_cast<cl_int>(block_samples),
+      static_cast<cl_int>(has_roulette(strategy_)), cl_float{centre}, device_sums, device_counts);
   cl::Event done;
-  device_.queue.enqueueNDRangeKernel(kernel_, cl::NullRange, cl::NDRange(items_), cl::NDRange(local_),
-                                     nullptr, &done);
-  device_.queue.enqueueReadBuffer(device_sums, CL_TRUE, 0, sums.size() * sizeof(float), sums.data());
-  device_.queue.enqueueReadBuffer(device_counts, CL_TRUE, 0, counts.size() * sizeof(cl_uint), counts.data());
+  device.queue.enqueueNDRangeKernel(kernel_, cl::NullRange, cl::NDRange(items_), cl::NDRange(local_), nullptr,
+                                    &done);
+  device.queue.enqueueReadBuffer(device_sums, CL_TRUE, 0, sums.size() * sizeof(float), sums.data());
+  device.queue.enqueueReadBuffer(device_counts, CL_TRUE, 0, counts.size() * sizeof(cl_uint), counts.data());
 
   Run run;
-  const auto lanes = static_cast<std::size_t>(lanes_);
   double* const totals[powers] = {&run.sums.d, &run.sums.d2, &run.sums.d3, &run.sums.d4};
   for (std::size_t i = 0; i < sums.size(); ++i) *totals[i / lanes % powers] += static_cast<double>(sums[i]);
   for (std::size_t item = 0; item < items_; ++item) {
@@ -155,8 +111,7 @@ Sampler::Run Sampler::run(const Case& one, std::uint64_t samples, cl_uint2 seed,
   run.seconds = seconds_of(done);
   return run;
 } catch (const cl::Error& error) {
-  throw DeviceError(
-      fmt::format("{}: {} with strategy {}", device_.info.name, device::describe(error), strategy_));
+  program_.fail(error);
 }
 
 } // namespace phlux::bench

@@ -2,23 +2,12 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <string>
 
 #include "bench/moments.h"
-#include "device/program.h"
+#include "bench/phong_program.h"
 
 namespace phlux::bench {
-
-/// A colourless material and the angle of the direction that is known.
-struct Case {
-  double diffuse = 0, specular = 0, exponent = 0; ///< kd, ks, n
-  double degrees = 0;                             ///< from the normal, below 90
-  bool operator==(const Case&) const = default;
-};
-
-/// The reflectivity rho = rho_d + rho_s, in closed form and double precision: what every strategy estimates.
-[[nodiscard]] double exact_reflectivity(const Case& one);
 
 /// Directions that `rejection` proposes for each that it takes: the bound of f_r cos over rho.
 [[nodiscard]] double rejection_proposals(const Case& one);
@@ -26,9 +15,6 @@ struct Case {
 /// Whether the strategy absorbs by Russian roulette, as CW 197, 3.3.2 has it; those that know nothing of the
 /// lobes do not.
 [[nodiscard]] bool has_roulette(const std::string& strategy);
-
-/// The kernels to measure: the embedded ones where `folder` is empty.
-[[nodiscard]] device::KernelFiles kernel_files(const std::filesystem::path& folder);
 
 class Sampler {
 public:
@@ -59,14 +45,12 @@ private:
   [[nodiscard]] std::uint64_t blocks(std::uint64_t samples) const;
   void prepare(const Case& one);
 
-  device::Device device_;
+  PhongProgram program_;
   std::string strategy_;
-  int lanes_;
   std::size_t items_, local_;
-  cl::Program program_;
   cl::Kernel kernel_;
   Case prepared_{-1, 0, 0, 0};
-  cl::Buffer material_, reflectivity_, directions_;
+  cl::Buffer directions_;
 };
 
 } // namespace phlux::bench

@@ -1,15 +1,5 @@
 // The sampler of phong.cl alone, for measuring it: one material, one angle of incidence, radiance 1 from everywhere.
-#include "material.cl"
-
-// A table of one Phong material.
-static inline Phong only_material(const __global MaterialRecord* materials, const __global float* reflectivity) {
-  Scene scene;
-  scene.materials = materials;
-#ifdef PHLUX_PHONG_LOBE
-  scene.reflectivity = reflectivity;
-#endif
-  return material_at(&scene, (Int)(0)).phong;
-}
+#include "only_material.cl"
 
 // One of FIXED_DIRECTIONS directions that differ in their longitude alone, in each lane: three times LANES floats each.
 // That they are read for every sample keeps what depends on them in the loop, as in a render.

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "bench/figures.h"
 #include "bench/rays.h"
 #include "bench/sampling.h"
 #include "cli/grammar.h"
@@ -116,6 +117,21 @@ void add_sampling(CLI::App& bench, std::optional<Command>& command) {
   });
 }
 
+void add_figures(CLI::App& bench, std::optional<Command>& command) {
+  CLI::App& app = *bench.add_subcommand(
+      "figures", "The figures of CW 197 from the kernels' output: figure-1 to figure-7 (.csv, .svg, .png)");
+  const auto options = std::make_shared<bench::FiguresOptions>();
+  add_common(app, *options);
+  app.footer(
+      "The drawings need python3-matplotlib; without it the tables are written and the exit code is 5.");
+  app.final_callback([&command, options] {
+    command = [options] {
+      bench::make_figures(*options);
+      return 0;
+    };
+  });
+}
+
 } // namespace
 
 void add_bench(CLI::App& program, std::optional<Command>& command) {
@@ -124,6 +140,7 @@ void add_bench(CLI::App& program, std::optional<Command>& command) {
   app.footer("phlux bench COMMAND --help lists the options of one.");
   add_rays(app, command);
   add_sampling(app, command);
+  add_figures(app, command);
 }
 
 } // namespace phlux::cli

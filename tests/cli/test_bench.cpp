@@ -57,6 +57,40 @@ TEST_CASE("phlux bench sampling writes the contract's columns, a row for each st
   CHECK_THAT(outcome.out, Catch::Contains("rejection is left out of 1 cases"));
 }
 
+TEST_CASE("phlux bench figures draws the seven figures of CW 197") {
+  const TemporaryFolder folder;
+  const Outcome outcome = run({{"bench", "figures", "--out", "a folder"}, folder.path(), {}, {}});
+  CAPTURE(outcome.err);
+  for (int figure = 1; figure <= 7; ++figure)
+    CHECK(std::filesystem::exists(folder / ("a folder/figure-" + std::to_string(figure) + ".csv")));
+  CHECK_THAT(outcome.out, Catch::Contains("reflectivity 0.44330"));
+  if (outcome.err.find("python3-matplotlib") != std::string::npos) {
+    WARN("no matplotlib: the drawings are not tested");
+    return;
+  }
+  CHECK(outcome.exit_code == 0);
+  CHECK(outcome.err.empty());
+  for (int figure = 1; figure <= 7; ++figure) {
+    const std::string name = "a folder/figure-" + std::to_string(figure);
+    CHECK_THAT(TemporaryFolder::read(folder / (name + ".png")), Catch::StartsWith("\x89PNG"));
+    CHECK_THAT(TemporaryFolder::read(folder / (name + ".svg")), Catch::Contains("</svg>"));
+  }
+}
+
+TEST_CASE("phlux bench figures without matplotlib keeps the tables and names the package") {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "python");
+  folder.write("python/matplotlib.py", "raise ImportError('not installed')\n");
+  const Outcome outcome =
+      run({{"bench", "figures", "--out", "out"}, folder.path(), {{"PYTHONPATH", folder / "python"}}, {}});
+  CAPTURE(outcome.err);
+  CHECK(outcome.exit_code == 5);
+  CHECK(outcome.is_one_line_error());
+  CHECK_THAT(outcome.err, Catch::Contains("python3-matplotlib"));
+  CHECK(std::filesystem::exists(folder / "out/figure-7.csv"));
+  CHECK_FALSE(std::filesystem::exists(folder / "out/figure-7.svg"));
+}
+
 TEST_CASE("phlux bench: bad input is one line and its exit code") {
   struct Bad {
     std::vector<std::string> arguments;
@@ -82,6 +116,9 @@ TEST_CASE("phlux bench: bad input is one line and its exit code") {
       {{"sampling", "--case", ".4,.05,50,90"}, 2, "--case 90"},
       {{"sampling", "--out", "/proc/phlux"}, 5, "/proc/phlux"},
       {{"sampling", "--device", "none such"}, 4, "none such"},
+      {{"figures", "--out", "/proc/phlux"}, 5, "/proc/phlux"},
+      {{"figures", "--out", "file"}, 5, "file"},
+      {{"figures", "--device", "none such"}, 4, "none such"},
   };
   const TemporaryFolder folder;
   folder.write("file", "");

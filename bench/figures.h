@@ -1,0 +1,32 @@
+// The figures of CW 197 from the kernels' own output: computed on a device, written as tables, drawn by
+// matplotlib.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace phlux::bench {
+
+struct FiguresOptions {
+  std::filesystem::path folder;     ///< of figure-1.csv to figure-7.csv, and the drawings
+  std::vector<std::string> devices; ///< --device specifications; the first one is used
+  int lanes = 0;                    ///< WIDTH; 0: what suits the device
+  std::filesystem::path kernel_dir; ///< empty: the embedded kernels
+  std::uint32_t seed = 1;
+};
+
+/// What must agree: figures 6 and 7 summed over their squares, and the reflectivity in closed form.
+struct FigureSums {
+  double sampled = 0, evaluated = 0, exact = 0;
+};
+
+/// Computes every figure's data and writes the tables. @throws DeviceError, WriteError
+FigureSums write_figure_tables(const FiguresOptions& options);
+
+/// The tables, then SVG and PNG files beside them. @throws DeviceError, WriteError, also when the drawings
+/// cannot be made: the tables are there then
+void make_figures(const FiguresOptions& options);
+
+} // namespace phlux::bench

@@ -1,0 +1,45 @@
+#include <cmath>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "bench/moments.h"
+
+using namespace phlux::bench;
+
+namespace {
+
+PowerSums sums_of(const std::vector<double>& samples, double centre) {
+  PowerSums sums;
+  sums.centre = centre;
+  sums.count = samples.size();
+  for (const double sample : samples) {
+    const double d = sample - centre;
+    sums.d += d;
+    sums.d2 += d * d;
+    sums.d3 += d * d * d;
+    sums.d4 += d * d * d * d;
+  }
+  return sums;
+}
+
+} // namespace
+
+TEST_CASE("Moments of a few numbers, wherever the centre is") {
+  for (const double centre : {0.0, 2.5, 7.0}) {
+    const Moments m = moments_of(sums_of({1, 2, 3, 6}, centre));
+    CHECK(m.mean == Approx(3));
+    CHECK(m.variance == Approx(14.0 / 3));
+    CHECK(m.mean_standard_error == Approx(std::sqrt(14.0 / 12)));
+    // m2 = 3.5, m4 = (16 + 1 + 0 + 81) / 4 = 24.5
+    CHECK(m.variance_standard_error == Approx(std::sqrt((24.5 - 3.5 * 3.5 / 3) / 4)));
+  }
+}
+
+TEST_CASE("Bias is counted in standard errors of the mean") {
+  const Moments m = moments_of(sums_of({1, 2, 3, 6}, 3));
+  CHECK(bias_in_sigmas(m, 2) == Approx(1 / std::sqrt(14.0 / 12)));
+  const Moments constant = moments_of(sums_of({.5, .5, .5}, .5));
+  CHECK(bias_in_sigmas(constant, .5) == 0);
+  CHECK(std::isinf(bias_in_sigmas(constant, .4)));
+}
