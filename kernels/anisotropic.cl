@@ -29,8 +29,10 @@ static inline Real half_vector_density(Anisotropic m, Vec3 h) {
 }
 
 static inline Vec3 anisotropic_eval(Anisotropic m, Vec3 fixed, Vec3 generated) {
-  const Vec3 h = vec_normalize(vec_add(fixed, generated));
-  const Real hk = vec_dot(h, fixed);
+  const Vec3 sum = vec_add(fixed, generated);
+  const Real length = sqrt(vec_dot(sum, sum));
+  const Vec3 h = vec_scale(1.0f / length, sum);
+  const Real hk = 0.5f * length; // h . fixed = h . generated, without favouring either
   const Real lobe = half_vector_density(m, h) / (4.0f * hk * larger(fixed.z, generated.z));
   const Real grazing = fifth_power(1.0f - hk);
   const Vec3 fresnel = vec3(fma(1.0f - m.specular.x, grazing, m.specular.x),
@@ -58,8 +60,9 @@ static inline LobeShares anisotropic_shares(Anisotropic m, Real cosine) {
 
 static inline Real anisotropic_density(Anisotropic m, Vec3 fixed, Vec3 generated) {
   const LobeShares shares = anisotropic_shares(m, fixed.z);
-  const Vec3 h = vec_normalize(vec_add(fixed, generated));
-  const Real specular = half_vector_density(m, h) / (4.0f * vec_dot(h, fixed));
+  const Vec3 sum = vec_add(fixed, generated);
+  const Real length = sqrt(vec_dot(sum, sum));
+  const Real specular = half_vector_density(m, vec_scale(1.0f / length, sum)) / (2.0f * length);
   return (shares.diffuse * larger(generated.z, (Real)(0.0f)) * PHONG_INV_PI + shares.specular * specular) /
          (shares.diffuse + shares.specular);
 }

@@ -22,14 +22,16 @@ static inline Frame frame_about(Vec3 z) {
 }
 
 // A right-handed frame about the unit vector z whose x lies along `tangent`, which need be neither unit nor quite
-// perpendicular; where it is (nearly) parallel to z or 0, any frame about z.
+// perpendicular; where it is (nearly) parallel to z or 0, any frame about z. The second projection takes out what
+// cancellation leaves of the first.
 static inline Frame frame_along(Vec3 z, Vec3 tangent) {
-  const Vec3 x = vec_along(tangent, -vec_dot(tangent, z), z);
-  const Real length2 = vec_dot(x, x);
-  const Frame any_frame = frame_about(z);
+  const Vec3 once = vec_along(tangent, -vec_dot(tangent, z), z);
+  const Real length2 = vec_dot(once, once);
   const Mask usable = length2 > 1e-8f * vec_dot(tangent, tangent);
+  const Vec3 unit = vec_scale(1.0f / sqrt(length2), once);
+  const Vec3 x = vec_normalize(vec_along(unit, -vec_dot(unit, z), z));
   Frame f;
-  f.x = vec_select(usable, vec_scale((Real)(1.0f) / sqrt(length2), x), any_frame.x);
+  f.x = vec_select(usable, x, frame_about(z).x);
   f.z = z;
   f.y = vec_cross(f.z, f.x);
   return f;
