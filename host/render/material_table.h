@@ -9,7 +9,7 @@
 namespace phlux::render {
 
 /// Intervals of a row of the reflectivity table, evenly spaced in the cosine.
-inline constexpr int reflectivity_intervals = 512;
+inline constexpr int reflectivity_intervals = 1024;
 
 /// rho_s / ks of the modified Phong lobe of exponent n >= 0 for light whose angle with the normal has this
 /// cosine (0 to 1): CW 197's integral over cos^n(alpha) cos(theta), in closed form. Relative error below

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "errors.h"
 #include "render/material_table.h"
 
@@ -72,6 +74,34 @@ Connect possible_connect(const Settings& settings, const LightTable& lights) {
   return lights.records.empty() ? Connect::none : settings.connect;
 }
 
+// Hit or miss draws this often for one sample of the material where it reflects least.
+double proposals(const scene::Material& m) {
+  const double diffuse = std::max({m.diffuse.r, m.diffuse.g, m.diffuse.b});
+  const double specular = std::max({m.specular.r, m.specular.g, m.specular.b});
+  const double highest = diffuse + specular * (m.exponent_u / 2 + 1);
+  return highest / (diffuse + specular * lobe_reflectivity(m.exponent_u, 0.0));
+}
+
+void refuse_endless_rejection(const scene::Material& m) {
+  constexpr double most_proposals = 1e4;
+  if (proposals(m) > most_proposals)
+    throw UsageError(
+        fmt::format("--strategy rejection: a phong of exponent {:g} takes {:.0g} draws a sample: use "
+                    "another strategy",
+                    m.exponent_u, proposals(m)));
+}
+
+// Materials that some primitive has; a scene may define others.
+std::vector<const scene::Material*> used_materials(const scene::Scene& scene,
+                                                   const accel::Geometry& geometry) {
+  std::vector<bool> used(scene.materials.size(), false);
+  for (const PrimitiveRecord& p : geometry.primitives) used[static_cast<std::size_t>(p.material)] = true;
+  std::vector<const scene::Material*> materials;
+  for (std::size_t i = 0; i < used.size(); ++i)
+    if (used[i]) materials.push_back(&scene.materials[i]);
+  return materials;
+}
+
 } // namespace
 
 const std::vector<std::string>& strategy_names() {
@@ -96,12 +126,14 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
   parts.planars = parts.triangles || parts.parallelograms || parts.ellipses;
   parts.spheres = geometry.sphere_count > 0;
   parts.smooth_normals = !geometry.vertex_normals.empty();
-  for (const scene::Material& m : scene.materials) {
-    const bool anisotropic = m.kind == scene::Material::Kind::anisotropic_phong;
-    parts.two_sided |= m.two_sided;
-    parts.black |= !m.reflects();
+  for (const scene::Material* m : used_materials(scene, geometry)) {
+    const bool anisotropic = m->kind == scene::Material::Kind::anisotropic_phong;
+    const bool lobe = !anisotropic && m->specular != scene::Rgb(0.0);
+    parts.two_sided |= m->two_sided;
+    parts.black |= !m->reflects();
     parts.anisotropic |= anisotropic;
-    parts.phong_lobe |= !anisotropic && m.specular != scene::Rgb(0.0);
+    parts.phong_lobe |= lobe;
+    if (lobe && settings.strategy == "rejection") refuse_endless_rejection(*m);
   }
   parts.ambient = settings.ambient.has_value();
   if (parts.ambient && parts.anisotropic)

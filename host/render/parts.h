@@ -31,7 +31,7 @@ struct Parts {
   [[nodiscard]] std::map<std::string, std::string> defines() const;
 };
 
-/// @throws UsageError for a strategy or a --connect that cannot render this scene
+/// @throws UsageError for a strategy, a --connect or an --ambient that cannot render this scene
 [[nodiscard]] Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry,
                                const LightTable& lights, const Settings& settings, int lanes);
 

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include "device/program.h"
 #include "errors.h"
@@ -105,6 +106,19 @@ void check(const Settings& settings) {
     throw UsageError(fmt::format("{} samples per pixel: at least 1 is needed", settings.samples_per_pixel));
 }
 
+// What the settings make of the scene without being wrong.
+void warn(const scene::Scene& scene, const Settings& settings) {
+  const std::size_t lost =
+      scene.point_lights.size() + scene.spot_lights.size() + scene.directional_lights.size();
+  if (settings.connect == Connect::none && lost > 0)
+    spdlog::warn("--connect none: no path can hit a point, spot or directional light: {} of the scene's "
+                 "lights are dark",
+                 lost);
+  if (settings.strategy == "lobe-estimate-printed")
+    spdlog::warn("--strategy lobe-estimate-printed is biased: it loses light at grazing angles; "
+                 "lobe-estimate does not");
+}
+
 // Builds the scene's program for each device. The tables for one WIDTH serve every device of that WIDTH.
 class Workshop {
 public:
@@ -175,6 +189,7 @@ void run_all(Work& work, std::vector<Worker>& workers) {
 Statistics render(const scene::Scene& scene, const Settings& settings, film::Film& film,
                   const Events& events) try {
   check(settings);
+  warn(scene, settings);
   Statistics statistics;
   const std::vector<device::Device> devices = device::open_devices(settings.devices);
   Workshop workshop(scene, settings, events);
