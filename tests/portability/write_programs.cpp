@@ -63,6 +63,19 @@ Parts sphere_in_sky() {
   return parts;
 }
 
+// A scene-less program that measures the sampler.
+std::map<std::string, std::string> sampler(const std::string& strategy) {
+  return {{"PHLUX_STRATEGY", strategy}, {"PHLUX_PHONG_LOBE", "1"}, {"FIXED_DIRECTIONS", "16"}};
+}
+
+bool write(const std::filesystem::path& folder, const std::string& name, const std::string& root, int lanes,
+           std::map<std::string, std::string> defines) {
+  defines["WIDTH"] = std::to_string(lanes);
+  std::ofstream file(folder / (name + "." + std::to_string(lanes) + ".cl"));
+  file << phlux::device::expand({}, {root, defines, ""});
+  return static_cast<bool>(file.flush());
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
@@ -78,11 +91,16 @@ int main(int argc, char** argv) {
                                               {"glossy-spheres", glossy_spheres()},
                                               {"mesh", mesh()},
                                               {"sphere-in-sky", sphere_in_sky()}};
-  for (auto [name, parts] : programs)
-    for (const int lanes : {1, 4, 8, 16}) {
+  bool good = true;
+  for (const int lanes : {1, 4, 8, 16}) {
+    for (auto [name, parts] : programs) {
       parts.lanes = lanes;
-      std::ofstream file(folder / (name + "." + std::to_string(lanes) + ".cl"));
-      file << phlux::device::expand({}, {"path.cl", parts.defines(), ""});
-      if (!file.flush()) return 1;
+      good = good && write(folder, name, "path.cl", lanes, parts.defines());
     }
+    for (const std::string strategy : {"EXACT", "REJECTION", "FOLD", "LOBE_ESTIMATE", "DISK"})
+      good = good &&
+             write(folder, "sampling-" + strategy, "sampling.cl", lanes, sampler("STRATEGY_" + strategy));
+    good = good && write(folder, "figures", "figures.cl", lanes, sampler("STRATEGY_EXACT"));
+  }
+  return good ? 0 : 1;
 }
