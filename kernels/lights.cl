@@ -38,16 +38,15 @@ static inline Real light_probability(const Scene* scene, Int light) {
 }
 
 #ifdef PHLUX_LIGHT_SPHERE
-// The cone that a sphere fills as seen from outside: 1 - cos of its half angle, without cancellation; 2 (the whole
-// sphere of directions) from inside or when the front is inside.
+// The cone that a sphere fills as seen from outside: 1 - cos of its half angle, without cancellation.
 static inline Real one_minus_cone_cosine(SphereShape sphere, Real distance2) {
   const Real sine2 = sphere.radius * sphere.radius / distance2;
   return sine2 / (1.0f + sqrt(larger(1.0f - sine2, (Real)(0.0f))));
 }
 #endif
 
-// Density with which light_sample at `lit` (whose ray found `hit_point` on `light` after `distance`) would have chosen
-// that direction. All lanes of m must have hit an emitting primitive on its front.
+// Density with which light_sample at `lit` would have chosen the direction of `ray`, which found `hit_point` on the front
+// of `light` after `distance`; without meaning in lanes that found no light.
 static inline Real light_density_of_hit(const Scene* scene, Vec3 lit, Ray ray, Real distance, SurfacePoint hit_point,
                                         Int light) {
   const Real choice = light_probability(scene, light);
