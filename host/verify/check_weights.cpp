@@ -17,7 +17,8 @@ double relative(double seen, double right) {
 }
 
 double worst_relative(const Rgb& seen, const Rgb& right) {
-  // Channels in which a lobe has fallen below what float32 holds are compared no further.
+  // Channels in which the lobe has nearly gone are compared no further: float32 holds its exponent n
+  // log1p(-x) to one part in 2^24, so the lobe itself to ln(1e-30) / 2^24 = 4e-6.
   double worst = 0;
   for (int channel = 0; channel < 3; ++channel)
     if (right[channel] > 1e-30 || right[channel] == 0)
@@ -59,7 +60,7 @@ void check_weights(const Subject& subject, const Drawn& drawn) {
   const bool grey =
       at.model.diffuse == Rgb(at.model.diffuse.r) && at.model.specular == Rgb(at.model.specular.r);
   const auto bound = weight_bound(strategy, at, drawn.roulette);
-  double worst = 0, largest = 0, from_one = 0;
+  double worst = 0, edge = 0, largest = 0, from_one = 0;
   for (const Sample& s : drawn.samples) {
     if (!s.survives) continue;
     largest = std::max({largest, s.weight.r, s.weight.g, s.weight.b});
@@ -70,12 +71,18 @@ void check_weights(const Subject& subject, const Drawn& drawn) {
     if (strategy.family == Family::parts) {
       if (!strategy.estimates()) worst = std::max(worst, part_error(subject, drawn, s));
     } else if (strategy.family != Family::fold || !near_fold(at, s.direction)) {
-      worst = std::max(worst, worst_relative(s.weight, whole_weight(subject, drawn, s)));
+      const double error = worst_relative(s.weight, whole_weight(subject, drawn, s));
+      const double condition = lobe_condition(at.model.exponent, at.fixed, s.direction);
+      if (condition < well_conditioned)
+        worst = std::max(worst, error);
+      else
+        edge = std::max(edge, error / edge_error(condition));
     }
     if (strategy.name == "exact" && grey && drawn.roulette && at.total().r < 0.999)
       from_one = std::max(from_one, std::abs(s.weight.r - 1));
   }
   if (!strategy.estimates()) subject.report.see(strategy.name, "weights", worst, weight_error, drawn.where);
+  subject.report.see(strategy.name, "edge", edge, 1, drawn.where); // see check_densities
   if (bound) subject.report.see(strategy.name, "bounds", largest / *bound, 1 + weight_error, drawn.where);
   if (strategy.name == "exact" && grey && drawn.roulette)
     subject.report.see(strategy.name, "weight 1", from_one, weight_error, drawn.where);

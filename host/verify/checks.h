@@ -41,10 +41,22 @@ void check_densities(const Subject& subject, const Drawn& drawn); ///< float64's
 void check_partial(const Subject& subject);  ///< CW 197, section 5: reflectivities through squares of (x, y)
 void check_jacobian(const Subject& subject); ///< density against the sampler's finite differences
 void check_extremes(const Subject& subject); ///< first and last random numbers, grazing and normal incidence
-void check_pairs(const Subject& subject); ///< densities in both roles, for directions that were not sampled
-void check_variances(const Subject& subject); ///< known variances and known bias
+
+/// Materials of known variances and of known bias.
+struct VarianceCases {
+  render::MaterialTable table;
+};
+[[nodiscard]] VarianceCases make_variance_cases();
+/// Longer runs. `device` was built with the table of `cases`.
+void check_variances(const Subject& subject, const DeviceModel& device, const VarianceCases& cases);
 
 /// Of the model, whatever the strategy.
-void check_model(const DeviceModel& device, bool quick, Report& report);
+struct ModelCases {
+  render::MaterialTable table; ///< first one material per exponent
+  std::vector<double> exponents;
+};
+[[nodiscard]] ModelCases make_model_cases(bool quick);
+/// Reflectivity, energy, value, reciprocity and known values. `device` was built with the table of `cases`.
+void check_model(const DeviceModel& device, const ModelCases& cases, bool quick, Report& report);
 
 } // namespace phlux::verify

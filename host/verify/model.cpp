@@ -50,11 +50,26 @@ Direction polar(double angle, double longitude) {
 }
 
 Direction as_float(const Direction& direction) {
-  return glm::dvec3(glm::vec3(direction));
+  // GCC 12 drops a conversion to float and back when it vectorises it at -O2; not through volatile.
+  const auto rounded = [](double value) {
+    const volatile float narrow = static_cast<float>(value);
+    return static_cast<double>(narrow);
+  };
+  return {rounded(direction.x), rounded(direction.y), rounded(direction.z)};
 }
 
 double lobe(double exponent, const Direction& fixed, const Direction& generated) {
   return (exponent + 2) / 2 * cosine_power(exponent, fixed, generated);
+}
+
+double lobe_condition(double exponent, const Direction& fixed, const Direction& generated) {
+  const double chord = glm::length(mirrored(fixed) - glm::normalize(generated));
+  const double cosine = 1 - chord * chord / 2;
+  return cosine > 0 ? exponent * (1 - cosine) / cosine : 0; // beyond pi / 2 it is 0
+}
+
+double edge_error(double condition) {
+  return std::expm1(condition * 0x1p-22) + 1e-5;
 }
 
 Rgb value(const Model& model, const Direction& fixed, const Direction& generated) {

@@ -21,6 +21,7 @@ Report run(const device::Device& device, const Settings& settings) {
   const Cases cases = make_cases(settings.quick);
   std::vector<CaseCells> cells;
   for (const Case& one : cases.cases) cells.push_back(cells_of(one.at));
+  const VarianceCases variance_cases = make_variance_cases();
   bool first = true;
   for (const Strategy& strategy : strategies()) {
     if (!settings.strategies.empty() &&
@@ -30,8 +31,17 @@ Report run(const device::Device& device, const Settings& settings) {
     const DeviceModel model(device, settings.kernels, settings.lanes, strategy.name, cases.table);
     const Subject subject{strategy,       model, cases, cells, samples_of(device, settings),
                           settings.quick, report};
-    if (first) first = false;
     check_samples(subject);
+    check_partial(subject);
+    check_jacobian(subject);
+    check_extremes(subject);
+    const DeviceModel known(device, settings.kernels, settings.lanes, strategy.name, variance_cases.table);
+    check_variances(subject, known, variance_cases);
+    if (!first) continue;
+    first = false;
+    const ModelCases model_cases = make_model_cases(settings.quick);
+    const DeviceModel of_model(device, settings.kernels, settings.lanes, strategy.name, model_cases.table);
+    check_model(of_model, model_cases, settings.quick, report);
   }
   report.judge();
   return report;
