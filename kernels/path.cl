@@ -1,6 +1,7 @@
 // Path tracing (CW 197, 3.3.2): from the eye, reflecting at every surface, until roulette, the depth or the dark ends
 // the path. What reaches the lights: hits alone, light samples, or both with weights (PHLUX_CONNECT).
 #include "camera.cl"
+#include "film.cl"
 #include "lights.cl"
 #include "material.cl"
 #include "random.h"
@@ -21,20 +22,22 @@ typedef struct {
   RandomSequence sequence;
 } Path;
 
-// Each lane works through jobs: a job is one pixel and one block of its samples, whose sums are handed to the host.
-// Jobs count pixel by pixel, then block by block; lane l of the launch takes jobs l, l + stride, ...
-typedef struct {
-  Int job;          // counted from the launch's first
-  Int pixel, block; // what it stands for
-  Int samples;      // done
-  Vec3 sum, sum_of_squares;
-} Job;
+static inline Path no_path(uint2 seed) {
+  Path path;
+  path.ray.origin = path.ray.direction = path.throughput = path.radiance = vec_all((Real)(0.0f));
+  path.edges = (Int)(0);
+  path.density = path.sky_density = (Real)(0.0f);
+  path.sequence.pixel = path.sequence.sample = (Uint)(0u);
+  path.sequence.seed = seed;
+  return path;
+}
 
-static inline void start_path(const Scene* scene, Path* path, Job job, Int sample, uint2 seed, Mask starting) {
+// Starts the lanes of `starting` on their jobs' next samples.
+static inline void start_path(const Scene* scene, Path* path, JobList list, Job job, Mask starting) {
   RandomSequence sequence;
   sequence.pixel = int_to_uint(job.pixel);
-  sequence.sample = int_to_uint(sample);
-  sequence.seed = seed;
+  sequence.sample = int_to_uint(sample_number(list, job));
+  sequence.seed = path->sequence.seed;
   const RandomWords words = random_words(sequence, (Uint)(0), 0);
   const Ray ray = camera_ray(scene, sequence.pixel, uniform_real(words.x), uniform_real(words.y));
   path->ray.origin = vec_select(starting, ray.origin, path->ray.origin);
@@ -44,7 +47,6 @@ static inline void start_path(const Scene* scene, Path* path, Job job, Int sampl
   path->edges = starting ? (Int)(0) : path->edges;
   path->sequence.pixel = starting ? sequence.pixel : path->sequence.pixel;
   path->sequence.sample = starting ? sequence.sample : path->sequence.sample;
-  path->sequence.seed = seed;
 }
 
 // Adds what a hit light sends along the ray in the lanes of m, weighted against light_sample.
@@ -139,27 +141,15 @@ __kernel void trace_paths(SCENE_PARAMETERS, int pixel_count, int first_pixel, in
                           float4 sky, float sky_choice, float ambient, __global float* sums,
                           __global uint* counters) {
   SCENE_FROM_PARAMETERS
-  const int stride = (int)get_global_size(0) * LANES;
-  const int stride_blocks = stride / pixel_count, stride_pixels = stride % pixel_count;
-  Job job;
-  job.job = (int)get_global_id(0) * LANES + LANE_NUMBERS;
-  job.block = (first_pixel + job.job) / pixel_count;
-  job.pixel = first_pixel + job.job - job.block * pixel_count;
-  job.samples = (Int)(0);
-  job.sum = job.sum_of_squares = vec_all((Real)(0.0f));
-  Path path;
-  path.ray.origin = path.ray.direction = path.throughput = path.radiance = vec_all((Real)(0.0f));
-  path.edges = (Int)(0);
-  path.density = path.sky_density = (Real)(0.0f);
-  path.sequence.pixel = path.sequence.sample = (Uint)(0u);
-  path.sequence.seed = seed;
-  Uint rays = (Uint)(0u), shadow_rays = (Uint)(0u), nonfinite = (Uint)(0u);
-  Mask alive = NO_LANES, working = job.job < job_count;
+  const JobList list = {pixel_count, first_pixel, job_count, first_sample, block_samples, end_sample};
+  Job job = first_job(list);
+  Path path = no_path(seed);
+  Uint rays = (Uint)(0u), shadow_rays = (Uint)(0u);
+  Mask alive = NO_LANES;
 
-  while (any_lane(working)) {
+  for (Mask working = jobs_left(list, job); any_lane(working); working = jobs_left(list, job)) {
     const Mask starting = working & !alive;
-    const Int sample = first_sample + job.block * block_samples + job.samples;
-    if (any_lane(starting)) start_path(&scene, &path, job, sample, seed, starting);
+    if (any_lane(starting)) start_path(&scene, &path, list, job, starting);
     alive = working;
 
     const Hit hit = scene_intersect(&scene, path.ray, alive);
@@ -172,47 +162,19 @@ __kernel void trace_paths(SCENE_PARAMETERS, int pixel_count, int first_pixel, in
 
     const Material material = material_at(&scene, point.material);
     const Vec3 fixed = to_frame(point.frame, vec_scale((Real)(-1.0f), path.ray.direction));
-    Mask reflecting = hits & (path.edges < max_edges) & (fixed.z > 0.0f) & reflects(&scene, point.material, point.front);
+    const Mask reflecting =
+        hits & (path.edges < max_edges) & (fixed.z > 0.0f) & reflects(&scene, point.material, point.front);
 #if PHLUX_CONNECT != CONNECT_NONE
     const Mask asked = add_light_sample(&scene, &path, point, material, fixed, reflecting);
     shadow_rays += asked ? (Uint)(1u) : (Uint)(0u);
 #endif
-    reflecting = reflect(&path, point, material, fixed, roulette_edges, ambient, reflecting);
+    alive = reflect(&path, point, material, fixed, roulette_edges, ambient, reflecting);
 
-    const Mask ended = alive & !reflecting;
-    alive = reflecting;
-    if (any_lane(ended)) {
-      const Real total = path.radiance.x + path.radiance.y + path.radiance.z;
-      const Mask finite = total - total == 0.0f;
-      const Mask counts = ended & finite;
-      nonfinite += (ended & !finite) ? (Uint)(1u) : (Uint)(0u);
-      job.sum = vec_select(counts, vec_add(job.sum, path.radiance), job.sum);
-      job.sum_of_squares = vec_select(
-          counts, vec_add(job.sum_of_squares, vec_mul(path.radiance, path.radiance)), job.sum_of_squares);
-      job.samples += ended ? (Int)(1) : (Int)(0);
-      const Mask complete = ended & ((job.samples == block_samples) | (sample + 1 >= end_sample));
-      if (any_lane(complete)) {
-        const Int slot = job.job * 6;
-        scatter_real(sums, slot, job.sum.x, complete);
-        scatter_real(sums, slot + 1, job.sum.y, complete);
-        scatter_real(sums, slot + 2, job.sum.z, complete);
-        scatter_real(sums, slot + 3, job.sum_of_squares.x, complete);
-        scatter_real(sums, slot + 4, job.sum_of_squares.y, complete);
-        scatter_real(sums, slot + 5, job.sum_of_squares.z, complete);
-        job.sum = vec_select(complete, vec_all((Real)(0.0f)), job.sum);
-        job.sum_of_squares = vec_select(complete, vec_all((Real)(0.0f)), job.sum_of_squares);
-        job.samples = complete ? (Int)(0) : job.samples;
-        const Int next_pixel = job.pixel + stride_pixels;
-        const Mask wraps = next_pixel >= pixel_count;
-        job.pixel = complete ? (wraps ? next_pixel - pixel_count : next_pixel) : job.pixel;
-        job.block = complete ? job.block + stride_blocks + (wraps ? (Int)(1) : (Int)(0)) : job.block;
-        job.job += complete ? (Int)(stride) : (Int)(0);
-        working = job.job < job_count;
-      }
-    }
+    const Mask ended = working & !alive;
+    if (any_lane(ended)) add_sample(list, &job, path.radiance, sums, ended);
   }
   const int item = (int)get_global_id(0) * 3;
   counters[item] = sum_of_lanes(rays);
   counters[item + 1] = sum_of_lanes(shadow_rays);
-  counters[item + 2] = sum_of_lanes(nonfinite);
+  counters[item + 2] = sum_of_lanes(job.nonfinite);
 }

@@ -1,0 +1,81 @@
+// The film as kernels see it: jobs, each one pixel and one block of its samples, whose sums are handed to the host. Jobs
+// count pixel by pixel, then block by block; lane l of a launch takes jobs l, l + stride, ... so that a lane whose path
+// has ended begins the next at once.
+#ifndef PHLUX_FILM_CL
+#define PHLUX_FILM_CL
+
+#include "lanes.h"
+
+// What a launch is to do (host/render/schedule.h).
+typedef struct {
+  int pixel_count;                              // of the image
+  int first_pixel;                              // job 0 is of that pixel
+  int job_count;
+  int first_sample, block_samples, end_sample;  // block b has samples first_sample + b block_samples onwards
+} JobList;
+
+// The job that each lane is at.
+typedef struct {
+  Int job, pixel, block;
+  Int samples; // done
+  Vec3 sum, sum_of_squares;
+  Uint nonfinite; // samples that were not finite: they count as black
+} Job;
+
+static inline int job_stride(void) { return (int)get_global_size(0) * LANES; }
+
+static inline Job first_job(JobList list) {
+  Job job;
+  job.job = (int)get_global_id(0) * LANES + LANE_NUMBERS;
+  job.block = (list.first_pixel + job.job) / list.pixel_count;
+  job.pixel = list.first_pixel + job.job - job.block * list.pixel_count;
+  job.samples = (Int)(0);
+  job.sum = job.sum_of_squares = vec_all((Real)(0.0f));
+  job.nonfinite = (Uint)(0u);
+  return job;
+}
+
+static inline Mask jobs_left(JobList list, Job job) { return job.job < list.job_count; }
+
+// The number of the sample that is next.
+static inline Int sample_number(JobList list, Job job) {
+  return list.first_sample + job.block * list.block_samples + job.samples;
+}
+
+// Writes the sums of the lanes in `complete` (float triples: radiance, then its square) and moves them to their next job.
+static inline void hand_over(JobList list, Job* job, __global float* sums, Mask complete) {
+  const Int slot = job->job * 6;
+  scatter_real(sums, slot, job->sum.x, complete);
+  scatter_real(sums, slot + 1, job->sum.y, complete);
+  scatter_real(sums, slot + 2, job->sum.z, complete);
+  scatter_real(sums, slot + 3, job->sum_of_squares.x, complete);
+  scatter_real(sums, slot + 4, job->sum_of_squares.y, complete);
+  scatter_real(sums, slot + 5, job->sum_of_squares.z, complete);
+  job->sum = vec_select(complete, vec_all((Real)(0.0f)), job->sum);
+  job->sum_of_squares = vec_select(complete, vec_all((Real)(0.0f)), job->sum_of_squares);
+  job->samples = complete ? (Int)(0) : job->samples;
+  const int stride = job_stride();
+  const Int next_pixel = job->pixel + stride % list.pixel_count;
+  const Mask wraps = next_pixel >= list.pixel_count;
+  const Int next_block = job->block + stride / list.pixel_count;
+  job->pixel = complete ? (wraps ? next_pixel - list.pixel_count : next_pixel) : job->pixel;
+  job->block = complete ? (wraps ? next_block + 1 : next_block) : job->block;
+  job->job += complete ? (Int)(stride) : (Int)(0);
+}
+
+// Adds one finished sample in the lanes of `ended`.
+static inline void add_sample(JobList list, Job* job, Vec3 radiance, __global float* sums, Mask ended) {
+  const Real total = radiance.x + radiance.y + radiance.z;
+  const Mask finite = total - total == 0.0f;
+  const Mask counts = ended & finite;
+  const Mask last = sample_number(list, *job) + 1 >= list.end_sample;
+  job->nonfinite += (ended & !finite) ? (Uint)(1u) : (Uint)(0u);
+  job->sum = vec_select(counts, vec_add(job->sum, radiance), job->sum);
+  job->sum_of_squares =
+      vec_select(counts, vec_add(job->sum_of_squares, vec_mul(radiance, radiance)), job->sum_of_squares);
+  job->samples += ended ? (Int)(1) : (Int)(0);
+  const Mask complete = ended & (last | (job->samples == list.block_samples));
+  if (any_lane(complete)) hand_over(list, job, sums, complete);
+}
+
+#endif
