@@ -12,7 +12,8 @@
 static inline Int elements_of_item(void) { return (Int)((int)get_global_id(0) * LANES) + LANE_NUMBERS; }
 
 static inline Vec3 gather_vec3_at(const __global float* vectors, Int index) {
-  return vec3(gather_real(vectors, 3 * index), gather_real(vectors, 3 * index + 1), gather_real(vectors, 3 * index + 2));
+  const Int at = 3 * index;
+  return vec3(gather_real(vectors, at), gather_real(vectors, at + 1), gather_real(vectors, at + 2));
 }
 
 static inline Vec3 all_lanes_of(float4 v) { return vec3((Real)(v.x), (Real)(v.y), (Real)(v.z)); }
@@ -45,7 +46,8 @@ static inline Vec3 direction_of(int space, Real first, Real second) {
   }
 }
 
-// d(omega) cos(theta) per unit of the parameters as CW 197 measures them: theta and phi in radians, the others as they are.
+// d(omega) cos(theta) per unit of the parameters as CW 197 measures them: theta and phi in radians, the others as they
+// are.
 static inline Real measure_of(int space, Vec3 v) {
   switch (space) {
   case SPACE_THETA_PHI:
@@ -97,8 +99,8 @@ __kernel void sample_squares(const __global MaterialRecord* materials, const __g
 
 // values[i]: the partial reflectivity through square i of side x side squares over [-1, 1]^2 in (x, y), rows of equal y
 // first, estimated from `samples` points that are uniform in the square (CW 197, section 5).
-__kernel void evaluate_squares(const __global MaterialRecord* materials, const __global float* reflectivity, float4 fixed,
-                               uint2 seed, int side, int samples, __global float* values) {
+__kernel void evaluate_squares(const __global MaterialRecord* materials, const __global float* reflectivity,
+                               float4 fixed, uint2 seed, int side, int samples, __global float* values) {
   const Int element = elements_of_item();
   const Mask inside = element < side * side;
   const Int row = element / side, column = element - row * side;
