@@ -53,24 +53,35 @@ std::string limit_text(const Result& result) {
   return fmt::format("{} {:.3g}", result.sense == Sense::probability ? "p >" : "<=", result.limit);
 }
 
+// One column per check, the strategies below each other; what is not checked for a strategy is "-".
+std::vector<std::string> column_of(const Report& report, const std::string& check,
+                                   const std::vector<std::string>& strategies) {
+  std::vector<std::string> column{check, ""};
+  for (const std::string& strategy : strategies) {
+    const auto found = std::ranges::find_if(
+        report.results(), [&](const Result& r) { return r.strategy == strategy && r.check == check; });
+    const bool none = found == report.results().end();
+    column.push_back(none ? "-" : figure(*found));
+    if (!none) column[1] = limit_text(*found);
+  }
+  return column;
+}
+
+// In blocks of columns that fit a terminal.
 void print_strategies(const Report& report) {
-  const auto checks = distinct(report, true, &Result::check);
-  std::vector<std::vector<std::string>> rows{{"STRATEGY"}, {"  limit"}};
-  for (const std::string& check : checks) {
-    rows[0].push_back(check);
-    const auto any = std::ranges::find_if(
-        report.results(), [&](const Result& r) { return r.check == check && !r.strategy.empty(); });
-    rows[1].push_back(limit_text(*any));
-  }
-  for (const std::string& strategy : distinct(report, true, &Result::strategy)) {
-    rows.push_back({strategy});
-    for (const std::string& check : checks) {
-      const auto found = std::ranges::find_if(
-          report.results(), [&](const Result& r) { return r.strategy == strategy && r.check == check; });
-      rows.back().push_back(found == report.results().end() ? "-" : figure(*found));
+  constexpr std::size_t columns_per_block = 7;
+  const auto strategies = distinct(report, true, &Result::strategy),
+             checks = distinct(report, true, &Result::check);
+  for (std::size_t first = 0; first < checks.size(); first += columns_per_block) {
+    std::vector<std::vector<std::string>> rows{{"STRATEGY"}, {"  limit"}};
+    for (const std::string& strategy : strategies) rows.push_back({strategy});
+    for (std::size_t i = first; i < std::min(checks.size(), first + columns_per_block); ++i) {
+      const auto column = column_of(report, checks[i], strategies);
+      for (std::size_t row = 0; row < rows.size(); ++row) rows[row].push_back(column[row]);
     }
+    print_grid(rows);
+    fmt::print("\n");
   }
-  print_grid(rows);
 }
 
 void print_model(const Report& report) {
@@ -138,7 +149,6 @@ int verify(const VerifyOptions& options) {
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   verify::write_failures(report);
   print_strategies(report);
-  fmt::print("\n");
   print_model(report);
   fmt::print("\n");
   print_notes(report);

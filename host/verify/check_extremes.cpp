@@ -14,8 +14,9 @@ bool is_finite(const Rgb& v) {
 }
 
 // All combinations of the first and last numbers, the ones next to them, and some between.
-std::vector<Words> extreme_words() {
-  const std::uint32_t few[] = {0u, 1u << 9, 0x30000000u, 0x80000000u, 0xfffffc00u, 0xffffffffu};
+std::vector<Words> extreme_words(bool thin) {
+  std::vector<std::uint32_t> few{0u, 0x30000000u, 0xffffffffu};
+  if (!thin) few.insert(few.end(), {1u << 9, 0x80000000u, 0xfffffc00u});
   std::vector<Words> words;
   for (const auto x : few)
     for (const auto y : few)
@@ -37,7 +38,7 @@ std::vector<Direction> extreme_directions() {
 } // namespace
 
 void check_extremes(const Subject& subject) {
-  const std::vector<Words> words = extreme_words();
+  const std::vector<Words> words = extreme_words(subject.samples < thin_samples);
   int last = -1;
   for (const Case& one : subject.cases.cases) {
     if (one.material == last || one.at.model.exponent > subject.strategy.largest_exponent) continue;

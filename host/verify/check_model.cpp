@@ -27,7 +27,7 @@ scene::Material phong(const Rgb& diffuse, const Rgb& specular, double exponent) 
 
 std::vector<double> exponents(bool quick) {
   std::vector<double> list{0, 0.1, 0.3, 0.5, 1, 1.5, 2, 3};
-  const int per_decade = quick ? 1 : 6;
+  const int per_decade = quick ? 1 : 4;
   for (int i = per_decade; i <= 6 * per_decade; ++i) list.push_back(std::pow(10.0, double(i) / per_decade));
   return list;
 }
@@ -35,7 +35,7 @@ std::vector<double> exponents(bool quick) {
 // Whole degrees or parts of them, closer together towards the horizon.
 std::vector<double> angles(bool quick) {
   std::vector<double> list{0, 1e-3, 89.99, 89.999, 90};
-  const int count = quick ? 90 : 450;
+  const int count = quick ? 90 : 270;
   for (int i = 1; i < count; ++i) list.push_back(90.0 * i / count + 0.037 * 90 / count);
   return list;
 }
@@ -115,9 +115,9 @@ std::vector<Pair> random_pairs(double exponent, std::size_t count) {
   return pairs;
 }
 
-void check_values(const DeviceModel& device, const ModelCases& cases, bool quick, Report& report) {
+void check_values(const DeviceModel& device, const ModelCases& cases, std::size_t count, Report& report) {
   for (std::size_t m = 0; m < cases.exponents.size(); ++m) {
-    const auto pairs = random_pairs(cases.exponents[m], quick ? 2000 : 20000);
+    const auto pairs = random_pairs(cases.exponents[m], count);
     const auto seen = device.evaluate(static_cast<int>(m), pairs);
     const Model model = model_of(cases.table.records[m]);
     const std::string where = fmt::format("n {:.6g}", model.exponent);
@@ -143,6 +143,19 @@ void check_values(const DeviceModel& device, const ModelCases& cases, bool quick
   }
 }
 
+// Nothing is reflected through the surface, whichever direction is below.
+void check_below(const DeviceModel& device, const ModelCases& cases, Report& report) {
+  const Direction above[] = {{0, 0, 1}, as_float(polar(1.2, 0.4))},
+                  below[] = {as_float(polar(1.7, 3.3)), {0, 0, -1}};
+  std::vector<Pair> pairs;
+  for (const Direction& a : above)
+    for (const Direction& b : below) pairs.insert(pairs.end(), {{a, b}, {b, a}, {b, b}});
+  for (std::size_t m = 0; m < cases.exponents.size(); ++m)
+    for (const PairValues& seen : device.evaluate(static_cast<int>(m), pairs))
+      report.see("", "below", glm::length(seen.value) + glm::length(seen.reversed), 0,
+                 fmt::format("n {:.6g}", cases.exponents[m]));
+}
+
 void check_known(const DeviceModel& device, const ModelCases& cases, Report& report) {
   int material = static_cast<int>(cases.exponents.size());
   for (const auto& known : known_values) {
@@ -164,9 +177,11 @@ void check_known(const DeviceModel& device, const ModelCases& cases, Report& rep
 
 } // namespace
 
-void check_model(const DeviceModel& device, const ModelCases& cases, bool quick, Report& report) {
+void check_model(const DeviceModel& device, const ModelCases& cases, bool quick, std::size_t pairs,
+                 Report& report) {
   check_reflectivity(device, cases, quick, report);
-  check_values(device, cases, quick, report);
+  check_values(device, cases, pairs, report);
+  check_below(device, cases, report);
   check_known(device, cases, report);
 }
 

@@ -132,7 +132,8 @@ void check_partial(const Subject& subject) {
   for (const Case& one : subject.cases.cases) {
     ++seed;
     if (one.at.model.exponent > subject.strategy.largest_exponent) continue;
-    if (seed % (subject.quick ? 3 : 5) != 0) continue;
+    const std::uint32_t every = subject.samples < thin_samples ? 17 : subject.quick ? 3 : 5;
+    if (seed % every != 0) continue;
     const auto samples = subject.device.sample(one.material, one.at.fixed, 2 * subject.samples, seed, false);
     compare(subject, one, DiskGrid(0, 0, 1, side), samples, one.name + ", whole hemisphere");
     const double reach = 4 / std::sqrt(one.at.model.exponent + 1);

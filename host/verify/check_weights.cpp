@@ -48,10 +48,6 @@ Rgb whole_weight(const Subject& subject, const Drawn& drawn, const Sample& s) {
          (s.direction.z / (density(subject.strategy, at, s.direction) * survival));
 }
 
-bool near_fold(const Situation& at, const Direction& d) { // float32 may see it on the other side
-  return std::abs(image_height(at.fixed, d)) < 1e-6;
-}
-
 } // namespace
 
 void check_weights(const Subject& subject, const Drawn& drawn) {
@@ -70,7 +66,7 @@ void check_weights(const Subject& subject, const Drawn& drawn) {
     }
     if (strategy.family == Family::parts) {
       if (!strategy.estimates()) worst = std::max(worst, part_error(subject, drawn, s));
-    } else if (strategy.family != Family::fold || !near_fold(at, s.direction)) {
+    } else if (!at_jump(strategy, at, s.direction)) {
       const double error = worst_relative(s.weight, whole_weight(subject, drawn, s));
       const double condition = lobe_condition(at.model.exponent, at.fixed, s.direction);
       if (condition < well_conditioned)

@@ -9,6 +9,9 @@
 namespace phlux::verify {
 
 /// What the checks of one strategy share.
+/// Below so many samples per case the checks that count none of them are thinned out too: for interpreters.
+inline constexpr std::size_t thin_samples = 1000;
+
 struct Subject {
   const Strategy& strategy;
   const DeviceModel& device;
@@ -39,6 +42,7 @@ void check_weights(const Subject& subject, const Drawn& drawn);   ///< f_r cos /
 void check_densities(const Subject& subject, const Drawn& drawn); ///< float64's, unit vectors, finite numbers
 
 void check_partial(const Subject& subject);  ///< CW 197, section 5: reflectivities through squares of (x, y)
+void check_pairs(const Subject& subject);    ///< stated densities, with either direction fixed
 void check_jacobian(const Subject& subject); ///< density against the sampler's finite differences
 void check_extremes(const Subject& subject); ///< first and last random numbers, grazing and normal incidence
 
@@ -56,7 +60,9 @@ struct ModelCases {
   std::vector<double> exponents;
 };
 [[nodiscard]] ModelCases make_model_cases(bool quick);
-/// Reflectivity, energy, value, reciprocity and known values. `device` was built with the table of `cases`.
-void check_model(const DeviceModel& device, const ModelCases& cases, bool quick, Report& report);
+/// Reflectivity, energy, value, reciprocity and known values. `device` was built with the table of `cases`;
+/// `pairs` of directions are evaluated for each exponent.
+void check_model(const DeviceModel& device, const ModelCases& cases, bool quick, std::size_t pairs,
+                 Report& report);
 
 } // namespace phlux::verify

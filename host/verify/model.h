@@ -33,10 +33,10 @@ struct Model {
 /// (n + 2) / 2 cos^n(alpha), 0 where alpha is pi / 2 or more. The directions' lengths do not matter.
 [[nodiscard]] double lobe(double exponent, const Direction& fixed, const Direction& generated);
 /// By how much cos^n(alpha) magnifies a relative error of 1 - cos(alpha), which is all that float32 makes on
-/// the way: n (1 - cos(alpha)) / cos(alpha). Below 40 wherever a lobe has weight, but for small n near alpha
+/// the way: n (1 - cos(alpha)) / cos(alpha). Below 20 wherever a lobe has weight, but for small n near alpha
 /// = pi / 2.
 [[nodiscard]] double lobe_condition(double exponent, const Direction& fixed, const Direction& generated);
-inline constexpr double well_conditioned = 40;
+inline constexpr double well_conditioned = 20;
 /// The relative error of cos^n(alpha) in float32 where its condition is larger: (1 - cos(alpha)) is off by
 /// 2^-22.
 [[nodiscard]] double edge_error(double condition);

@@ -61,6 +61,13 @@ double density(const Strategy& strategy, const Situation& at, const Direction& w
   return (diffuse * cosine_density(w) + specular * lobe) / total;
 }
 
+bool at_jump(const Strategy& strategy, const Situation& at, const Direction& w) {
+  constexpr double reach = 1e-6; // several ulp of a direction's components
+  const double cosine = w.z * at.fixed.z - w.x * at.fixed.x - w.y * at.fixed.y;
+  return std::abs(cosine) < reach ||
+         (strategy.family == Family::fold && std::abs(image_height(at.fixed, w)) < reach);
+}
+
 double survival_of(const Situation& at, double guess, bool roulette) {
   return roulette ? std::min(largest(at.model.diffuse + at.model.specular * guess), largest_survival) : 1.0;
 }

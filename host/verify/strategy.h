@@ -51,6 +51,10 @@ struct Situation {
 /// The density that the strategy states for `generated`.
 [[nodiscard]] double density(const Strategy& strategy, const Situation& at, const Direction& generated);
 
+/// Whether a density jumps so near to `generated` that float32 may see it on the other side: at the horizon's
+/// image of `fold`, and for n = 0 at alpha = pi / 2.
+[[nodiscard]] bool at_jump(const Strategy& strategy, const Situation& at, const Direction& generated);
+
 /// A value of the guess and its probability.
 struct GuessedValue {
   double guess, probability;

@@ -33,6 +33,7 @@ Report run(const device::Device& device, const Settings& settings) {
                           settings.quick, report};
     check_samples(subject);
     check_partial(subject);
+    check_pairs(subject);
     check_jacobian(subject);
     check_extremes(subject);
     const DeviceModel known(device, settings.kernels, settings.lanes, strategy.name, variance_cases.table);
@@ -41,7 +42,7 @@ Report run(const device::Device& device, const Settings& settings) {
     first = false;
     const ModelCases model_cases = make_model_cases(settings.quick);
     const DeviceModel of_model(device, settings.kernels, settings.lanes, strategy.name, model_cases.table);
-    check_model(of_model, model_cases, settings.quick, report);
+    check_model(of_model, model_cases, settings.quick, subject.samples / 2, report);
   }
   report.judge();
   return report;

@@ -1,0 +1,67 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include <glm/geometric.hpp>
+
+#include "verify/checks.h"
+
+namespace phlux::verify {
+namespace {
+
+constexpr double density_error = 1e-5;
+constexpr std::size_t pairs_per_case = 24; // each needs a quadrature
+
+// Of the first direction where the second is fixed: bidirectional weights ask for both.
+Situation reversed(const Situation& at, const Direction& fixed) {
+  return {at.model, fixed,
+          lobe_reflectivity(at.model.exponent, std::atan2(std::hypot(fixed.x, fixed.y), fixed.z))};
+}
+
+std::vector<Pair> pairs_of(const Case& one) {
+  std::mt19937 engine(static_cast<unsigned>(one.material * 100 + 1));
+  const auto uniform = [&] { return (static_cast<double>(engine()) + 0.5) / 4294967296.0; };
+  const Direction axis(-one.at.fixed.x, -one.at.fixed.y, one.at.fixed.z);
+  std::vector<Pair> pairs;
+  for (int tries = 0; pairs.size() < pairs_per_case && tries < 1000; ++tries) {
+    const Direction any = polar(std::acos(uniform()), 2 * std::numbers::pi * uniform());
+    const double width = 3 * uniform() / std::sqrt(one.at.model.exponent + 1);
+    const Direction b =
+        pairs.size() % 2 == 0 ? any : glm::normalize(axis + width * (any - Direction(0, 0, 0.4)));
+    if (b.z > 1e-5) pairs.push_back({one.at.fixed, as_float(b)});
+  }
+  return pairs;
+}
+
+bool compares(const Strategy& strategy, const Situation& at, const Direction& generated) {
+  return lobe_condition(at.model.exponent, at.fixed, generated) < well_conditioned &&
+         !at_jump(strategy, at, generated);
+}
+
+double error_of(double seen, double right) {
+  constexpr double smallest = 1e-30;
+  return right > smallest ? std::abs(seen - right) / right : (seen > 2 * smallest ? INFINITY : 0);
+}
+
+} // namespace
+
+void check_pairs(const Subject& subject) {
+  for (const Case& one : subject.cases.cases) {
+    const auto pairs = pairs_of(one);
+    if (pairs.empty()) continue;
+    const auto seen = subject.device.evaluate(one.material, pairs);
+    double worst = 0;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      if (compares(subject.strategy, one.at, pairs[i].b))
+        worst = std::max(worst, error_of(seen[i].density, density(subject.strategy, one.at, pairs[i].b)));
+      const Situation back = reversed(one.at, pairs[i].b);
+      if (compares(subject.strategy, back, pairs[i].a))
+        worst =
+            std::max(worst, error_of(seen[i].reversed_density, density(subject.strategy, back, pairs[i].a)));
+    }
+    subject.report.see(subject.strategy.name, "both roles", worst, density_error, one.name);
+  }
+}
+
+} // namespace phlux::verify

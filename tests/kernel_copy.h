@@ -1,0 +1,26 @@
+// A copy of kernels/ with one mistake in it.
+#pragma once
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+
+#include "temporary_folder.h"
+
+class KernelCopy {
+public:
+  /// Replaces the one place of `file` where `from` stands.
+  KernelCopy(const std::string& file, const std::string& from, const std::string& to) {
+    for (const auto& entry : std::filesystem::directory_iterator(PHLUX_SOURCE_DIR "/kernels"))
+      std::filesystem::copy(entry.path(), folder_ / entry.path().filename().string());
+    std::string text = TemporaryFolder::read(folder_ / file);
+    const auto at = text.find(from);
+    if (at == std::string::npos) throw std::runtime_error(file + " does not hold: " + from);
+    folder_.write(file, text.replace(at, from.size(), to));
+  }
+
+  [[nodiscard]] std::filesystem::path folder() const { return folder_.path(); }
+
+private:
+  TemporaryFolder folder_;
+};
