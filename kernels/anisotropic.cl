@@ -35,9 +35,9 @@ static inline Vec3 anisotropic_eval(Anisotropic m, Vec3 fixed, Vec3 generated) {
   const Real hk = 0.5f * length; // h . fixed = h . generated, without favouring either
   const Real lobe = half_vector_density(m, h) / (4.0f * hk * larger(fixed.z, generated.z));
   const Real grazing = fifth_power(1.0f - hk);
-  const Vec3 fresnel = vec3(fma(1.0f - m.specular.x, grazing, m.specular.x),
-                            fma(1.0f - m.specular.y, grazing, m.specular.y),
-                            fma(1.0f - m.specular.z, grazing, m.specular.z));
+  const Vec3 fresnel =
+      vec3(fma(1.0f - m.specular.x, grazing, m.specular.x), fma(1.0f - m.specular.y, grazing, m.specular.y),
+           fma(1.0f - m.specular.z, grazing, m.specular.z));
   const Real under = (28.0f / 23.0f * PHONG_INV_PI) * (1.0f - fifth_power(1.0f - 0.5f * fixed.z)) *
                      (1.0f - fifth_power(1.0f - 0.5f * generated.z));
   const Vec3 base = vec3(m.diffuse.x * (1.0f - m.specular.x), m.diffuse.y * (1.0f - m.specular.y),
@@ -93,8 +93,9 @@ static inline PhongSample anisotropic_sample(Anisotropic m, Vec3 fixed, RandomSe
   // A half vector that fixed cannot see gives a direction below the surface.
   const Mask above = (s.direction.z > 0.0f) & ((hk > 0.0f) | !from_lobe);
   s.direction.z = above ? s.direction.z : (Real)(-1.0f);
-  s.weight = vec_select(above, vec_scale(s.direction.z / (s.density * survival), anisotropic_eval(m, fixed, s.direction)),
-                        vec_all((Real)(0.0f)));
+  s.weight =
+      vec_select(above, vec_scale(s.direction.z / (s.density * survival), anisotropic_eval(m, fixed, s.direction)),
+                 vec_all((Real)(0.0f)));
   s.survives = u < survival;
   s.draws = (Int)(1);
   return s;

@@ -20,9 +20,9 @@ static inline Ray camera_ray(const Scene* scene, Uint pixel, Real u, Real v) {
   const Real y = (to_real(row) + v) / height + camera->principal_y;
   Ray ray;
   ray.origin = camera_vector(camera->position);
-  ray.direction = vec_normalize(
-      vec_along(vec_along(camera_vector(camera->forward), 1.0f - 2.0f * x, camera_vector(camera->left)),
-                1.0f - 2.0f * y, camera_vector(camera->up)));
+  ray.direction =
+      vec_normalize(vec_along(vec_along(camera_vector(camera->forward), 1.0f - 2.0f * x, camera_vector(camera->left)),
+                              1.0f - 2.0f * y, camera_vector(camera->up)));
   return ray;
 }
 

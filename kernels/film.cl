@@ -1,6 +1,6 @@
-// The film as kernels see it: jobs, each one pixel and one block of its samples, whose sums are handed to the host. Jobs
-// count pixel by pixel, then block by block; lane l of a launch takes jobs l, l + stride, ... so that a lane whose path
-// has ended begins the next at once.
+// The film as kernels see it: jobs, each one pixel and one block of its samples, whose sums are handed to the host.
+// Jobs count pixel by pixel, then block by block; lane l of a launch takes jobs l, l + stride, ... so that a lane whose
+// path has ended begins the next at once.
 #ifndef PHLUX_FILM_CL
 #define PHLUX_FILM_CL
 
@@ -8,10 +8,10 @@
 
 // What a launch is to do (host/render/schedule.h).
 typedef struct {
-  int pixel_count;                              // of the image
-  int first_pixel;                              // job 0 is of that pixel
+  int pixel_count; // of the image
+  int first_pixel; // job 0 is of that pixel
   int job_count;
-  int first_sample, block_samples, end_sample;  // block b has samples first_sample + b block_samples onwards
+  int first_sample, block_samples, end_sample; // block b has samples first_sample + b block_samples onwards
 } JobList;
 
 // The job that each lane is at.
@@ -42,7 +42,8 @@ static inline Int sample_number(JobList list, Job job) {
   return list.first_sample + job.block * list.block_samples + job.samples;
 }
 
-// Writes the sums of the lanes in `complete` (float triples: radiance, then its square) and moves them to their next job.
+// Writes the sums of the lanes in `complete` (float triples: radiance, then its square) and moves them to their next
+// job.
 static inline void hand_over(JobList list, Job* job, __global float* sums, Mask complete) {
   const Int slot = job->job * 6;
   scatter_real(sums, slot, job->sum.x, complete);

@@ -39,9 +39,7 @@ static inline Frame frame_along(Vec3 z, Vec3 tangent) {
 
 static inline Vec3 to_frame(Frame f, Vec3 v) { return vec3(vec_dot(f.x, v), vec_dot(f.y, v), vec_dot(f.z, v)); }
 
-static inline Vec3 from_frame(Frame f, Vec3 v) {
-  return vec_along(vec_along(vec_scale(v.x, f.x), v.y, f.y), v.z, f.z);
-}
+static inline Vec3 from_frame(Frame f, Vec3 v) { return vec_along(vec_along(vec_scale(v.x, f.x), v.y, f.y), v.z, f.z); }
 
 // The frame of the mirror image of a direction about the normal: z along that image, x in the plane of it and the
 // normal, pointing away from the normal, y across. Built from components of the direction alone, it cancels nowhere.

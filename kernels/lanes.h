@@ -113,10 +113,12 @@ static inline int all_lanes(Mask m) { return all(m); }
 #if WIDTH == 4
 #define LANE_EACH(per_lane) per_lane(0), per_lane(1), per_lane(2), per_lane(3)
 #elif WIDTH == 8
-#define LANE_EACH(per_lane) per_lane(0), per_lane(1), per_lane(2), per_lane(3), per_lane(4), per_lane(5), per_lane(6), per_lane(7)
+#define LANE_EACH(per_lane)                                                                                            \
+  per_lane(0), per_lane(1), per_lane(2), per_lane(3), per_lane(4), per_lane(5), per_lane(6), per_lane(7)
 #elif WIDTH == 16
-#define LANE_EACH(per_lane)                                                                                                   \
-  per_lane(0), per_lane(1), per_lane(2), per_lane(3), per_lane(4), per_lane(5), per_lane(6), per_lane(7), per_lane(8), per_lane(9), per_lane(a), per_lane(b), per_lane(c), per_lane(d), per_lane(e), per_lane(f)
+#define LANE_EACH(per_lane)                                                                                            \
+  per_lane(0), per_lane(1), per_lane(2), per_lane(3), per_lane(4), per_lane(5), per_lane(6), per_lane(7), per_lane(8), \
+      per_lane(9), per_lane(a), per_lane(b), per_lane(c), per_lane(d), per_lane(e), per_lane(f)
 #endif
 
 // base[index] in every lane; index counts 4-byte words and must be valid in every lane, whatever its mask.
@@ -143,12 +145,12 @@ static inline Int gather_int(const __global int* base, Int index) {
 #endif
 }
 
-// table[index].member in every lane, for a __global array of structs of 4-byte members. The member's place is taken from
-// the table's start, so that no array member is indexed beyond its end.
-#define MEMBER_PLACE(type, table, member)                                                                              \
-  (int)((const __global type*)&(table)->member - (const __global type*)(table))
+// table[index].member in every lane, for a __global array of structs of 4-byte members. The member's place is taken
+// from the table's start, so that no array member is indexed beyond its end.
+#define MEMBER_PLACE(type, table, member) (int)((const __global type*)&(table)->member - (const __global type*)(table))
 #define GATHER_REAL(table, index, member)                                                                              \
-  gather_real((const __global float*)(table), (index) * (int)(sizeof(*(table)) / 4) + MEMBER_PLACE(float, table, member))
+  gather_real((const __global float*)(table),                                                                          \
+              (index) * (int)(sizeof(*(table)) / 4) + MEMBER_PLACE(float, table, member))
 #define GATHER_INT(table, index, member)                                                                               \
   gather_int((const __global int*)(table), (index) * (int)(sizeof(*(table)) / 4) + MEMBER_PLACE(int, table, member))
 #define GATHER_VEC3(table, index, member)                                                                              \
@@ -262,8 +264,9 @@ static inline int first_lane(Mask m) {
 static inline int append_lanes(Mask m, Real key, Int value, float* keys, int* values) {
 #ifdef LANES_AVX512
   const ushort bits = (ushort)lane_bits(m);
-  vstore16(LANE_REALS(__builtin_ia32_compresssf512_mask(LANE_NATIVE_FLOATS(key), LANE_NATIVE_FLOATS((Real)(0.0f)), bits)),
-           0, keys);
+  vstore16(
+      LANE_REALS(__builtin_ia32_compresssf512_mask(LANE_NATIVE_FLOATS(key), LANE_NATIVE_FLOATS((Real)(0.0f)), bits)), 0,
+      keys);
   vstore16(LANE_INTS(__builtin_ia32_compresssi512_mask(LANE_NATIVE_INTS(value), LANE_NATIVE_INTS((Int)(0)), bits)), 0,
            values);
   return popcount((int)bits);
@@ -327,12 +330,13 @@ static inline void cos_sin_turns(Real turns, Real* cosine, Real* sine) {
   const Real quarters = rint(4.0f * turns);
   const Real r = fma((Real)(4.0f), turns, -quarters);
   const Real r2 = r * r;
-  const Real s =
-      r * fma(r2, fma(r2, fma(r2, (Real)(-4.601663e-03f), (Real)(7.968003e-02f)), (Real)(-6.4596346e-01f)),
-              (Real)(1.57079632f));
-  const Real c = fma(
-      r2, fma(r2, fma(r2, fma(r2, (Real)(9.0336298e-04f), (Real)(-2.08599360e-02f)), (Real)(2.53669183e-01f)), (Real)(-1.23370054f)),
-      (Real)(1.0f));
+  const Real s = r * fma(r2, fma(r2, fma(r2, (Real)(-4.601663e-03f), (Real)(7.968003e-02f)), (Real)(-6.4596346e-01f)),
+                         (Real)(1.57079632f));
+  const Real c =
+      fma(r2,
+          fma(r2, fma(r2, fma(r2, (Real)(9.0336298e-04f), (Real)(-2.08599360e-02f)), (Real)(2.53669183e-01f)),
+              (Real)(-1.23370054f)),
+          (Real)(1.0f));
   const Int quadrant = to_int(quarters);
   const Mask odd = (quadrant & 1) != 0;
   const Real cosine_here = odd ? s : c, sine_here = odd ? c : s;

@@ -10,12 +10,12 @@
 #if PHLUX_CONNECT != CONNECT_NONE
 
 typedef struct {
-  Ray ray;        // from the lit point, stepped off its surface, to the light
-  Real distance;  // before which the ray must be free
-  Vec3 radiance;  // arriving along it; for a light without a surface, what stands for radiance / density (density is 1)
+  Ray ray;       // from the lit point, stepped off its surface, to the light
+  Real distance; // before which the ray must be free
+  Vec3 radiance; // arriving along it; for a light without a surface, what stands for radiance / density (density is 1)
   Real density;
-  Mask hittable;  // a ray along a sampled direction of the surface could find this light as well
-  Mask valid;     // something arrives: the light faces the point
+  Mask hittable; // a ray along a sampled direction of the surface could find this light as well
+  Mask valid;    // something arrives: the light faces the point
 } LightSample;
 
 // The light for one random word (the other decides between the two lights of the cell), by the alias method.
@@ -45,8 +45,8 @@ static inline Real one_minus_cone_cosine(SphereShape sphere, Real distance2) {
 }
 #endif
 
-// Density with which light_sample at `lit` would have chosen the direction of `ray`, which found `hit_point` on the front
-// of `light` after `distance`; without meaning in lanes that found no light.
+// Density with which light_sample at `lit` would have chosen the direction of `ray`, which found `hit_point` on the
+// front of `light` after `distance`; without meaning in lanes that found no light.
 static inline Real light_density_of_hit(const Scene* scene, Vec3 lit, Ray ray, Real distance, SurfacePoint hit_point,
                                         Int light) {
   const Real choice = light_probability(scene, light);
@@ -172,8 +172,7 @@ static inline void sample_sphere_light(const Scene* scene, LightSample* s, Surfa
   aim_at(&mine, lit, target, normal, ERROR_UNITS * (vec_largest(sphere.center) + sphere.radius));
   const Real cosine = -vec_dot(normal, mine.ray.direction);
   const Real choice = light_probability(scene, light);
-  const Real by_area =
-      choice * mine.distance * mine.distance / (cosine * GATHER_REAL(scene->lights, light, area));
+  const Real by_area = choice * mine.distance * mine.distance / (cosine * GATHER_REAL(scene->lights, light, area));
   mine.density = in_cone ? choice * (0.5f * PHONG_INV_PI) / cone : by_area;
   keep_surface_sample(s, mine, m, cosine > 0.0f);
 }
@@ -192,9 +191,9 @@ static inline void sample_point_light(const Scene* scene, LightSample* s, Surfac
 #ifdef PHLUX_LIGHT_SPOT
   const Vec3 axis = GATHER_VEC3(scene->lights, light, direction);
   const Real angle = acos(clamp(-vec_dot(axis, direction), (Real)(-1.0f), (Real)(1.0f)));
-  const Real cone = clamp((GATHER_REAL(scene->lights, light, cutoff) - angle) *
-                              GATHER_REAL(scene->lights, light, inv_transition),
-                          (Real)(0.0f), (Real)(1.0f));
+  const Real cone =
+      clamp((GATHER_REAL(scene->lights, light, cutoff) - angle) * GATHER_REAL(scene->lights, light, inv_transition),
+            (Real)(0.0f), (Real)(1.0f));
   falloff = kind == LIGHT_SPOT ? falloff * cone : falloff;
 #endif
   s->ray.origin = vec_select(m, origin, s->ray.origin);
@@ -208,8 +207,7 @@ static inline void sample_point_light(const Scene* scene, LightSample* s, Surfac
 
 #if defined(PHLUX_LIGHT_DIRECTIONAL) || defined(PHLUX_LIGHT_CONSTANT)
 static inline void aim_to_infinity(LightSample* s, SurfacePoint lit, Vec3 direction, Mask m) {
-  s->ray.origin =
-      vec_select(m, step_off(lit.position, lit.normal, lit.error, direction), s->ray.origin);
+  s->ray.origin = vec_select(m, step_off(lit.position, lit.normal, lit.error, direction), s->ray.origin);
   s->ray.direction = vec_select(m, direction, s->ray.direction);
   s->distance = m ? (Real)(INFINITY) : s->distance;
   s->valid = s->valid | m;

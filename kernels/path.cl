@@ -16,9 +16,9 @@
 typedef struct {
   Ray ray;
   Vec3 throughput, radiance;
-  Int edges;                // of the path so far
-  Real density;             // of ray.direction, per solid angle where the ray starts
-  Real sky_density;         // with which light_sample chooses that direction for a constant light
+  Int edges;        // of the path so far
+  Real density;     // of ray.direction, per solid angle where the ray starts
+  Real sky_density; // with which light_sample chooses that direction for a constant light
   RandomSequence sequence;
 } Path;
 
@@ -92,17 +92,16 @@ static inline void add_sky(Path* path, Mask m, float4 sky, float sky_choice) {
 // Adds one light sample in the lanes of m; returns the lanes that sent a shadow ray.
 static inline Mask add_light_sample(const Scene* scene, Path* path, SurfacePoint point, Material material, Vec3 fixed,
                                     Mask m) {
-  const RandomWords words =
-      random_words(path->sequence, int_to_uint(DIMENSION_LIGHT(path->edges)), 0);
+  const RandomWords words = random_words(path->sequence, int_to_uint(DIMENSION_LIGHT(path->edges)), 0);
   const LightSample light = light_sample(scene, point, words);
   const Vec3 generated = to_frame(point.frame, light.ray.direction);
   // Both normals must agree that the light is on this side: nothing shines through.
-  const Mask reaches =
-      m & light.valid & (generated.z > 0.0f) & (vec_dot(point.normal, light.ray.direction) > 0.0f);
+  const Mask reaches = m & light.valid & (generated.z > 0.0f) & (vec_dot(point.normal, light.ray.direction) > 0.0f);
   if (!any_lane(reaches)) return reaches;
   const Mask lit = reaches & !scene_occluded(scene, light.ray, light.distance, reaches);
-  Vec3 arriving = vec_scale(generated.z / light.density,
-                            vec_mul(light.radiance, vec_mul(path->throughput, material_eval(material, fixed, generated))));
+  Vec3 arriving =
+      vec_scale(generated.z / light.density,
+                vec_mul(light.radiance, vec_mul(path->throughput, material_eval(material, fixed, generated))));
 #if PHLUX_CONNECT == CONNECT_MIS && defined(PHLUX_HITTABLE_LIGHTS)
   const Real other = material_density(material, fixed, generated);
   arriving = vec_scale(light.hittable ? light.density / (light.density + other) : (Real)(1.0f), arriving);
@@ -119,8 +118,7 @@ static inline Mask reflect(Path* path, SurfacePoint point, Material material, Ve
       material_sample(material, fixed, path->sequence, int_to_uint(DIMENSION_REFLECTION(path->edges)),
                       path->edges >= roulette_edges, m);
   const Vec3 direction = from_frame(point.frame, sample.direction);
-  const Mask goes_on =
-      m & sample.survives & (sample.direction.z > 0.0f) & (vec_dot(point.normal, direction) > 0.0f);
+  const Mask goes_on = m & sample.survives & (sample.direction.z > 0.0f) & (vec_dot(point.normal, direction) > 0.0f);
 #ifdef PHLUX_AMBIENT
   // Light of radiance `ambient` from everywhere, reflected for certain less as sampled: 0 on average.
   const Vec3 sampled = vec_select(sample.survives, sample.weight, vec_all((Real)(0.0f)));
@@ -137,9 +135,8 @@ static inline Mask reflect(Path* path, SurfacePoint point, Material material, Ve
 }
 
 __kernel void trace_paths(SCENE_PARAMETERS, int pixel_count, int first_pixel, int job_count, int first_sample,
-                          int block_samples, int end_sample, uint2 seed, int max_edges, int roulette_edges,
-                          float4 sky, float sky_choice, float ambient, __global float* sums,
-                          __global uint* counters) {
+                          int block_samples, int end_sample, uint2 seed, int max_edges, int roulette_edges, float4 sky,
+                          float sky_choice, float ambient, __global float* sums, __global uint* counters) {
   SCENE_FROM_PARAMETERS
   const JobList list = {pixel_count, first_pixel, job_count, first_sample, block_samples, end_sample};
   Job job = first_job(list);

@@ -150,8 +150,7 @@ static inline Real phong_density(Phong m, Vec3 fixed, Vec3 generated) {
 #if PHLUX_STRATEGY == STRATEGY_UNIFORM
   const Real density = (Real)(0.5f * PHONG_INV_PI);
 #elif PHLUX_STRATEGY == STRATEGY_THETA_PHI
-  const Real density =
-      (PHONG_INV_PI * PHONG_INV_PI) / sqrt(fma(generated.x, generated.x, generated.y * generated.y));
+  const Real density = (PHONG_INV_PI * PHONG_INV_PI) / sqrt(fma(generated.x, generated.x, generated.y * generated.y));
 #else
   const Real density = generated.z * PHONG_INV_PI;
 #endif
@@ -288,8 +287,8 @@ static inline PhongSample phong_sample(Phong m, Vec3 fixed, RandomSequence seque
   Vec3 direction = cosine_direction(u1, u2);
   Int draws = (Int)(1);
   if (any_lane(drawn)) {
-    const Vec3 specular = exact_direction(m, fixed, reflectivity, sequence, dimension, u1, u2, uniform_real(words.w),
-                                          drawn, &draws);
+    const Vec3 specular =
+        exact_direction(m, fixed, reflectivity, sequence, dimension, u1, u2, uniform_real(words.w), drawn, &draws);
     direction = vec_select(drawn, specular, direction);
   }
   PhongSample s = model_sample(m, fixed, direction, shares, survival);
@@ -387,7 +386,8 @@ static inline PhongSample phong_sample(Phong m, Vec3 fixed, RandomSequence seque
 #else
   // The part that was drawn, over its own density (CW 197, 3.3.2).
   const Real lobe = total / (survival * shares.specular) * (m.exponent + 2.0f) / (m.exponent + 1.0f) * s.direction.z;
-  s.weight = vec_select(from_lobe, vec_scale(lobe, m.specular), vec_scale(total / (survival * shares.diffuse), m.diffuse));
+  s.weight =
+      vec_select(from_lobe, vec_scale(lobe, m.specular), vec_scale(total / (survival * shares.diffuse), m.diffuse));
   s.weight = vec_select((s.direction.z > 0.0f) & (total > 0.0f), s.weight, vec_all((Real)(0.0f)));
 #endif
   s.survives = u < survival;

@@ -1,5 +1,5 @@
-// Directions from pairs of numbers uniform in (0, 1): the parameters of the hemisphere of CW 197, section 4, and the lobe.
-// z is the normal, or the lobe's axis.
+// Directions from pairs of numbers uniform in (0, 1): the parameters of the hemisphere of CW 197, section 4, and the
+// lobe. z is the normal, or the lobe's axis.
 #ifndef PHLUX_RANDOM_DIRECTIONS_H
 #define PHLUX_RANDOM_DIRECTIONS_H
 

@@ -73,7 +73,7 @@ typedef struct {
 #define SCENE_LOBE_SET
 #endif
 #ifdef PHLUX_SMOOTH_NORMALS
-#define SCENE_NORMAL_PARAMETERS , const __global int *corners, const __global float* vertex_normals
+#define SCENE_NORMAL_PARAMETERS , const __global int *corners, const __global float *vertex_normals
 #define SCENE_NORMAL_SET                                                                                               \
   scene.corners = corners;                                                                                             \
   scene.vertex_normals = vertex_normals;

@@ -6,10 +6,10 @@
 // A flat primitive is {origin + u edge_u + v edge_v} over a region of (u, v). Twelve floats, stored as blocks of BLOCK
 // primitives: value k of primitive i is at [(i / BLOCK) * 12 * BLOCK + k * BLOCK + i % BLOCK].
 enum PlanarValues {
-  PLANAR_ORIGIN = 0,   // origin
-  PLANAR_EDGE_V = 3,   // edge_v / |edge_u x edge_v|
-  PLANAR_MINUS_U = 6,  // -edge_u / |edge_u x edge_v|
-  PLANAR_NORMAL = 9,   // unit, front side
+  PLANAR_ORIGIN = 0,  // origin
+  PLANAR_EDGE_V = 3,  // edge_v / |edge_u x edge_v|
+  PLANAR_MINUS_U = 6, // -edge_u / |edge_u x edge_v|
+  PLANAR_NORMAL = 9,  // unit, front side
   PLANAR_FLOATS = 12
 };
 
@@ -47,7 +47,14 @@ typedef struct {
   int flags;
 } MaterialRecord;
 
-enum LightKinds { LIGHT_PLANAR = 0, LIGHT_SPHERE = 1, LIGHT_POINT = 2, LIGHT_SPOT = 3, LIGHT_DIRECTIONAL = 4, LIGHT_CONSTANT = 5 };
+enum LightKinds {
+  LIGHT_PLANAR = 0,
+  LIGHT_SPHERE = 1,
+  LIGHT_POINT = 2,
+  LIGHT_SPOT = 3,
+  LIGHT_DIRECTIONAL = 4,
+  LIGHT_CONSTANT = 5
+};
 
 // One light: an emitting primitive, or a light without a surface. Selected with the alias method (Walker 1974; Vose
 // 1991): cell i gives light i with probability `alias_threshold`, else light `alias`.
@@ -75,6 +82,15 @@ typedef struct {
 
 // One node of the hierarchy: the boxes of CHILDREN children, then the children. A child >= 0 is a node; one < 0 is a
 // leaf: ~child = first block << 5 | (blocks - 1) << 1 | (1 where the blocks hold spheres).
-enum NodeValues { NODE_LOW_X = 0, NODE_LOW_Y, NODE_LOW_Z, NODE_HIGH_X, NODE_HIGH_Y, NODE_HIGH_Z, NODE_CHILD, NODE_WORDS };
+enum NodeValues {
+  NODE_LOW_X = 0,
+  NODE_LOW_Y,
+  NODE_LOW_Z,
+  NODE_HIGH_X,
+  NODE_HIGH_Y,
+  NODE_HIGH_Z,
+  NODE_CHILD,
+  NODE_WORDS
+};
 
 #endif

@@ -8,11 +8,11 @@
 #include "traverse.cl"
 
 typedef struct {
-  Vec3 position;   // on the primitive, to a few ulp
-  Vec3 normal;     // geometric, unit, on the side that the ray came from
-  Frame frame;     // shading frame on that side; its z is the normal of interpolation where there is one
-  Real error;      // bounds the rounding error of `position` and of a ray's crossing near it
-  Mask front;      // that side is the front
+  Vec3 position; // on the primitive, to a few ulp
+  Vec3 normal;   // geometric, unit, on the side that the ray came from
+  Frame frame;   // shading frame on that side; its z is the normal of interpolation where there is one
+  Real error;    // bounds the rounding error of `position` and of a ray's crossing near it
+  Mask front;    // that side is the front
   Int material, light;
 } SurfacePoint;
 

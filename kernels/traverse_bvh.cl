@@ -20,7 +20,7 @@
 // One ray, the same in every lane, ready for box tests.
 typedef struct {
   Ray ray;
-  Vec3 inverse;              // of the direction, finite
+  Vec3 inverse;               // of the direction, finite
   int near_x, near_y, near_z; // enum NodeValues of the planes that the ray meets first
   int far_x, far_y, far_z;
 } BoxRay;

@@ -1,10 +1,10 @@
 // What `phlux verify` asks of the reflectance model: the four functions of phong.cl for one material, as they are.
 //
-// Arrays of lanes hold one plane per value: value k of all elements, then value k + 1 of all elements. PHLUX_GIVEN_WORDS
-// lets the host choose a sampler's random numbers.
+// Arrays of lanes hold one plane per value: value k of all elements, then value k + 1 of all elements.
+// PHLUX_GIVEN_WORDS lets the host choose a sampler's random numbers.
 #include "only_material.cl"
 
-#define PLANE(k) ((k) * get_global_size(0) + get_global_id(0))
+#define PLANE(k) ((k)*get_global_size(0) + get_global_id(0))
 
 #define VERIFY_PARAMETERS __global const MaterialRecord *materials, __global const float *table, int material
 #define VERIFY_MATERIAL only_material(materials + material, table)
@@ -40,8 +40,8 @@ __kernel void sample_model(VERIFY_PARAMETERS, float fixed_x, float fixed_y, floa
   counter.y = counter.z = counter.w = (Uint)(0u);
   sequence.given = philox(counter, seed);
   const Vec3 fixed = vec3((Real)(fixed_x), (Real)(fixed_y), (Real)(fixed_z));
-  sample_to_planes(samples, phong_sample(VERIFY_MATERIAL, fixed, sequence, (Uint)(0u),
-                                         roulette ? ALL_LANES : NO_LANES, ALL_LANES));
+  sample_to_planes(
+      samples, phong_sample(VERIFY_MATERIAL, fixed, sequence, (Uint)(0u), roulette ? ALL_LANES : NO_LANES, ALL_LANES));
 }
 
 // The same for chosen words, four planes of them: what phong_sample takes for its first random words.
@@ -56,8 +56,8 @@ __kernel void drive_model(VERIFY_PARAMETERS, float fixed_x, float fixed_y, float
   sequence.given.z = words[PLANE(2)];
   sequence.given.w = words[PLANE(3)];
   const Vec3 fixed = vec3((Real)(fixed_x), (Real)(fixed_y), (Real)(fixed_z));
-  sample_to_planes(samples, phong_sample(VERIFY_MATERIAL, fixed, sequence, (Uint)(0u),
-                                         roulette ? ALL_LANES : NO_LANES, ALL_LANES));
+  sample_to_planes(
+      samples, phong_sample(VERIFY_MATERIAL, fixed, sequence, (Uint)(0u), roulette ? ALL_LANES : NO_LANES, ALL_LANES));
 }
 
 // For pairs of directions, six planes. Eight planes: f_r, f_r with the directions' roles exchanged, and the density of
