@@ -96,7 +96,8 @@ void check_means(const Subject& subject, const Drawn& drawn, double& pooled, int
   const Strategy& strategy = subject.strategy;
   const Situation& at = drawn.one.at;
   if (strategy.family == Family::smooth && at.model.exponent > 100) return; // no sample finds the lobe
-  const double kept = strategy.biased() ? 1 - drawn.cells.below : 1;        // of the specular part
+  if (subject.samples < thin_samples) return; // too few take the rarer lobe for their mean to be normal
+  const double kept = strategy.biased() ? 1 - drawn.cells.below : 1; // of the specular part
   const Rgb expected = at.model.diffuse + at.model.specular * (at.reflectivity * kept);
   for (int channel = 0; channel < 3; ++channel) {
     Moments moments;

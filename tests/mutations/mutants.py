@@ -41,7 +41,7 @@ MUTANTS = [
     ("fold does not fold", "phong.cl", "v.x = mirror_frame_height(frame, v) < 0.0f ? -v.x : v.x;", ""),
     ("guard of the estimate left out", "phong.cl", "return 0.5f + 0.5f * estimate;", "return estimate;"),
     ("estimate capped at 1/2", "phong.cl", "(Real)(0.0f), (Real)(1.0f));\n#if", "(Real)(0.0f), (Real)(0.5f));\n#if"),
-    ("missing cosine in exact's density", "phong.cl", "s.density = larger(direction.z, (Real)(0.0f)) * PHONG_INV_PI * value / total;",
+    ("exact: missing cosine in the density", "phong.cl", "s.density = larger(direction.z, (Real)(0.0f)) * PHONG_INV_PI * value / total;",
      "s.density = PHONG_INV_PI * value / total;"),
     ("exact: n for n + 1", "phong.cl", "cosine_power_direction(m.exponent + 1.0f, u1, u2)", "cosine_power_direction(m.exponent, u1, u2)"),
     ("exact: n for n + 1 in redraws", "phong.cl", "cosine_power_direction(m.exponent + 1.0f, uniform_real",

@@ -26,6 +26,13 @@ def mutate(folder, file, old, new):
     (folder / file).write_text(text.replace(old, new))
 
 
+def strategies_of(name):
+    """The strategies whose code holds the mistake, or some of them: each is compiled anew."""
+    named = {"exact": ["exact"], "rejection": ["rejection"], "fold": ["fold"], "disk": ["disk"], "theta": ["theta-phi"],
+             "uniform": ["cosine"], "guard": ["lobe-estimate"], "estimate": ["lobe-estimate-printed"]}
+    return named.get(name.split()[0].split(":")[0].split("'")[0], ["lobe-ks", "mixture", "exact"])
+
+
 def caught_by(phlux, options, folder):
     """Texts that say what failed; none where the mutant survived."""
     result = subprocess.run(
@@ -56,7 +63,8 @@ def main():
         with tempfile.TemporaryDirectory() as scratch:
             folder = pathlib.Path(scratch)
             mutate(folder / "kernels", file, old, new)
-            caught = caught_by(phlux, options, folder)
+            chosen = [text for strategy in strategies_of(name) for text in ("--strategy", strategy)]
+            caught = caught_by(phlux, options + chosen, folder)
         survivors += not caught
         print(f"{name:45} {'; '.join(caught) or 'SURVIVED'}", flush=True)
     print(f"{survivors} survived")
