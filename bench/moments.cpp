@@ -20,12 +20,8 @@ Moments moments_of(const PowerSums& sums) {
 }
 
 double bias_in_sigmas(const Moments& moments, double exact) {
-  constexpr double float_precision = 2e-6; // of weights and of the tabulated reflectivity where it is linear
-  const double bias = moments.mean - exact;
-  if (moments.mean_standard_error > 0) return bias / moments.mean_standard_error;
-  return std::abs(bias) <= float_precision * exact
-             ? 0
-             : std::copysign(std::numeric_limits<double>::infinity(), bias);
+  const double arithmetic = static_cast<double>(std::numeric_limits<float>::epsilon()) * std::abs(exact);
+  return (moments.mean - exact) / std::hypot(moments.mean_standard_error, arithmetic);
 }
 
 } // namespace phlux::bench

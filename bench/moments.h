@@ -24,7 +24,8 @@ struct Moments {
 /// Keeping 1951, 7.12), m4 being the fourth central moment.
 [[nodiscard]] Moments moments_of(const PowerSums& sums);
 
-/// (mean - exact) in units of the mean's standard error; 0 where they agree to float precision.
+/// (mean - exact) in units of the mean's standard error, which counts as at least one unit in the last place
+/// of a float: where the integrand is constant, the error of the samples' mean is that of their arithmetic.
 [[nodiscard]] double bias_in_sigmas(const Moments& moments, double exact);
 
 } // namespace phlux::bench
