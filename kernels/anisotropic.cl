@@ -84,7 +84,7 @@ static inline PhongSample anisotropic_sample(Anisotropic m, Vec3 fixed, RandomSe
   const Real exponent = fma(m.exponent_u * cos_phi, cos_phi, m.exponent_v * sin_phi * sin_phi);
   const Real minus_sine2 = expm1(2.0f * log(u1) / (exponent + 1.0f));
   const Real sine = sqrt(-minus_sine2);
-  const Vec3 h = vec3(sine * cos_phi, sine * sin_phi, sqrt(1.0f + minus_sine2));
+  const Vec3 h = vec3(sine * cos_phi, sine * sin_phi, lobe_cosine(minus_sine2));
   const Real hk = vec_dot(h, fixed);
   const Vec3 mirrored = vec_along(vec_scale((Real)(-1.0f), fixed), 2.0f * hk, h);
   PhongSample s;

@@ -250,7 +250,7 @@ static inline Vec3 exact_direction(Phong m, Vec3 fixed, Real reflectivity, Rando
     // b: cos(psi) = s u^(1 / (n + 1)), towards the normal, at the same latitude.
     const Real minus_fall = expm1(2.0f * log(coin / share_b) / (m.exponent + 1.0f));
     const Real cos_beta = sqrt((1.0f - v.y) * (1.0f + v.y));
-    const Vec3 b = vec3(-cos_beta * sqrt(fma(-s * s, minus_fall, c * c)), v.y, cos_beta * s * sqrt(1.0f + minus_fall));
+    const Vec3 b = vec3(-cos_beta * sqrt(fma(-s * s, minus_fall, c * c)), v.y, cos_beta * s * lobe_cosine(minus_fall));
     chosen = vec_select(in_b, b, chosen);
   }
   // a: v or its mirror image about psi = 0, in proportion to their heights; where the lower one is below the surface

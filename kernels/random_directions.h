@@ -37,12 +37,18 @@ static inline Vec3 disk_direction(Real u1, Real u2) {
   return vec3(centre ? (Real)(0.0f) : v.x, centre ? (Real)(0.0f) : v.y, v.z);
 }
 
+#if defined(PHLUX_PHONG_LOBE) || defined(PHLUX_ANISOTROPIC)
+// cos(alpha) for sin^2(alpha) = -minus_sine2. Half an ulp of 1 keeps a direction at the edge, which rounding would put
+// where the lobe is 0, inside.
+static inline Real lobe_cosine(Real minus_sine2) { return sqrt(larger(1.0f + minus_sine2, (Real)(5.9604645e-8f))); }
+#endif
+
 #ifdef PHLUX_PHONG_LOBE
 // Density (n + 1) / (2 pi) cos^n(alpha). -expm1(2 log(u) / (n + 1)) is sin^2(alpha) to 1e-7 at every n;
 // 1 - pow(u, 2 / (n + 1)) is not even of the right order at n = 1e4.
 static inline Vec3 cosine_power_direction(Real exponent, Real u1, Real u2) {
   const Real minus_sine2 = expm1(2.0f * log(u1) / (exponent + 1.0f));
-  return polar_direction(sqrt(-minus_sine2), sqrt(1.0f + minus_sine2), u2);
+  return polar_direction(sqrt(-minus_sine2), lobe_cosine(minus_sine2), u2);
 }
 #endif
 
