@@ -5,7 +5,7 @@ REDRAWS_PART = """again = uniform_real(words.w);
       const Mask to_b = drawing & (again < share_b);
       const Real fall = expm1(2.0f * log(again / share_b) / (m.exponent + 1.0f));
       const Real wide = sqrt((1.0f - v.y) * (1.0f + v.y));
-      chosen = vec_select(to_b, vec3(-wide * sqrt(fma(-s * s, fall, c * c)), v.y, wide * s * sqrt(1.0f + fall)), chosen);
+      chosen = vec_select(to_b, vec3(-wide * sqrt(fma(-s * s, fall, c * c)), v.y, wide * s * lobe_cosine(fall)), chosen);
       drawing &= !to_b;
     }
     again = (again - share_b) / (1.0f - share_b);"""
@@ -47,7 +47,7 @@ MUTANTS = [
     ("exact: n for n + 1 in redraws", "phong.cl", "cosine_power_direction(m.exponent + 1.0f, uniform_real",
      "cosine_power_direction(m.exponent, uniform_real"),
     ("exact: sign of psi in part b", "phong.cl", "vec3(-cos_beta * sqrt(", "vec3(cos_beta * sqrt("),
-    ("exact: sine missing in part b", "phong.cl", "cos_beta * s * sqrt(1.0f + minus_fall)", "cos_beta * sqrt(1.0f + minus_fall)"),
+    ("exact: sine missing in part b", "phong.cl", "cos_beta * s * lobe_cosine(minus_fall)", "cos_beta * lobe_cosine(minus_fall)"),
     ("exact: half of the draws not refused", "phong.cl", "up / (up + down) : (Real)(0.5f)", "up / (up + down) : (Real)(1.0f)"),
     ("exact: wrong half", "phong.cl", "takes_up ? -fabs(v.x) : fabs(v.x)", "takes_up ? fabs(v.x) : -fabs(v.x)"),
     ("exact: sides with equal shares", "phong.cl", "down > 0.0f ? up / (up + down) : (Real)(0.5f)", "(Real)(0.5f)"),
