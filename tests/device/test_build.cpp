@@ -15,8 +15,8 @@
 
 using namespace phlux;
 using namespace phlux::device;
-using Catch::Matchers::Contains;
-using Catch::Matchers::StartsWith;
+using Catch::Contains;
+using Catch::StartsWith;
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include "errors.h"
 
 using namespace phlux::device;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 TEST_CASE("what is listed can be used") {
   const auto devices = list_devices();

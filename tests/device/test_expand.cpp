@@ -8,7 +8,7 @@
 
 using namespace phlux;
 using namespace phlux::device;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 TEST_CASE("defines come first, includes once, each part with its place") {
   const TemporaryFolder folder;

@@ -1,0 +1,16 @@
+// Catch2 3 by the names of Catch2 2, which the tests are written with.
+#pragma once
+
+#include <catch2/catch_all.hpp>
+
+using Catch::Approx;
+
+namespace Catch {
+
+using Matchers::EndsWith;
+using Matchers::StartsWith;
+
+// In Catch2 3 Matchers::Contains asks whether a range has an element.
+inline auto Contains(const std::string& text) { return Matchers::ContainsSubstring(text); }
+
+} // namespace Catch
