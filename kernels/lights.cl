@@ -120,8 +120,6 @@ static inline void sample_planar_light(const Scene* scene, LightSample* s, Surfa
   v = ellipse ? radius * sin_phi : v;
   cross_length = ellipse ? area * PHONG_INV_PI : cross_length;
 #endif
-#if !defined(PHLUX_TRIANGLES) && !defined(PHLUX_ELLIPSES)
-#endif
   const Vec3 normal = gather_planar(scene, words, PLANAR_NORMAL);
   const Vec3 origin = gather_planar(scene, words, PLANAR_ORIGIN);
   const Vec3 edge_part = vec_along(vec_scale(-u, gather_planar(scene, words, PLANAR_MINUS_U)), v,

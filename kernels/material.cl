@@ -70,9 +70,18 @@ static inline Real material_density(Material m, Vec3 fixed, Vec3 generated) {
 #endif
 }
 
+// The lanes of `asked` whose material is a phong.
+static inline Mask asked_of_phong(Material m, Mask asked) {
+#ifdef PHLUX_ANISOTROPIC
+  return asked & !m.is_anisotropic;
+#else
+  return asked;
+#endif
+}
+
 static inline PhongSample material_sample(Material m, Vec3 fixed, RandomSequence sequence, Uint dimension,
                                           Mask roulette, Mask asked) {
-  const PhongSample phong = phong_sample(m.phong, fixed, sequence, dimension, roulette, asked);
+  const PhongSample phong = phong_sample(m.phong, fixed, sequence, dimension, roulette, asked_of_phong(m, asked));
 #ifdef PHLUX_ANISOTROPIC
   const PhongSample anisotropic = anisotropic_sample(m.anisotropic, fixed, sequence, dimension, roulette);
   PhongSample s;

@@ -1,5 +1,5 @@
-// The scene's tables as a kernel receives them. A part (PHLUX_...) that the scene lacks has no table and no code; the
-// host binds arguments by name.
+// The scene's tables as a kernel receives them. A part (PHLUX_...) that the scene lacks has no table and no code.
+// render::DeviceScene::bind sets the arguments in this order.
 #ifndef PHLUX_SCENE_CL
 #define PHLUX_SCENE_CL
 
@@ -12,7 +12,6 @@ typedef struct {
   const __global MaterialRecord* materials;
   const __global LightRecord* lights;
   int light_count;
-  float radius; // of a sphere about the origin that holds every primitive
 #ifdef PHLUX_PLANARS
   const __global float* planars;
   int triangle_end, parallelogram_end, ellipse_end; // brute force: regions come in this order
@@ -85,8 +84,8 @@ typedef struct {
 // A kernel's parameters for the scene, and the statement that gathers them in a Scene named `scene`.
 #define SCENE_PARAMETERS                                                                                               \
   const __global CameraRecord *camera, const __global PrimitiveRecord *primitives,                                     \
-      const __global MaterialRecord *materials, const __global LightRecord *lights, int light_count,                   \
-      float scene_radius SCENE_PLANAR_PARAMETERS SCENE_SPHERE_PARAMETERS SCENE_BVH_PARAMETERS SCENE_LOBE_PARAMETERS    \
+      const __global MaterialRecord *materials, const __global LightRecord *lights,                                    \
+      int light_count SCENE_PLANAR_PARAMETERS SCENE_SPHERE_PARAMETERS SCENE_BVH_PARAMETERS SCENE_LOBE_PARAMETERS       \
           SCENE_NORMAL_PARAMETERS
 #define SCENE_FROM_PARAMETERS                                                                                          \
   Scene scene;                                                                                                         \
@@ -95,7 +94,6 @@ typedef struct {
   scene.materials = materials;                                                                                         \
   scene.lights = lights;                                                                                               \
   scene.light_count = light_count;                                                                                     \
-  scene.radius = scene_radius;                                                                                         \
   SCENE_PLANAR_SET SCENE_SPHERE_SET SCENE_BVH_SET SCENE_LOBE_SET SCENE_NORMAL_SET
 
 #endif

@@ -20,19 +20,19 @@ enum PlanarRegions {
   REGION_NONE = 3           // fills up a block: never hit
 };
 
-// Spheres, in blocks like the flat primitives.
 // How PHLUX_CONNECT says what reaches the lights.
 #define CONNECT_NONE 0
 #define CONNECT_LIGHT 1
 #define CONNECT_MIS 2
 
+// Spheres, in blocks like the flat primitives.
 enum SphereValues { SPHERE_CENTER = 0, SPHERE_RADIUS = 3, SPHERE_FLOATS = 4 };
 
 // What a primitive refers to. Flat primitives come first, then spheres.
 typedef struct {
   int material;
   int light;  // index of its LightRecord, -1: emits nothing
-  int region; // flat: enum PlanarRegions; sphere: 1 where the front side is inside
+  int region; // flat: enum PlanarRegions; sphere: 1 where the front side is inside; both: REGION_NONE
 } PrimitiveRecord;
 
 // Which sides reflect anything (neither, if the material is black), and which model it is.
@@ -65,8 +65,8 @@ typedef struct {
   float area;     // planar, sphere: m^2
   float position[3];
   float direction[3];
-  float cos_cutoff, cutoff, inv_transition; // spot: cutoff and 1 / (cutoff - beam width) in radians
-  float probability;                        // of being selected
+  float cutoff, inv_transition; // spot: cutoff and 1 / (cutoff - beam width) in radians
+  float probability;            // of being selected
   float alias_threshold;
   int alias;
 } LightRecord;

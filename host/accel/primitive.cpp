@@ -205,7 +205,7 @@ int TableWriter::finish_sphere_block() {
     const std::size_t index = sphere_records_.size();
     float* first = geometry_.spheres.data() + (index / block) * SPHERE_FLOATS * block + index % block;
     for (std::size_t axis = 0; axis < 3; ++axis) first[axis * block] = 1e18f;
-    sphere_records_.push_back({0, -1, 0});
+    sphere_records_.push_back({0, -1, REGION_NONE});
     sphere_emitters_.push_back(-1);
   }
   return static_cast<int>(sphere_records_.size());

@@ -1,16 +1,25 @@
 #include "cli/interrupt.h"
 
 #include <csignal>
+#include <ctime>
 
 namespace phlux::cli {
 namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
+volatile std::time_t first_signal = 0;
 
-extern "C" void note_interrupt(int) {
+// A second signal ends the program at once, but not one of the same keystroke: wrappers pass theirs on to a
+// program that the terminal has told already.
+extern "C" void note_interrupt(int signal) {
+  std::timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now); // async-signal-safe
+  if (interrupted == 0) first_signal = now.tv_sec;
   interrupted = 1;
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
+  if (now.tv_sec - first_signal >= 2) {
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+  }
 }
 
 } // namespace

@@ -20,7 +20,7 @@ void add_amount(CLI::App& app, VerifyOptions& options) {
                const auto& names = render::strategy_names();
                options.strategies.push_back(names[choice("--strategy", text, names)]);
              });
-  app.add_flag("--quick", options.quick, "fewer materials, angles and samples: a few seconds");
+  app.add_flag("--quick", options.quick, "fewer materials, angles and samples: about a third of the time");
   add_value(app, "--samples", "N", "of each material and angle; default: 16384, quick 8192",
             [&options](const std::string& text) {
               constexpr std::uint64_t least = 16, most = 1u << 24;

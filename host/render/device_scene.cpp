@@ -87,7 +87,6 @@ DeviceScene::DeviceScene(const device::Device& device, const HostScene& scene, c
       triangle_end_(scene.geometry.triangle_end), parallelogram_end_(scene.geometry.parallelogram_end),
       ellipse_end_(scene.geometry.ellipse_end), first_sphere_(scene.geometry.first_sphere),
       sphere_count_(scene.geometry.sphere_count), root_(scene.geometry.root),
-      radius_(static_cast<float>(scene.geometry.radius)),
       camera_(upload(device, std::vector<CameraRecord>{scene.camera}, "camera")),
       primitives_(upload(device, scene.geometry.primitives, "primitives")),
       materials_(upload(device, scene.materials.records, "materials")),
@@ -102,7 +101,7 @@ DeviceScene::DeviceScene(const device::Device& device, const HostScene& scene, c
 cl_uint DeviceScene::bind(cl::Kernel& kernel) const {
   cl_uint index = 0;
   const auto bind_all = [&](const auto&... arguments) { (kernel.setArg(index++, arguments), ...); };
-  bind_all(camera_, primitives_, materials_, lights_, light_count_, radius_);
+  bind_all(camera_, primitives_, materials_, lights_, light_count_);
   if (parts_.planars) bind_all(planars_, triangle_end_, parallelogram_end_, ellipse_end_);
   if (parts_.spheres) bind_all(spheres_, first_sphere_, sphere_count_);
   if (parts_.hierarchy) bind_all(nodes_, root_);

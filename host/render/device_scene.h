@@ -33,7 +33,6 @@ public:
 private:
   Parts parts_;
   int light_count_, triangle_end_, parallelogram_end_, ellipse_end_, first_sphere_, sphere_count_, root_;
-  float radius_;
   cl::Buffer camera_, primitives_, materials_, lights_, planars_, spheres_, nodes_, reflectivity_, corners_,
       vertex_normals_;
 };

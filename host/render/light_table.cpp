@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 namespace phlux::render {
@@ -27,16 +28,43 @@ LightRecord record_of(LightKinds kind, const Rgb& power) {
   return record;
 }
 
-// Collects lights and the power of each in watts (averaged over the channels).
+// Collects lights, the power of each in watts (averaged over the channels), and which of them are one emitter
+// of the scene: the triangles of a mesh are.
 class Collector {
 public:
-  void add(const LightRecord& record, double power) {
+  static constexpr int own_group = -1;
+  void add(const LightRecord& record, double power, int group = own_group) {
     table.records.push_back(record);
     powers.push_back(power);
+    groups.push_back(group != own_group ? group : --last_own_);
   }
   LightTable table;
   std::vector<double> powers;
+  std::vector<int> groups;
+
+private:
+  int last_own_ = own_group;
 };
+
+// Half of the samples in proportion to power, half evenly over the emitters (and by power within one): the
+// power that a sky or a sun sends into a wide scene says nothing of what it brings to the part in view, and
+// must not starve a lamp. A light without power is never chosen.
+std::vector<double> probabilities(const Collector& lights) {
+  double total = 0;
+  std::map<int, double> power_of_group;
+  for (std::size_t i = 0; i < lights.powers.size(); ++i) {
+    total += lights.powers[i];
+    if (lights.powers[i] > 0) power_of_group[lights.groups[i]] += lights.powers[i];
+  }
+  std::vector<double> chances;
+  for (std::size_t i = 0; i < lights.powers.size() && total > 0; ++i) {
+    const double power = lights.powers[i];
+    chances.push_back(power <= 0 ? 0
+                                 : 0.5 * power / total + 0.5 * power / power_of_group[lights.groups[i]] /
+                                                             static_cast<double>(power_of_group.size()));
+  }
+  return chances;
+}
 
 void add_surfaces(Collector& to, const scene::Scene& scene, accel::Geometry& geometry) {
   std::size_t emitting = 0;
@@ -49,7 +77,7 @@ void add_surfaces(Collector& to, const scene::Scene& scene, accel::Geometry& geo
     record.primitive = static_cast<int>(i);
     record.area = static_cast<float>(area);
     geometry.primitives[i].light = static_cast<int>(to.table.records.size());
-    to.add(record, pi * area * mean(radiance));
+    to.add(record, pi * area * mean(radiance), geometry.emitters[i]);
   }
 }
 
@@ -86,13 +114,13 @@ void add_distant(Collector& to, const scene::Scene& scene, double radius) {
 }
 
 // Vose's construction of Walker's alias table.
-void make_alias_table(std::vector<LightRecord>& records, const std::vector<double>& powers, double total) {
+void make_alias_table(std::vector<LightRecord>& records, const std::vector<double>& chances) {
   const auto count = records.size();
   std::vector<double> scaled(count);
   std::vector<std::size_t> small, large;
   for (std::size_t i = 0; i < count; ++i) {
-    records[i].probability = static_cast<float>(powers[i] / total);
-    scaled[i] = powers[i] / total * static_cast<double>(count);
+    records[i].probability = static_cast<float>(chances[i]);
+    scaled[i] = chances[i] * static_cast<double>(count);
     (scaled[i] < 1 ? small : large).push_back(i);
     records[i].alias_threshold = 1;
     records[i].alias = static_cast<int>(i);
@@ -121,9 +149,8 @@ LightTable light_table(const scene::Scene& scene, accel::Geometry& geometry) {
   add_surfaces(collector, scene, geometry);
   add_points(collector, scene, geometry.origin);
   add_distant(collector, scene, geometry.radius);
-  double total = 0;
-  for (const double power : collector.powers) total += power;
-  if (total > 0) make_alias_table(collector.table.records, collector.powers, total);
+  const std::vector<double> chances = probabilities(collector);
+  if (!chances.empty()) make_alias_table(collector.table.records, chances);
   return collector.table;
 }
 

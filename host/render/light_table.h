@@ -15,9 +15,9 @@ struct LightTable {
   [[nodiscard]] bool has(LightKinds kind) const;
 };
 
-/// One record per emitting primitive and per light without surface, chosen in proportion to the power that it
-/// sends into the scene. Sets the `light` of the geometry's primitives. Lights without power are never
-/// chosen.
+/// One record per emitting primitive and per light without surface, chosen half in proportion to the power
+/// that it sends into the scene and half evenly over the emitters. Sets the `light` of the geometry's
+/// primitives. Lights without power are never chosen.
 [[nodiscard]] LightTable light_table(const scene::Scene& scene, accel::Geometry& geometry);
 
 } // namespace phlux::render

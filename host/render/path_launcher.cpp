@@ -20,6 +20,11 @@ std::size_t work_items(const device::DeviceInfo& info) {
   return static_cast<std::size_t>(info.compute_units) * (info.type == "cpu" ? 4 : 4096);
 }
 
+// Jobs of one lane that amount to least_paths_per_lane.
+std::int64_t least_lane_jobs(int block_samples) {
+  return (least_paths_per_lane + block_samples - 1) / block_samples;
+}
+
 constexpr std::size_t local_size_wide = 1, local_size_scalar = 64;
 
 cl_int bounded(int edges) {
@@ -37,7 +42,8 @@ PathLauncher::PathLauncher(const device::Device& device, const cl::Program& prog
     : device_(device), scene_(device, scene, parts), kernel_(program, "trace_paths"),
       first_launch_argument_(scene_.bind(kernel_)), lanes_(parts.lanes),
       pixels_(static_cast<std::int64_t>(scene.camera.width) * scene.camera.height),
-      launch_seconds_(settings.launch_seconds), items_(work_items(device.info)) {
+      launch_seconds_(settings.launch_seconds), units_(device.info.compute_units),
+      first_items_(std::max(work_items(device.info) / 64, units_)), items_(work_items(device.info)) {
   const cl_uint2 seed = {{static_cast<cl_uint>(settings.seed), static_cast<cl_uint>(settings.seed >> 32)}};
   cl_uint index = first_launch_argument_;
   kernel_.setArg(index++, static_cast<cl_int>(pixels_));
@@ -51,15 +57,14 @@ PathLauncher::PathLauncher(const device::Device& device, const cl::Program& prog
 }
 
 std::int64_t PathLauncher::wanted_jobs(std::int64_t left, int block_samples) const {
-  const auto lanes = static_cast<std::int64_t>(items_) * lanes_;
-  std::int64_t lane_jobs = (least_paths_per_lane + block_samples - 1) / block_samples;
-  if (paths_per_second_ > 0) {
-    const double lane_paths = paths_per_second_ * launch_seconds_ / static_cast<double>(lanes);
-    lane_jobs = std::max(lane_jobs, static_cast<std::int64_t>(lane_paths / block_samples));
-  }
+  // Before anything is measured, one work-item per unit and lane group: what a launch of that takes is known
+  // after it.
+  std::int64_t jobs = static_cast<std::int64_t>(first_items_) * lanes_ * least_lane_jobs(block_samples);
+  if (paths_per_second_ > 0)
+    jobs = static_cast<std::int64_t>(paths_per_second_ * launch_seconds_ / block_samples);
   // The kernel counts jobs, and words of their sums, in int.
   constexpr std::int64_t largest = std::numeric_limits<cl_int>::max() / 8;
-  return std::min({lane_jobs * lanes, left, largest});
+  return std::clamp(jobs, std::int64_t{lanes_}, std::min(std::max<std::int64_t>(left, lanes_), largest));
 }
 
 void PathLauncher::warm_up() {
@@ -78,7 +83,11 @@ PathLauncher::Flight PathLauncher::start(const Launch& launch) {
   flight.launch = launch;
   const auto jobs = static_cast<std::size_t>(launch.jobs), lanes = static_cast<std::size_t>(lanes_);
   const std::size_t local = lanes_ == 1 ? local_size_scalar : local_size_wide;
-  flight.items = std::clamp((jobs + lanes - 1) / lanes, std::size_t{1}, items_);
+  // As many work-items as give each lane its least number of paths, but one for every unit where there is
+  // work for it.
+  const auto lane_jobs = static_cast<std::size_t>(least_lane_jobs(launch.block_samples));
+  const std::size_t full = jobs / (lanes * lane_jobs), most = (jobs + lanes - 1) / lanes;
+  flight.items = std::clamp(std::max(full, std::min(most, units_)), std::size_t{1}, items_);
   flight.items = (flight.items + local - 1) / local * local;
   flight.sums =
       cl::Buffer(device_.context, CL_MEM_WRITE_ONLY, std::max(jobs, std::size_t{1}) * sizeof(film::BlockSum));

@@ -56,6 +56,8 @@ private:
   int lanes_;
   std::int64_t pixels_;
   double launch_seconds_;
+  std::size_t units_;             // compute units
+  std::size_t first_items_;       // work-items of the first launch
   std::size_t items_;             // work-items of a full launch
   double paths_per_second_ = 0.0; // as measured; 0: not yet
   std::deque<Flight> flights_;

@@ -40,8 +40,8 @@ public:
         schedule_(static_cast<std::int64_t>(camera.width) * camera.height,
                   open_ended_ ? std::nullopt : std::optional<std::int64_t>(settings.samples_per_pixel)) {}
 
-  // Runs one device until the work is done or ended; one of the devices reports.
-  void run(PathLauncher& launcher, bool reports) {
+  // Runs one device until the work is done or ended. Whoever folds a launch in reports.
+  void run(PathLauncher& launcher) {
     while (true) {
       while (launcher.in_flight() < launches_in_flight && take(launcher)) {
       }
@@ -51,8 +51,14 @@ public:
       const std::uint64_t before = launcher.counts().paths;
       launcher.collect(film_);
       paths_ += launcher.counts().paths - before;
-      if (reports && !ended_) ended_ = precise_enough() || !report();
+      if (!ended_) ended_ = precise_enough() || !report();
     }
+  }
+
+  // Ends the render on every device.
+  void end() {
+    const std::lock_guard lock(mutex_);
+    ended_ = true;
   }
 
   [[nodiscard]] double seconds() const { return seconds_since(begin_); }
@@ -106,6 +112,18 @@ void check(const Settings& settings) {
     throw UsageError(fmt::format("{} samples per pixel: at least 1 is needed", settings.samples_per_pixel));
 }
 
+// A path that nothing ends would never leave the kernel.
+void check_paths_end(const scene::Scene& scene, const Settings& settings) {
+  constexpr double nearly_all = 0.999;
+  if (settings.rr_depth >= 0 || settings.max_depth >= 0) return;
+  for (const scene::Material& m : scene.materials)
+    for (int channel = 0; channel < 3; ++channel)
+      if (m.diffuse[channel] + m.specular[channel] >= nearly_all)
+        throw UsageError(
+            "--rr-depth -1 --max-depth -1: a material reflects everything, and nothing would end a path "
+            "in a closed room: give one of the two");
+}
+
 // What the settings make of the scene without being wrong.
 void warn(const scene::Scene& scene, const Settings& settings) {
   const std::size_t lost =
@@ -114,6 +132,16 @@ void warn(const scene::Scene& scene, const Settings& settings) {
     spdlog::warn("--connect none: no path can hit a point, spot or directional light: {} of the scene's "
                  "lights are dark",
                  lost);
+  const auto anisotropic = [&](const auto& shape) {
+    const scene::Material& m = scene.materials[static_cast<std::size_t>(shape.surface.material)];
+    return m.kind == scene::Material::Kind::anisotropic_phong && m.exponent_u != m.exponent_v;
+  };
+  if (std::any_of(scene.meshes.begin(), scene.meshes.end(), anisotropic))
+    spdlog::warn(
+        "anisotropicphong on a mesh: exponentU is along each triangle's first edge, whatever its texture "
+        "coordinates");
+  if (std::any_of(scene.spheres.begin(), scene.spheres.end(), anisotropic))
+    spdlog::warn("anisotropicphong on a sphere: exponentU is along the circles about the world's z axis");
   if (settings.strategy == "lobe-estimate-printed")
     spdlog::warn("--strategy lobe-estimate-printed is biased: it loses light at grazing angles; "
                  "lobe-estimate does not");
@@ -133,6 +161,7 @@ public:
     if (!host_ || lanes_ != lanes) host_ = prepare(scene_, settings_.traversal, lanes_ = lanes);
     Worker worker;
     worker.parts = find_parts(scene_, host_->geometry, host_->lights, settings_, lanes);
+    if (!worker.parts.phong_lobe) warn_of_plain_strategy();
     statistics.seconds_setup += seconds_since(begin);
     const device::BuiltProgram built =
         device::build(device, files_, {"path.cl", worker.parts.defines(), {}}, events_.building_kernels);
@@ -145,6 +174,13 @@ public:
   }
 
 private:
+  void warn_of_plain_strategy() const {
+    for (const char* name : {"uniform", "theta-phi", "disk", "rejection"})
+      if (settings_.strategy == name)
+        spdlog::warn("--strategy {}: no surface has a phong lobe, so directions are drawn by the cosine",
+                     name);
+  }
+
   const scene::Scene& scene_;
   const Settings& settings_;
   const Events& events_;
@@ -165,14 +201,16 @@ void describe(Statistics& statistics, const std::vector<device::Device>& devices
   statistics.parts = parts.names();
 }
 
-// Every device in a thread of its own but the first, which works and reports in the caller's.
+// Every device in a thread of its own but the first, which works in the caller's. One that fails ends the
+// render.
 void run_all(Work& work, std::vector<Worker>& workers) {
   std::vector<std::exception_ptr> failures(workers.size());
   const auto run = [&](std::size_t i) {
     try {
-      work.run(*workers[i].launcher, i == 0);
+      work.run(*workers[i].launcher);
     } catch (...) {
       failures[i] = std::current_exception();
+      work.end();
     }
   };
   {
@@ -189,6 +227,7 @@ void run_all(Work& work, std::vector<Worker>& workers) {
 Statistics render(const scene::Scene& scene, const Settings& settings, film::Film& film,
                   const Events& events) try {
   check(settings);
+  check_paths_end(scene, settings);
   warn(scene, settings);
   Statistics statistics;
   const std::vector<device::Device> devices = device::open_devices(settings.devices);

@@ -28,7 +28,8 @@ Patch transformed(const glm::dmat4& to_world, bool flip, Patch::Region region, c
   const glm::dmat3 linear(to_world);
   Patch patch{region, Vec3(to_world * glm::dvec4(origin, 1.0)), linear * u, linear * v, {}};
   // cross(M u, M v) = det(M) M^-T cross(u, v): under a mirroring it points to the back.
-  if (mirrors(to_world) != flip) std::swap(patch.edge_u, patch.edge_v);
+  if (mirrors(to_world) != flip)
+    patch.edge_v = -patch.edge_v; // both regions are symmetric; edge_u stays the tangent
   return patch;
 }
 

@@ -118,11 +118,12 @@ void check_means(const Subject& subject, const Drawn& drawn, double& pooled, int
   }
 }
 
-// A lobe alone that draws until it accepts: what is wrong with its rarer draws takes more samples to be seen.
+// Samplers that draw until they accept: what is wrong with a rare draw takes more samples to be seen, most of
+// a lobe alone, where nothing hides it.
 std::size_t samples_of(const Subject& subject, const Case& one) {
-  constexpr std::size_t more = 32;
-  const bool redraws = subject.strategy.family == Family::whole && one.at.model.diffuse_max() == 0;
-  return redraws && subject.samples >= thin_samples ? more * subject.samples : subject.samples;
+  constexpr std::size_t of_lobe = 1 << 18, of_both = 1 << 16;
+  if (subject.strategy.family != Family::whole || subject.samples < thin_samples) return subject.samples;
+  return std::max(subject.samples, one.at.model.diffuse_max() == 0 ? of_lobe : of_both);
 }
 
 void check_samples(const Subject& subject) {

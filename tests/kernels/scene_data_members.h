@@ -22,7 +22,6 @@
   MEMBER(LightRecord, area)                                                                                  \
   MEMBER(LightRecord, position)                                                                              \
   MEMBER(LightRecord, direction)                                                                             \
-  MEMBER(LightRecord, cos_cutoff)                                                                            \
   MEMBER(LightRecord, cutoff)                                                                                \
   MEMBER(LightRecord, inv_transition)                                                                        \
   MEMBER(LightRecord, probability)                                                                           \

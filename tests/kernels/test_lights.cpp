@@ -177,7 +177,7 @@ TEST_CASE("lights: a sample's density is that of the hit of the same ray, and of
     }
 }
 
-TEST_CASE("lights: of many, each is chosen in proportion to its power; densities include the choice") {
+TEST_CASE("lights: of many, each is chosen with its probability; densities include it") {
   Scene scene;
   scene.materials.push_back({});
   for (int i = 0; i < 5; ++i) add_light(scene, shapes[i], dvec3(8 * i, 0, 0));
