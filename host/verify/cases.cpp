@@ -43,9 +43,12 @@ Case make_case(const render::MaterialTable& table, int material, double degrees)
 
 Cases make_cases(bool quick) {
   // The first is that of CW 197's figures 6 and 7.
-  std::vector<scene::Material> materials{phong(Rgb(.4), Rgb(.05), 50), phong({.4, .3, .2}, {.3, .4, .5}, 10),
+  std::vector<scene::Material> materials{phong(Rgb(.4), Rgb(.05), 50),
+                                         phong({.4, .3, .2}, {.3, .4, .5}, 10),
                                          phong({.05, .1, 0}, {.8, .6, .9}, 1000),
-                                         phong({0, 0, 0}, {.9, .5, .1}, 1), phong(Rgb(.05), Rgb(.9), 1e6)};
+                                         phong({0, 0, 0}, {.9, .5, .1}, 1),
+                                         phong(Rgb(.05), Rgb(.9), 1e6),
+                                         phong({.7, .6, .5}, {.25, .2, .3}, 2)};
   std::vector<double> angles{0, 50, 80, 89.9};
   if (!quick) {
     for (const auto& m : {phong(Rgb(0), Rgb(1), 10), phong(Rgb(.1), Rgb(.8), 90), phong(Rgb(.2), Rgb(.3), 0),

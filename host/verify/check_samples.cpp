@@ -118,12 +118,12 @@ void check_means(const Subject& subject, const Drawn& drawn, double& pooled, int
   }
 }
 
-// Samplers that draw until they accept: what is wrong with a rare draw takes more samples to be seen, most of
-// a lobe alone, where nothing hides it.
+// What is wrong with the rare second draw of `exact` takes more samples to be seen, and a lobe alone, which
+// hides nothing.
 std::size_t samples_of(const Subject& subject, const Case& one) {
-  constexpr std::size_t of_lobe = 1 << 18, of_both = 1 << 16;
-  if (subject.strategy.family != Family::whole || subject.samples < thin_samples) return subject.samples;
-  return std::max(subject.samples, one.at.model.diffuse_max() == 0 ? of_lobe : of_both);
+  constexpr std::size_t of_redraws = 1 << 18;
+  const bool redraws = subject.strategy.name == "exact" && one.at.model.diffuse_max() == 0;
+  return redraws && subject.samples >= thin_samples ? std::max(subject.samples, of_redraws) : subject.samples;
 }
 
 void check_samples(const Subject& subject) {
