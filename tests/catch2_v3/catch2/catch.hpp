@@ -8,6 +8,7 @@ using Catch::Approx;
 namespace Catch {
 
 using Matchers::EndsWith;
+using Matchers::Message;
 using Matchers::StartsWith;
 
 // In Catch2 3 Matchers::Contains asks whether a range has an element.
