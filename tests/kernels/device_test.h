@@ -170,9 +170,9 @@ private:
   cl::Program program_;
 };
 
-/// A program of tests/kernels/NAME, built when it is first asked for and never released. Arguments by value: GCC 14
-/// takes the answer for a part of a temporary that a reference is bound to.
-inline const Program& program_of(std::string name, Variant variant, std::map<std::string, std::string> defines = {}) {
+/// A program of tests/kernels/NAME, built when it is first asked for and never released.
+inline const Program& program_of(const std::string& name, Variant variant,
+                                 const std::map<std::string, std::string>& defines = {}) {
   static auto& programs = *new std::map<std::string, Program>;
   std::ostringstream key;
   key << name << ' ' << variant;

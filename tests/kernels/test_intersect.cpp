@@ -122,7 +122,7 @@ TEST_CASE("intersect: crosses_before compares distances, and behind the origin i
   for (const Variant v : variants) {
     CAPTURE(v);
     std::vector<Crossing> crossings(cases.rays.size());
-    const auto& program = program_of("intersect.cl", v);
+    const auto program = program_of("intersect.cl", v);
     program.run("planes", crossings.size(), cases.rays, cases.planars, out(crossings));
     std::vector<float> limits(crossings.size());
     for (std::size_t i = 0; i < limits.size(); ++i) {

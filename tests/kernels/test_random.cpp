@@ -84,7 +84,7 @@ TEST_CASE("random: Philox on the device is Random123's with the same number of r
   Random random(11);
   for (const Variant v : variants) {
     CAPTURE(v);
-    const auto& program = program_of("random.cl", v);
+    const auto program = program_of("random.cl", v);
     std::vector<int> rounds(1);
     program.run("rounds", 1, table(rounds));
     CHECK(rounds[0] == 7);
