@@ -1,0 +1,148 @@
+"""What the charts of `phlux bench` share: colours in light and dark, fonts, files, and how a section of the report is
+made. Charts are drawn by a script beside this one, NAME.py, which begins with `import chart_style as style`; bench/README.md
+says how a script, its charts and its section come together.
+"""
+import csv
+import json
+import os
+import re
+from types import SimpleNamespace
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+
+# A role has one colour in light and one in dark. No two roles share a light colour: in an SVG the colour is the role.
+ROLES = {
+    #          light      dark
+    "paper": ("#ffffff", "#14181d"),
+    "ink": ("#22272e", "#e3e7eb"),
+    "muted": ("#5d6670", "#a2acb6"),  # notes, ticks
+    "axis": ("#9aa3ad", "#626c77"),
+    "grid": ("#e6e9ec", "#2a3138"),
+    "wash": ("#f1f4f7", "#1c2229"),  # the ground of what is marked
+}
+# In the order in which series take them: neighbours differ in hue and in lightness.
+SERIES = (
+    ("#1f66a8", "#62aaf0"),  # blue
+    ("#cf5f12", "#f79a4f"),  # orange
+    ("#2a8453", "#5cc792"),  # green
+    ("#8a3f9e", "#cf95e0"),  # purple
+    ("#b3243c", "#f0788a"),  # red
+    ("#12899c", "#4dcfe2"),  # teal
+    ("#94790b", "#d9c04a"),  # olive
+    ("#c9559f", "#f5a0d2"),  # pink
+    ("#73533a", "#c6a384"),  # brown
+    ("#4a5a78", "#9db0d2"),  # slate
+    ("#5f9e1b", "#a6dd60"),  # lime
+    ("#6c5fd0", "#aaa2ff"),  # violet
+)
+MARKERS = "osD^vP*Xph<>"
+DASHES = ("-", (0, (5, 1.6)), (0, (1.4, 1.2)))
+
+SEQUENTIAL = "viridis"  # heat maps keep their colours in both themes
+DIVERGING = "RdBu_r"
+DPI = 130
+
+
+class Theme:
+    """The colours of one theme: theme.ink, theme.axis, ..., and theme.series(i)."""
+
+    def __init__(self, name):
+        self.name = name
+        self.dark = name == "dark"
+        for role, colors in ROLES.items():
+            setattr(self, role, colors[self.dark])
+
+    def color(self, i):
+        return SERIES[i % len(SERIES)][self.dark]
+
+    def series(self, i):
+        """Colour, marker and dashes of series i, as keywords of plot()."""
+        return {"color": self.color(i), "marker": MARKERS[i % len(MARKERS)],
+                "linestyle": DASHES[i // len(SERIES) % len(DASHES)]}
+
+    @staticmethod
+    def on(rgba):
+        """Black or white, whichever is read better on this colour; the same in both themes."""
+        red, green, blue = (c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in rgba[:3])
+        return "#0a0a0a" if 0.2126 * red + 0.7152 * green + 0.0722 * blue > 0.18 else "#fafafa"
+
+    def parameters(self):
+        return {
+            "font.size": 9, "font.family": "DejaVu Sans", "axes.titlesize": 10, "axes.labelsize": 9,
+            "xtick.labelsize": 8, "ytick.labelsize": 8, "legend.fontsize": 8, "legend.frameon": False,
+            "axes.edgecolor": self.axis, "axes.labelcolor": self.ink, "axes.titlecolor": self.ink,
+            "axes.facecolor": self.paper, "axes.linewidth": 0.8, "axes.grid": False, "axes.axisbelow": True,
+            "axes.spines.top": False, "axes.spines.right": False,
+            "grid.color": self.grid, "grid.linewidth": 0.7, "text.color": self.ink,
+            "xtick.color": self.axis, "ytick.color": self.axis,
+            "xtick.labelcolor": self.ink, "ytick.labelcolor": self.ink,
+            "figure.facecolor": self.paper, "savefig.facecolor": self.paper, "legend.labelcolor": self.ink,
+            "lines.linewidth": 1.5, "lines.markersize": 4.5,
+            "svg.hashsalt": "phlux", "svg.fonttype": "path",
+        }
+
+
+LIGHT, DARK = Theme("light"), Theme("dark")
+
+
+def dark_rules(svg):
+    """A style sheet that gives each role's colour in this SVG its dark one, where the viewer prefers dark."""
+    rules = []
+    for light, dark in (*ROLES.values(), *SERIES):
+        for property in ("fill", "stroke"):
+            if f"{property}: {light}" in svg:
+                rules.append(f'[style*="{property}: {light}"]{{{property}:{dark}!important}}')
+    return "@media (prefers-color-scheme:dark){" + "".join(rules) + "}"
+
+
+def write(folder, name, text):
+    """Replaces folder/name, whole or not at all."""
+    path = os.path.join(folder, name)
+    with open(path + ".tmp", "w", encoding="utf-8") as file:
+        file.write(text)
+    os.replace(path + ".tmp", path)
+
+
+def save(folder, name, draw):
+    """Writes NAME.svg, which follows the viewer's theme, NAME.png and NAME-dark.png. draw(theme) returns a figure, all of
+    whose colours are the theme's, or a colour map's."""
+    for theme in (LIGHT, DARK):
+        with plt.rc_context(theme.parameters()):
+            figure = draw(theme)
+            suffix = "-dark" if theme.dark else ""
+            figure.savefig(os.path.join(folder, f"{name}{suffix}.png"), dpi=DPI, metadata={"Software": None})
+            if not theme.dark:
+                path = os.path.join(folder, name + ".svg")
+                figure.savefig(path, dpi=DPI, metadata={"Date": None})
+                with open(path, encoding="utf-8") as file:
+                    svg = file.read()
+                end = re.search(r"<svg\b[^>]*>", svg).end()
+                write(folder, name + ".svg", f"{svg[:end]}\n <style>{dark_rules(svg)}</style>{svg[end:]}")
+            plt.close(figure)
+
+
+def value_of(text):
+    """A number where it is one, NaN where it is empty, else the text."""
+    if text == "":
+        return float("nan")
+    try:
+        return float(text)
+    except ValueError:
+        return text
+
+
+def read(folder, name):
+    """The rows of a table, as objects whose attributes are its columns."""
+    with open(os.path.join(folder, name), newline="", encoding="utf-8") as file:
+        return [SimpleNamespace(**{column: value_of(text) for column, text in row.items()})
+                for row in csv.DictReader(file)]
+
+
+def section(folder, name, *, title, order, text=(), summary=None, charts=(), tables=()):
+    """Writes NAME.section.json, a section of the report: bench/README.md says what is in it."""
+    content = {"title": title, "order": order, "text": list(text), "summary": summary, "charts": list(charts),
+               "tables": list(tables)}
+    write(folder, name + ".section.json", json.dumps(content, indent=1, ensure_ascii=False) + "\n")
