@@ -5,6 +5,7 @@ says how a script, its charts and its section come together.
 import csv
 import json
 import os
+import platform
 import re
 from types import SimpleNamespace
 
@@ -143,6 +144,7 @@ def read(folder, name):
 
 def section(folder, name, *, title, order, text=(), summary=None, charts=(), tables=()):
     """Writes NAME.section.json, a section of the report: bench/README.md says what is in it."""
+    provenance = {"drawn by": f"Python {platform.python_version()}, matplotlib {matplotlib.__version__}"}
     content = {"title": title, "order": order, "text": list(text), "summary": summary, "charts": list(charts),
-               "tables": list(tables)}
+               "tables": list(tables), "provenance": provenance}
     write(folder, name + ".section.json", json.dumps(content, indent=1, ensure_ascii=False) + "\n")

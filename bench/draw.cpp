@@ -1,131 +1,66 @@
 #include "bench/draw.h"
 
-#include <array>
-#include <cerrno>
-#include <csignal>
 #include <string>
-#include <string_view>
-#include <vector>
-
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
+#include "bench/python.h"
 #include "bench/scripts.h"
 #include "errors.h"
 
-extern char** environ;
-
 namespace phlux::bench {
 namespace {
-
-// Debian's own comes first: it is the one that python3-matplotlib belongs to.
-constexpr std::array<const char*, 2> interpreters = {"/usr/bin/python3", "python3"};
-constexpr int not_started = 127;
-
-class Pipe {
-public:
-  Pipe() {
-    if (::pipe2(ends_.data(), O_CLOEXEC) != 0) throw WriteError("no pipe to python3 can be made");
-  }
-  ~Pipe() {
-    close(0);
-    close(1);
-  }
-  Pipe(const Pipe&) = delete;
-  Pipe& operator=(const Pipe&) = delete;
-  [[nodiscard]] int end(std::size_t i) const { return ends_[i]; }
-  void close(std::size_t i) {
-    if (ends_[i] >= 0) ::close(ends_[i]);
-    ends_[i] = -1;
-  }
-
-private:
-  std::array<int, 2> ends_{-1, -1}; // to read from, to write to
-};
-
-struct Outcome {
-  int exit_code = not_started;
-  std::string errors;
-};
-
-void write_all(int descriptor, std::string_view text) {
-  while (!text.empty()) {
-    const ssize_t written = ::write(descriptor, text.data(), text.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return; // it ended early; its exit code says so
-    text.remove_prefix(static_cast<std::size_t>(written));
-  }
-}
-
-std::string read_all(int descriptor) {
-  std::string text;
-  std::array<char, 4096> piece{};
-  for (;;) {
-    const ssize_t got = ::read(descriptor, piece.data(), piece.size());
-    if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) return text;
-    text.append(piece.data(), static_cast<std::size_t>(got));
-  }
-}
-
-// Runs a program with `input`; its output is dropped, its errors are kept.
-Outcome run(const std::vector<std::string>& command, std::string_view input) {
-  Pipe to, from;
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, to.end(0), STDIN_FILENO);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_adddup2(&actions, from.end(1), STDERR_FILENO);
-  std::vector<char*> arguments;
-  for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
-  arguments.push_back(nullptr);
-  pid_t child = 0;
-  const int error = ::posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (error != 0) return {};
-  to.close(0);
-  from.close(1);
-  const auto previous = std::signal(SIGPIPE, SIG_IGN);
-  write_all(to.end(1), input);
-  std::signal(SIGPIPE, previous);
-  to.close(1);
-  Outcome outcome;
-  outcome.errors = read_all(from.end(0));
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  return outcome;
-}
-
-std::string interpreter_with_matplotlib() {
-  for (const char* interpreter : interpreters)
-    if (run({interpreter, "-c", "import matplotlib"}, "").exit_code == 0) return interpreter;
-  throw WriteError(
-      "the figures cannot be drawn without matplotlib: install the package python3-matplotlib; their "
-      "tables are written");
-}
 
 std::string last_line(std::string text) {
   while (!text.empty() && text.back() == '\n') text.pop_back();
   return text.substr(text.rfind('\n') + 1);
 }
 
-} // namespace
+std::string python_with(const char* module, const char* package, const char* what) {
+  if (const auto python = find_python(module)) return *python;
+  throw WriteError(
+      fmt::format("{} without {}: install the package {}; the tables are written", what, module, package));
+}
 
-void draw_figures(const std::filesystem::path& folder) {
-  const std::string python = interpreter_with_matplotlib();
-  const Outcome outcome = run({python, "-", folder.string()}, figures_script());
+void run(const std::string& python, const std::filesystem::path& folder, const std::string& program,
+         const char* what) {
+  const PythonOutcome outcome = run_python(python, {folder.string()}, program);
   if (outcome.exit_code != 0)
-    throw WriteError(fmt::format("the figures cannot be drawn: {}: {}", python,
+    throw WriteError(fmt::format("{}: {}: {}", what, python,
                                  outcome.errors.empty() ? fmt::format("exit code {}", outcome.exit_code)
                                                         : last_line(outcome.errors)));
   if (!outcome.errors.empty()) spdlog::info("{}", outcome.errors);
+}
+
+// A program whose `import chart_style` finds the text in this binary. JSON's strings are Python's too.
+std::string with_chart_style(std::string_view script) {
+  return fmt::format("import sys, types\n"
+                     "chart_style = sys.modules['chart_style'] = types.ModuleType('chart_style')\n"
+                     "exec(compile({}, 'chart_style.py', 'exec'), chart_style.__dict__)\n{}",
+                     nlohmann::json(chart_style_script()).dump(-1, ' ', true), script);
+}
+
+constexpr const char* no_figures = "the figures cannot be drawn";
+constexpr const char* no_charts = "the charts cannot be drawn";
+constexpr const char* no_report = "the report cannot be written";
+
+} // namespace
+
+void draw_figures(const std::filesystem::path& folder) {
+  const std::string python = python_with("matplotlib", "python3-matplotlib", no_figures);
+  run(python, folder, std::string(figures_script()), no_figures);
+}
+
+void write_report(const std::filesystem::path& folder) {
+  run(python_with("json", "python3", no_report), folder, std::string(report_script()), no_report);
+}
+
+void draw_charts(const std::filesystem::path& folder, std::string_view script) {
+  const std::string python = python_with("matplotlib", "python3-matplotlib", no_charts);
+  run(python, folder, with_chart_style(script), no_charts);
+  write_report(folder);
 }
 
 } // namespace phlux::bench

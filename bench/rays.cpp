@@ -14,8 +14,11 @@
 #include <glm/geometric.hpp>
 
 #include "bench/csv.h"
+#include "bench/draw.h"
 #include "bench/embree_rays.h"
 #include "bench/knot_scene.h"
+#include "bench/provenance.h"
+#include "bench/scripts.h"
 #include "device/program.h"
 #include "errors.h"
 #include "render/device_scene.h"
@@ -198,6 +201,12 @@ void measure_rays(const RaysOptions& options) {
           Kind{"shadow", "find_any", secondary.shadow}})
       measure(table, options, label, ours, theirs, kind);
   }
+  std::string command = "phlux bench rays --triangles ";
+  for (const std::uint64_t triangles : options.triangles)
+    command += fmt::format("{}{}", command.ends_with(' ') ? "" : ",", triangles);
+  write_provenance(options.folder, "rays",
+                   {command, device.info, lanes, "timings exclude building kernels", "1"});
+  draw_charts(options.folder, rays_script());
 }
 
 } // namespace phlux::bench

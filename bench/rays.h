@@ -20,7 +20,8 @@ struct RaysOptions {
 };
 
 /// Writes rays.csv (the columns of the contract, then the Embree call) to the folder and prints each line as
-/// it comes. Both sides use as many threads as the device has units. @throws DeviceError, WriteError
+/// it comes, then charts and the report. Both sides use as many threads as the device has units. @throws
+/// DeviceError, WriteError, also where charts cannot be drawn: the table is there then
 void measure_rays(const RaysOptions& options);
 
 } // namespace phlux::bench

@@ -7,5 +7,11 @@ namespace phlux::bench {
 
 /// bench/figures.py
 [[nodiscard]] std::string_view figures_script();
+/// bench/chart_style.py, which the others import
+[[nodiscard]] std::string_view chart_style_script();
+/// bench/rays.py
+[[nodiscard]] std::string_view rays_script();
+/// bench/report.py
+[[nodiscard]] std::string_view report_script();
 
 } // namespace phlux::bench

@@ -26,7 +26,14 @@ TEST_CASE("phlux bench rays writes the contract's columns") {
   const Outcome outcome =
       run({{"bench", "rays", "--triangles", "36,1000", "--out", "out/new"}, folder.path(), {}, {}});
   CAPTURE(outcome.err);
-  CHECK(outcome.exit_code == 0);
+  if (outcome.err.find("python3-matplotlib") != std::string::npos) {
+    WARN("no matplotlib: the charts are not tested");
+    CHECK(outcome.exit_code == 5);
+  } else {
+    CHECK(outcome.exit_code == 0);
+    CHECK_THAT(TemporaryFolder::read(folder / "out/new/index.html"), Catch::Contains("Rays against Embree"));
+    CHECK_THAT(TemporaryFolder::read(folder / "out/new/rays-rates.svg"), Catch::Contains("</svg>"));
+  }
   const auto lines = lines_of(TemporaryFolder::read(folder / "out/new/rays.csv"));
   REQUIRE(lines.size() == 7);
   CHECK_THAT(lines[0],
