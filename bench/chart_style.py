@@ -4,6 +4,7 @@ says how a script, its charts and its section come together.
 """
 import csv
 import json
+import multiprocessing
 import os
 import platform
 import re
@@ -123,6 +124,24 @@ def save(folder, name, draw):
                 end = re.search(r"<svg\b[^>]*>", svg).end()
                 write(folder, name + ".svg", f"{svg[:end]}\n <style>{dark_rules(svg)}</style>{svg[end:]}")
             plt.close(figure)
+
+
+def save_all(folder, drawings):
+    """save() for each (name, draw), in as many processes as there are processors."""
+    context = multiprocessing.get_context("fork")
+
+    def save_some(some):
+        for name, draw in some:
+            save(folder, name, draw)
+
+    count = min(os.cpu_count() or 1, len(drawings))
+    workers = [context.Process(target=save_some, args=(drawings[i::count],)) for i in range(count)]
+    for worker in workers:
+        worker.start()
+    for worker in workers:
+        worker.join()
+    if any(worker.exitcode != 0 for worker in workers):
+        raise SystemExit("a chart could not be drawn")
 
 
 def value_of(text):

@@ -13,5 +13,7 @@ namespace phlux::bench {
 [[nodiscard]] std::string_view rays_script();
 /// bench/report.py
 [[nodiscard]] std::string_view report_script();
+/// bench/scenes.py
+[[nodiscard]] std::string_view scenes_script();
 
 } // namespace phlux::bench

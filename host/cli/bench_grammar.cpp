@@ -7,7 +7,9 @@
 #include "bench/figures.h"
 #include "bench/rays.h"
 #include "bench/sampling.h"
+#include "bench/scenes.h"
 #include "cli/grammar.h"
+#include "cli/interrupt.h"
 #include "cli/values.h"
 #include "errors.h"
 
@@ -132,12 +134,52 @@ void add_figures(CLI::App& bench, std::optional<Command>& command) {
   });
 }
 
+constexpr int interrupted_exit_code = 130;
+
+void add_scenes(CLI::App& bench, std::optional<Command>& command) {
+  CLI::App& app = *bench.add_subcommand(
+      "scenes", "Every method on every scene: variance, time, convergence: scenes.csv and index.html");
+  const auto options = std::make_shared<bench::ScenesOptions>();
+  add_common(app, *options);
+  add_values(app, "--scene", "FILE.xml", "only this one; may be repeated; default: those that ship",
+             [options](const std::string& text) { options->scenes.emplace_back(text); });
+  const auto named = std::make_shared<bool>(false);
+  add_values(app, "--strategy", "NAME", "how directions are sampled; may be repeated; default: exact",
+             [options, named](const std::string& text) {
+               const auto& names = render::strategy_names();
+               if (!*named) options->strategies.clear();
+               *named = true;
+               options->strategies.push_back(names[choice("--strategy", text, names)]);
+             });
+  app.add_flag("--quick", options->quick, "under two minutes for the scenes that ship; coarser");
+  add_value(app, "--seconds", "S", "for each scene; default: 120, or 11 with --quick, less for many scenes",
+            [options](const std::string& text) { options->seconds = positive_number("--seconds", text); });
+  add_value(app, "--side", "N", "pixels of an image's longer side at most; default: 128, or 64 with --quick",
+            [options](const std::string& text) {
+              constexpr std::uint64_t most = 4096;
+              options->largest_side = static_cast<int>(whole_number("--side", text, 1, most));
+            });
+  add_value(app, "--seed", "N", "of the first round; default: 1", [options](const std::string& text) {
+    constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
+    options->seed = whole_number("--seed", text, 0, most);
+  });
+  app.footer("What the folder holds of the same settings is not measured again: an interrupted run goes on.");
+  app.final_callback([&command, options] {
+    command = [options] {
+      const InterruptGuard guard;
+      options->interrupted = [&guard] { return guard.requested(); };
+      return bench::measure_scenes(*options) ? 0 : interrupted_exit_code;
+    };
+  });
+}
+
 } // namespace
 
 void add_bench(CLI::App& program, std::optional<Command>& command) {
   CLI::App& app = *program.add_subcommand("bench", "Measures this device: tables (CSV) and figures");
   app.require_subcommand(1);
   app.footer("phlux bench COMMAND --help lists the options of one.");
+  add_scenes(app, command);
   add_rays(app, command);
   add_sampling(app, command);
   add_figures(app, command);

@@ -1,0 +1,64 @@
+#include "bench/method.h"
+
+#include <algorithm>
+#include <array>
+
+namespace phlux::bench {
+namespace {
+
+const std::array<std::string, 3> connects = {"none", "light", "mis"};
+const std::array<std::string, 3> weights = {"balance", "power", "uniform"};
+const std::string default_strategy = "exact";
+
+template<class Names>
+auto index_of(const Names& names, const std::string& name) {
+  return std::ranges::find(names, name) - names.begin();
+}
+
+// Versions without bidir have no weights to set.
+template<class Settings>
+void set_weights(Settings& settings, const std::string& name) {
+  if constexpr (requires { settings.weights; })
+    settings.weights = static_cast<decltype(settings.weights)>(index_of(weights, name));
+}
+
+} // namespace
+
+std::string Method::name() const {
+  const std::string integrated = variant == "-" ? integrator : integrator + " " + variant;
+  return strategy == default_strategy ? integrated : integrated + ", " + strategy;
+}
+
+std::vector<Method> all_methods(const std::vector<std::string>& strategies, bool quick) {
+  std::vector<Method> methods;
+  for (const std::string& strategy : strategies) {
+    for (const std::string& connect : connects) methods.push_back({"path", strategy, connect});
+    methods.push_back({"light", strategy, "-"});
+    for (const std::string& weight : weights)
+      if (!quick || weight == weights.front()) methods.push_back({"bidir", strategy, weight});
+  }
+  return methods;
+}
+
+render::Settings settings_of(const Method& method, const scene::RenderDefaults& defaults) {
+  render::Settings settings;
+  settings.integrator = method.integrator;
+  settings.strategy = method.strategy;
+  if (method.integrator == "path")
+    settings.connect = static_cast<render::Connect>(index_of(connects, method.variant));
+  if (method.integrator == "bidir") set_weights(settings, method.variant);
+  settings.max_depth = defaults.max_depth;
+  settings.rr_depth = defaults.rr_depth;
+  return settings;
+}
+
+std::string known_bias(const Method& method, const scene::Scene& scene) {
+  const bool unhittable =
+      !scene.point_lights.empty() || !scene.spot_lights.empty() || !scene.directional_lights.empty();
+  if (method.integrator == "path" && method.variant == "none" && unhittable)
+    return "no path can hit a point or spot or directional light";
+  if (method.strategy == "lobe-estimate-printed") return "the strategy loses light at grazing angles";
+  return {};
+}
+
+} // namespace phlux::bench

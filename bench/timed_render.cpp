@@ -1,0 +1,81 @@
+#include "bench/timed_render.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <spdlog/spdlog.h>
+
+namespace phlux::bench {
+namespace {
+
+constexpr double usual_launch_seconds = 0.05;
+
+// The renderer warns once per render: here, hundreds of times of the same.
+class QuietLog {
+public:
+  QuietLog() : level_(spdlog::get_level()) { spdlog::set_level(std::max(level_, spdlog::level::err)); }
+  ~QuietLog() { spdlog::set_level(level_); }
+  QuietLog(const QuietLog&) = delete;
+  QuietLog& operator=(const QuietLog&) = delete;
+
+private:
+  spdlog::level::level_enum level_;
+};
+
+bool every_pixel_has_one(const film::Film& film) {
+  return std::ranges::all_of(film.pixels(), [](const film::Pixel& pixel) { return pixel.samples == 1; });
+}
+
+bool every_pixel_has_some(const film::Film& film) {
+  return std::ranges::all_of(film.pixels(), [](const film::Pixel& pixel) { return pixel.samples > 0; });
+}
+
+// For a time that was too short for one sample of every pixel.
+TimedRender render_once(const scene::Scene& scene, render::Settings settings) {
+  film::Film film(scene.camera.width, scene.camera.height);
+  settings.samples_per_pixel = 1;
+  settings.time_limit.reset();
+  TimedRender result;
+  result.statistics = render::render(scene, settings, film, {});
+  result.last = {estimate_of(film), result.statistics.seconds_render};
+  result.one_sample = result.last.image;
+  result.paths = static_cast<double>(result.statistics.paths);
+  return result;
+}
+
+} // namespace
+
+TimedRender render_for(const scene::Scene& scene, render::Settings settings, double seconds,
+                       const std::vector<double>& times, const std::function<bool()>& interrupted) {
+  const QuietLog quiet;
+  film::Film film(scene.camera.width, scene.camera.height);
+  TimedRender result;
+  settings.time_limit = seconds;
+  settings.launch_seconds = std::min(usual_launch_seconds, times.empty() ? seconds / 8 : times.front() / 2);
+  std::size_t next = 0;
+  bool stopped = false;
+  render::Events events;
+  events.progress = [&](const render::Progress& progress) {
+    if (!result.one_sample && progress.samples_done == 1.0 && every_pixel_has_one(film))
+      result.one_sample = estimate_of(film);
+    if (next < times.size() && progress.seconds >= times[next]) {
+      while (next < times.size() && progress.seconds >= times[next]) ++next;
+      if (every_pixel_has_some(film)) result.on_the_way.push_back({estimate_of(film), progress.seconds});
+    }
+    stopped = interrupted && interrupted();
+    return !stopped;
+  };
+  result.statistics = render::render(scene, settings, film, events);
+  if (stopped) throw Interrupted{};
+  if (!every_pixel_has_some(film)) return render_once(scene, settings);
+  result.last = {estimate_of(film), result.statistics.seconds_render};
+  result.paths = static_cast<double>(result.statistics.paths);
+  return result;
+}
+
+ImageEstimate render_one_sample(const scene::Scene& scene, const render::Settings& settings) {
+  const QuietLog quiet;
+  return render_once(scene, settings).last.image;
+}
+
+} // namespace phlux::bench

@@ -1,0 +1,44 @@
+// One render of a length of time, with the image as it was on the way.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "bench/image_estimates.h"
+#include "render/render.h"
+
+namespace phlux::bench {
+
+/// What ends a measurement that the user interrupts.
+struct Interrupted {};
+
+struct Snapshot {
+  ImageEstimate image;
+  double seconds = 0; ///< since rendering began
+};
+
+struct TimedRender {
+  std::vector<Snapshot> on_the_way;        ///< one for each time asked for that every pixel had a sample by
+  std::optional<ImageEstimate> one_sample; ///< when every pixel had one sample and none had two
+  Snapshot last;
+  double paths = 0;
+  render::Statistics statistics;
+
+  [[nodiscard]] double seconds_per_sample() const { return last.seconds / paths; }
+  [[nodiscard]] double samples_per_pixel() const {
+    return paths / static_cast<double>(last.image.samples.size());
+  }
+};
+
+/// Renders for `seconds`, or one sample per pixel where that takes longer, and keeps the image after each of
+/// `times` (ascending, all shorter). `interrupted` is asked between launches. @throws Interrupted, and as
+/// render()
+[[nodiscard]] TimedRender render_for(const scene::Scene& scene, render::Settings settings, double seconds,
+                                     const std::vector<double>& times,
+                                     const std::function<bool()>& interrupted);
+
+/// An image with one sample per pixel. @throws as render()
+[[nodiscard]] ImageEstimate render_one_sample(const scene::Scene& scene, const render::Settings& settings);
+
+} // namespace phlux::bench
