@@ -43,7 +43,8 @@ using Repeats = std::span<const ImageEstimate>;
 [[nodiscard]] Figure image_mean(Repeats repeats);
 
 /// The part of the pooled image's relative MSE that its variance does not explain: squared bias, or the
-/// reference's own error. At least two repeats.
+/// reference's own error. At least two repeats. Without a bias the standard error is too large: the jackknife
+/// of a difference of squares is careful there.
 [[nodiscard]] Figure unexplained_mse(Repeats repeats, const Reference& reference);
 
 /// Of images with one sample per pixel: the share that the largest thousandth of the pixels holds in the sum

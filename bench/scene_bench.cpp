@@ -20,11 +20,11 @@ constexpr std::uint64_t first_trial_seed = 1'000'000;
 constexpr double trial_share = 1.0 / 300; // of the scene's time, for one render of a trial
 constexpr double reference_share = 0.15;  // of what trials left
 constexpr double least_seconds = 0.03;    // of a render
-constexpr int doublings = 5;              // times at which the error is looked at: T/32 to T
-// A variance is suspect when the largest thousandth of the samples holds half of the squared error while
+constexpr std::size_t doublings = 5;      // times at which the error is looked at: T/32 to T
+// A variance is suspect when the largest thousandth of the samples holds 30% of the squared error while
 // repeats disagree on it by a tenth, or when it doubles between one sample and many. A finite variance is
 // known better with every sample, an infinite one never is.
-constexpr double suspect_top_share = 0.5;
+constexpr double suspect_top_share = 0.3;
 constexpr double suspect_error = 0.1; // standard error / variance
 constexpr double suspect_growth = 2.0;
 // Two tests of each of about 60 rows: false alarms in 1% of reports, where means are normal.
@@ -44,11 +44,12 @@ double median(std::vector<double> values) {
 
 std::vector<double> doubling_times(double seconds) {
   std::vector<double> times;
-  for (int i = doublings; i >= 1; --i) times.push_back(seconds / std::pow(2.0, i));
+  for (std::size_t i = doublings; i >= 1; --i) times.push_back(seconds / std::pow(2.0, i));
   return times;
 }
 
 struct Look { // at an image on the way
+  std::size_t time = 0;
   double seconds = 0, samples_per_pixel = 0, relmse = 0;
 };
 
@@ -58,42 +59,41 @@ double mean_samples(const ImageEstimate& image) {
 }
 
 Look look_at(const Snapshot& snapshot, const Reference& reference) {
-  return {snapshot.seconds, mean_samples(snapshot.image), relative_mse(snapshot.image, reference)};
+  return {snapshot.time, snapshot.seconds, mean_samples(snapshot.image),
+          relative_mse(snapshot.image, reference)};
 }
 
 // The renders of one method, as they come.
 struct Renders {
   std::vector<ImageEstimate> last, one_sample;
   std::vector<double> seconds_per_sample;
-  std::vector<std::vector<Look>> looks; // of each render, the last one at its end
+  std::vector<Look> looks; // at all renders; time `doublings` is a render's end
 
   void add(TimedRender render, const Reference& reference) {
     seconds_per_sample.push_back(render.seconds_per_sample());
-    looks.emplace_back();
-    for (const Snapshot& snapshot : render.on_the_way) looks.back().push_back(look_at(snapshot, reference));
-    looks.back().push_back(look_at(render.last, reference));
+    for (const Snapshot& snapshot : render.on_the_way) looks.push_back(look_at(snapshot, reference));
+    looks.push_back(look_at(render.last, reference));
     last.push_back(std::move(render.last.image));
     one_sample.push_back(std::move(*render.one_sample));
   }
 };
 
-// Of the doubling times, those that every render has an image of, counted from the last.
+// Of the doubling times, those that half of the renders have an image of.
 std::vector<ConvergencePoint> convergence_of(const Renders& renders) {
-  std::size_t common = doublings + 1;
-  for (const auto& looks : renders.looks) common = std::min(common, looks.size());
   std::vector<ConvergencePoint> points;
-  for (std::size_t from_end = common; from_end >= 1; --from_end) {
+  for (std::size_t time = 0; time <= doublings; ++time) {
     std::vector<double> seconds, samples, errors;
-    for (const auto& looks : renders.looks) {
-      const Look& look = looks[looks.size() - from_end];
+    for (const Look& look : renders.looks) {
+      if (look.time != time) continue;
       seconds.push_back(look.seconds);
       samples.push_back(look.samples_per_pixel);
       errors.push_back(look.relmse);
     }
+    if (2 * errors.size() < renders.last.size()) continue;
     const auto [least, most] = std::ranges::minmax(errors);
     const double mean =
         std::accumulate(errors.begin(), errors.end(), 0.0) / static_cast<double>(errors.size());
-    points.push_back({median(seconds), median(samples), mean, least, most});
+    points.push_back({median(seconds), median(samples), mean, least, most, static_cast<int>(errors.size())});
   }
   return points;
 }

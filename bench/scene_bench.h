@@ -40,6 +40,7 @@ struct Trial {
 struct ConvergencePoint {
   double seconds = 0, samples_per_pixel = 0;            ///< medians
   double relmse = 0, relmse_least = 0, relmse_most = 0; ///< mean and range
+  int rounds = 0;                                       ///< that have an image of that time
 };
 
 enum class Verdict { sound, suspect_variance, biased, refused };

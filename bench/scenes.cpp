@@ -182,7 +182,7 @@ std::vector<std::string> convergence_row(const SceneRun& scene, const ReferenceI
        {point.seconds, point.samples_per_pixel, point.relmse, point.relmse_least, point.relmse_most,
         result.variance.value / point.samples_per_pixel + reference.relmse})
     row.push_back(number(value));
-  row.push_back(fmt::format("{}", result.rounds));
+  row.push_back(fmt::format("{}", point.rounds));
   row.push_back(scene.settings);
   return row;
 }

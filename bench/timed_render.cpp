@@ -31,13 +31,13 @@ bool every_pixel_has_some(const film::Film& film) {
 }
 
 // For a time that was too short for one sample of every pixel.
-TimedRender render_once(const scene::Scene& scene, render::Settings settings) {
+TimedRender render_once(const scene::Scene& scene, render::Settings settings, std::size_t time) {
   film::Film film(scene.camera.width, scene.camera.height);
   settings.samples_per_pixel = 1;
   settings.time_limit.reset();
   TimedRender result;
   result.statistics = render::render(scene, settings, film, {});
-  result.last = {estimate_of(film), result.statistics.seconds_render};
+  result.last = {estimate_of(film), result.statistics.seconds_render, time};
   result.one_sample = result.last.image;
   result.paths = static_cast<double>(result.statistics.paths);
   return result;
@@ -60,22 +60,23 @@ TimedRender render_for(const scene::Scene& scene, render::Settings settings, dou
       result.one_sample = estimate_of(film);
     if (next < times.size() && progress.seconds >= times[next]) {
       while (next < times.size() && progress.seconds >= times[next]) ++next;
-      if (every_pixel_has_some(film)) result.on_the_way.push_back({estimate_of(film), progress.seconds});
+      if (every_pixel_has_some(film))
+        result.on_the_way.push_back({estimate_of(film), progress.seconds, next - 1});
     }
     stopped = interrupted && interrupted();
     return !stopped;
   };
   result.statistics = render::render(scene, settings, film, events);
   if (stopped) throw Interrupted{};
-  if (!every_pixel_has_some(film)) return render_once(scene, settings);
-  result.last = {estimate_of(film), result.statistics.seconds_render};
+  if (!every_pixel_has_some(film)) return render_once(scene, settings, times.size());
+  result.last = {estimate_of(film), result.statistics.seconds_render, times.size()};
   result.paths = static_cast<double>(result.statistics.paths);
   return result;
 }
 
 ImageEstimate render_one_sample(const scene::Scene& scene, const render::Settings& settings) {
   const QuietLog quiet;
-  return render_once(scene, settings).last.image;
+  return render_once(scene, settings, 0).last.image;
 }
 
 } // namespace phlux::bench

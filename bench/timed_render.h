@@ -15,11 +15,13 @@ struct Interrupted {};
 
 struct Snapshot {
   ImageEstimate image;
-  double seconds = 0; ///< since rendering began
+  double seconds = 0;   ///< since rendering began
+  std::size_t time = 0; ///< which of the times asked for it is the first after
 };
 
 struct TimedRender {
-  std::vector<Snapshot> on_the_way;        ///< one for each time asked for that every pixel had a sample by
+  std::vector<Snapshot> on_the_way; ///< of times by which every pixel had a sample, but those between which
+                                    ///< no launch ended
   std::optional<ImageEstimate> one_sample; ///< when every pixel had one sample and none had two
   Snapshot last;
   double paths = 0;

@@ -98,6 +98,156 @@ TEST_CASE("phlux bench figures without matplotlib keeps the tables and names the
   CHECK_FALSE(std::filesystem::exists(folder / "out/figure-7.svg"));
 }
 
+namespace {
+
+const char* const scenes_columns =
+    "scene,integrator,strategy,connect_or_weights,device,samples_per_pixel,seconds,relmse,variance_per_"
+    "sample,"
+    "variance_standard_error,top_share,seconds_per_sample,variance_times_seconds,";
+
+std::string shipped(const std::string& name) {
+  return PHLUX_SOURCE_DIR "/scenes/" + name + ".xml";
+}
+
+// bench scenes on small images, a second for each scene.
+std::vector<std::string> scenes_command(const std::vector<std::string>& names,
+                                        const std::vector<std::string>& more = {}) {
+  std::vector<std::string> arguments = {"bench", "scenes", "--side", "8", "--seconds", "1", "--out", "out"};
+  for (const std::string& name : names)
+    arguments.insert(arguments.end(), {"--scene", std::filesystem::exists(name) ? name : shipped(name)});
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+std::string value_of(const std::string& row, const std::vector<std::string>& columns,
+                     const std::string& name) {
+  std::istringstream stream(row);
+  std::string value;
+  for (const std::string& column : columns) {
+    std::getline(stream, value, ',');
+    if (column == name) return value;
+  }
+  throw std::runtime_error("no column " + name);
+}
+
+std::vector<std::string> split(const std::string& line) {
+  std::vector<std::string> values;
+  std::istringstream stream(line);
+  for (std::string value; std::getline(stream, value, ',');) values.push_back(value);
+  return values;
+}
+
+bool drawn(const Outcome& outcome) {
+  if (outcome.err.find("python3-matplotlib") == std::string::npos) return true;
+  WARN("no matplotlib: the charts are not tested");
+  return false;
+}
+
+} // namespace
+
+TEST_CASE("phlux bench scenes writes the contract's columns, a row for each method, charts and a report") {
+  const TemporaryFolder folder;
+  const Outcome outcome =
+      run({scenes_command({"furnace-sphere", "point-light"}, {"--quick"}), folder.path(), {}, {}});
+  CAPTURE(outcome.err, outcome.out);
+  const auto lines = lines_of(TemporaryFolder::read(folder / "out/scenes.csv"));
+  REQUIRE(lines.size() == 1 + 2 * 5);
+  CHECK_THAT(lines[0], Catch::StartsWith(scenes_columns));
+  const auto columns = split(lines[0]);
+  int sound = 0;
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    CHECK(columns_of(lines[i]) == columns_of(lines[0]));
+    const auto value = [&](const std::string& name) { return value_of(lines[i], columns, name); };
+    const std::string verdict = value("verdict");
+    if (verdict == "refused") {
+      CHECK_FALSE(value("reason").empty());
+      CHECK(value("variance_per_sample").empty());
+      CHECK(value("seconds").empty());
+    } else {
+      CHECK(std::stod(value("variance_measured")) > 0);
+      CHECK(std::stod(value("seconds_per_sample")) > 0);
+      CHECK(std::stoi(value("rounds")) >= 5);
+    }
+    if (verdict == "sound") {
+      ++sound;
+      CHECK(std::stod(value("variance_times_seconds")) ==
+            Approx(std::stod(value("variance_per_sample")) * std::stod(value("seconds_per_sample")))
+                .epsilon(1e-4));
+      CHECK(std::stod(value("top_share")) < 1);
+    } else {
+      CHECK(value("variance_times_seconds").empty());
+    }
+  }
+  CHECK(sound >= 3);
+  CHECK_THAT(lines[6], Catch::StartsWith("point-light,path,exact,none,"));
+  CHECK(value_of(lines[6], columns, "verdict") == "refused"); // no path hits a point
+  const auto points = lines_of(TemporaryFolder::read(folder / "out/scenes-convergence.csv"));
+  CHECK(points.size() > 5);
+  CHECK(points[0] ==
+        "scene,integrator,strategy,connect_or_weights,seconds,samples_per_pixel,relmse,relmse_least,"
+        "relmse_most,relmse_expected,rounds,settings");
+  for (const std::string& line : points) CHECK(columns_of(line) == columns_of(points[0]));
+  CHECK(std::filesystem::exists(folder / "out/references/furnace-sphere.exr"));
+  if (!drawn(outcome)) return;
+  CHECK(outcome.exit_code == 0);
+  const std::string html = TemporaryFolder::read(folder / "out/index.html");
+  CHECK_THAT(html, Catch::Contains("point-light: speed and accuracy") && Catch::Contains("</svg>"));
+  for (const char* chart : {"overview", "furnace-sphere-convergence", "furnace-sphere-efficiency",
+                            "furnace-sphere-times", "furnace-sphere-images", "furnace-sphere-errors"}) {
+    const std::string name = std::string("out/scenes-") + chart;
+    CHECK_THAT(TemporaryFolder::read(folder / (name + ".svg")), Catch::Contains("prefers-color-scheme:dark"));
+    CHECK_THAT(TemporaryFolder::read(folder / (name + ".png")), Catch::StartsWith("\x89PNG"));
+    CHECK_THAT(TemporaryFolder::read(folder / (name + "-dark.png")), Catch::StartsWith("\x89PNG"));
+  }
+}
+
+TEST_CASE("phlux bench scenes goes on where it was interrupted") {
+  const TemporaryFolder folder;
+  const auto rows_of = [&](const std::string& scene) {
+    std::vector<std::string> rows;
+    for (const std::string& line : lines_of(TemporaryFolder::read(folder / "out/scenes.csv")))
+      if (line.starts_with(scene + ",")) rows.push_back(line);
+    return rows;
+  };
+  (void)run({scenes_command({"furnace-sphere"}), folder.path(), {}, {}});
+  const auto first = rows_of("furnace-sphere");
+  REQUIRE(first.size() == 7);
+
+  const auto both = scenes_command({"furnace-sphere", "cornell-box"});
+  const Outcome stopped = run({both, folder.path(), {}, std::chrono::milliseconds(700)});
+  CAPTURE(stopped.err, stopped.out);
+  CHECK(stopped.exit_code == 130);
+  CHECK(rows_of("furnace-sphere") == first);
+  CHECK(rows_of("cornell-box").empty());
+
+  const Outcome whole = run({both, folder.path(), {}, {}});
+  CHECK_THAT(whole.out, Catch::Contains("furnace-sphere: measured already"));
+  CHECK(rows_of("furnace-sphere") == first);
+  const auto second = rows_of("cornell-box");
+  CHECK(second.size() == 7);
+  if (drawn(whole)) CHECK(whole.exit_code == 0);
+
+  // Another seed is another measurement; the other scene's rows stay.
+  (void)run({scenes_command({"furnace-sphere"}, {"--seed", "2"}), folder.path(), {}, {}});
+  CHECK(rows_of("furnace-sphere").size() == 7);
+  CHECK(rows_of("furnace-sphere") != first);
+  CHECK(rows_of("cornell-box") == second);
+}
+
+TEST_CASE("phlux bench scenes measures a strategy that is added beside what is there") {
+  const TemporaryFolder folder;
+  (void)run({scenes_command({"furnace-sphere"}), folder.path(), {}, {}});
+  const auto before = lines_of(TemporaryFolder::read(folder / "out/scenes.csv"));
+  (void)run({scenes_command({"furnace-sphere"}, {"--strategy", "exact", "--strategy", "lobe-ks"}),
+             folder.path(),
+             {},
+             {}});
+  const auto after = lines_of(TemporaryFolder::read(folder / "out/scenes.csv"));
+  CHECK(after.size() == 1 + 14);
+  for (const std::string& line : before)
+    if (line.find("refused") == std::string::npos) CHECK(std::ranges::count(after, line) == 1);
+}
+
 TEST_CASE("phlux bench: bad input is one line and its exit code") {
   struct Bad {
     std::vector<std::string> arguments;
@@ -114,6 +264,16 @@ TEST_CASE("phlux bench: bad input is one line and its exit code") {
       {{"rays", "--out", "/proc/phlux"}, 5, "/proc/phlux"},
       {{"rays", "--out", "file"}, 5, "file"},
       {{"rays", "--device", "none such"}, 4, "none such"},
+      {{"scenes", "--strategy", "exct"}, 2, "did you mean exact?"},
+      {{"scenes", "--scene", "none.xml"}, 3, "none.xml"},
+      {{"scenes", "--scene", "broken.xml"}, 3, "broken.xml"},
+      {{"scenes", "--scene", "a/scene.xml", "--scene", "b/scene.xml"}, 2, "has the name of a/scene.xml"},
+      {{"scenes"}, 2, "name some with --scene FILE.xml"},
+      {{"scenes", "--seconds", "0"}, 2, "--seconds 0"},
+      {{"scenes", "--side", "0"}, 2, "--side 0"},
+      {{"scenes", "--out", "/proc/phlux", "--scene", shipped("furnace-box")}, 5, "/proc/phlux"},
+      {{"scenes", "--out", "file", "--scene", shipped("furnace-box")}, 5, "file"},
+      {{"scenes", "--device", "none such", "--scene", shipped("furnace-box")}, 4, "none such"},
       {{"sampling", "--strategy", "magic"}, 2, "--strategy magic: must be one of uniform"},
       {{"sampling", "--strategy", "exct"}, 2, "did you mean exact?"},
       {{"sampling", "--samples", "0"}, 2, "--samples 0"},
@@ -129,6 +289,7 @@ TEST_CASE("phlux bench: bad input is one line and its exit code") {
   };
   const TemporaryFolder folder;
   folder.write("file", "");
+  folder.write("broken.xml", "<scene version=");
   for (const auto& [arguments, exit_code, message] : bad) {
     std::vector<std::string> all = {"bench"};
     all.insert(all.end(), arguments.begin(), arguments.end());

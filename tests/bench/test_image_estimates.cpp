@@ -1,0 +1,175 @@
+// Statistical tests here raise a false alarm with probability 1e-3 each, were their seeds drawn anew.
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include <catch2/catch.hpp>
+
+#include "bench/image_estimates.h"
+#include "files/compare.h"
+
+using namespace phlux::bench;
+
+namespace {
+
+constexpr std::size_t repeats = 10;
+constexpr double t_95 = 2.2622; // Student's, two-sided, 9 degrees of freedom (Abramowitz and Stegun, 26.10)
+
+// An image whose pixels are means of `samples` draws.
+ImageEstimate image_of(std::size_t pixels, int samples, const std::function<double()>& draw) {
+  ImageEstimate image;
+  for (std::size_t value = 0; value < 3 * pixels; ++value) {
+    double sum = 0;
+    for (int i = 0; i < samples; ++i) sum += draw();
+    image.radiance.push_back(sum / samples);
+  }
+  image.samples.assign(pixels, samples);
+  return image;
+}
+
+std::vector<ImageEstimate> images_of(std::size_t count, std::size_t pixels, int samples,
+                                     const std::function<double()>& draw) {
+  std::vector<ImageEstimate> images;
+  for (std::size_t i = 0; i < count; ++i) images.push_back(image_of(pixels, samples, draw));
+  return images;
+}
+
+// Exponentially distributed: mean and standard deviation `mean`.
+std::function<double()> exponential(std::mt19937& generator, double mean) {
+  return [&generator, mean] { return std::exponential_distribution<double>(1 / mean)(generator); };
+}
+
+// x^(-3/2) P(X > x), from 1: a mean of 3 and an infinite variance.
+std::function<double()> heavy_tailed(std::mt19937& generator) {
+  return [&generator] {
+    return std::pow(1 - std::uniform_real_distribution<double>(0, 1)(generator), -1 / 1.5);
+  };
+}
+
+// The least and most successes of n that a rate leaves out with probability 1e-3, by the normal
+// approximation.
+bool rate_holds(int successes, int n, double rate) {
+  return std::abs(successes - n * rate) < 3.29 * std::sqrt(n * rate * (1 - rate)) + 0.5;
+}
+
+} // namespace
+
+TEST_CASE("The relative MSE is that of phlux compare") {
+  std::mt19937 generator(1);
+  const ImageEstimate a = image_of(200, 4, exponential(generator, 0.3)),
+                      b = image_of(200, 9, exponential(generator, 0.3));
+  const auto image = [](const ImageEstimate& estimate) {
+    phlux::files::Image result{.width = 20, .height = 10, .channels = {}, .info = {}};
+    const std::array<const char*, 3> names = {"R", "G", "B"};
+    for (std::size_t value = 0; value < estimate.radiance.size(); ++value)
+      result.channels[names[value % 3]].push_back(static_cast<float>(estimate.radiance[value]));
+    return result;
+  };
+  CHECK(relative_mse(a, b.radiance) ==
+        Approx(phlux::files::compare(image(a), image(b), "a", "b").relmse).epsilon(1e-5));
+}
+
+TEST_CASE("The variance per sample is that of what is drawn, however many samples an image has") {
+  std::mt19937 generator(2);
+  const Reference reference(300, 0.5);
+  const double expected = 0.25 / (0.25 + 1e-4);
+  std::vector<ImageEstimate> images;
+  for (const int samples : {1, 2, 3, 5, 8, 13, 21, 34, 55, 89})
+    images.push_back(image_of(100, samples, exponential(generator, 0.5)));
+  const Figure variance = variance_per_sample(images, reference);
+  CHECK(p_value(variance, expected, images.size()) > 1e-3);
+  CHECK(variance.standard_error < 0.15 * expected);
+  // The error of the image of them all is then what this variance says, and no more.
+  CHECK(p_value(unexplained_mse(images, reference), 0, images.size()) > 1e-3);
+}
+
+TEST_CASE("Standard errors cover the truth at the rate of Student's t") {
+  constexpr int experiments = 400;
+  constexpr std::size_t pixels = 64;
+  std::mt19937 generator(3);
+  const Reference reference(3 * pixels, 2.0);
+  int means = 0, variances = 0, unexplained = 0;
+  for (int i = 0; i < experiments; ++i) {
+    const auto images = images_of(repeats, pixels, 4, exponential(generator, 2.0));
+    const auto covers = [](const Figure& figure, double truth) {
+      return std::abs(figure.value - truth) < t_95 * figure.standard_error;
+    };
+    means += covers(image_mean(images), 2.0) ? 1 : 0;
+    variances += covers(variance_per_sample(images, reference), 4.0 / 4.0001) ? 1 : 0;
+    unexplained += covers(unexplained_mse(images, reference), 0.0) ? 1 : 0;
+  }
+  CAPTURE(means, variances, unexplained);
+  CHECK(rate_holds(means, experiments, 0.95));
+  CHECK(rate_holds(variances, experiments, 0.95));
+  CHECK(unexplained >= means); // without a bias it is a difference of squares: its jackknife is careful
+}
+
+TEST_CASE("A bias is what the variance does not explain, and shows in the mean") {
+  std::mt19937 generator(4);
+  const Reference reference(300, 2.0);
+  const auto images = images_of(repeats, 100, 50, exponential(generator, 1.9)); // 5% too dark
+  const Figure unexplained = unexplained_mse(images, reference);
+  CHECK(p_value(unexplained, 0, repeats) < 1e-4);
+  CHECK(p_value(unexplained, 0.01 / 4.0001, repeats) > 1e-3);
+  CHECK(p_value(image_mean(images), 2.0, repeats) < 1e-4);
+  CHECK(p_value(image_mean(images), 1.9, repeats) > 1e-3);
+}
+
+TEST_CASE("The pooled image weighs each by its samples") {
+  const std::vector<ImageEstimate> images = {{{1, 1, 1}, {1}}, {{4, 4, 4}, {3}}};
+  const ImageEstimate image = pooled(images);
+  CHECK(image.radiance == std::vector<double>{3.25, 3.25, 3.25});
+  CHECK(image.samples == std::vector<double>{4});
+}
+
+TEST_CASE("The top share tells even samples from one that decides") {
+  std::mt19937 generator(5);
+  const Reference reference(3 * 5000, 1.0);
+  std::normal_distribution<double> normal(1, 0.5);
+  auto images = images_of(2, 5000, 1, [&] { return normal(generator); });
+  // Of sums of three squares of normal deviates: chi-square with 3 degrees of freedom beyond its 0.999
+  // quantile, 16.27, holds 0.0061 of the sum.
+  CHECK(top_share(images, reference) == Approx(0.0061).margin(0.001));
+  images[0].radiance[77] = 1e4;
+  CHECK(top_share(images, reference) > 0.99);
+  const std::vector<ImageEstimate> exact = {{reference, std::vector<double>(5000, 1)}};
+  CHECK(top_share(exact, reference) == 0);
+}
+
+TEST_CASE("An infinite variance grows with the samples, a finite one does not") {
+  std::mt19937 generator(6);
+  const Reference reference(3 * 200, 3.0);
+  const auto growth = [&](const std::function<double()>& draw) {
+    return log_growth(images_of(repeats, 200, 100, draw), images_of(repeats, 200, 1, draw), reference);
+  };
+  CHECK(p_value(growth(exponential(generator, 3.0)), 0, repeats) > 1e-3);
+  std::vector<double> growths;
+  for (int i = 0; i < 15; ++i) growths.push_back(growth(heavy_tailed(generator)).value);
+  std::ranges::nth_element(growths, growths.begin() + 7);
+  CHECK(growths[7] > std::log(2.0));
+}
+
+TEST_CASE("An infinite variance rests on few samples and is never known") {
+  std::mt19937 generator(7);
+  const Reference reference(3 * 200, 3.0);
+  int rests = 0, unknown = 0, well_known = 0;
+  for (int i = 0; i < 15; ++i) {
+    const Figure heavy =
+        variance_per_sample(images_of(repeats, 200, 100, heavy_tailed(generator)), reference);
+    unknown += heavy.standard_error > 0.1 * heavy.value ? 1 : 0;
+    rests += top_share(images_of(repeats, 200, 1, heavy_tailed(generator)), reference) > 0.3 ? 1 : 0;
+    const Figure light =
+        variance_per_sample(images_of(repeats, 200, 100, exponential(generator, 3.0)), reference);
+    well_known += light.standard_error < 0.1 * light.value ? 1 : 0;
+  }
+  CHECK(unknown >= 12);
+  CHECK(rests >= 12);
+  CHECK(well_known == 15);
+}
+
+TEST_CASE("P-values are Student's") {
+  CHECK(p_value({1 + t_95, 1}, 1, repeats) == Approx(0.05).epsilon(1e-4));
+  CHECK(p_value({1 - t_95, 1}, 1, repeats) == Approx(0.05).epsilon(1e-4));
+  CHECK(p_value({1, 0}, 1, repeats) == 1);
+  CHECK(p_value({2, 0}, 1, repeats) == 0);
+}

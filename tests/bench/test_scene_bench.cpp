@@ -1,0 +1,180 @@
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "bench/scene_bench.h"
+#include "bench/timed_render.h"
+#include "errors.h"
+#include "scene_file/load.h"
+
+using namespace phlux;
+using namespace phlux::bench;
+
+namespace {
+
+scene::Scene shipped(const std::string& name, int side) {
+  return scene_file::load(PHLUX_SOURCE_DIR "/scenes/" + name + ".xml",
+                          {{"width", std::to_string(side)}, {"height", std::to_string(side)}});
+}
+
+ImageEstimate rendered(const scene::Scene& scene, render::Settings settings, int samples,
+                       std::uint64_t seed) {
+  settings.samples_per_pixel = samples;
+  settings.seed = seed;
+  film::Film film(scene.camera.width, scene.camera.height);
+  (void)render::render(scene, settings, film, {});
+  return estimate_of(film);
+}
+
+ImageEstimate pixel_of(const ImageEstimate& image, std::size_t pixel) {
+  const auto first = image.radiance.begin() + static_cast<std::ptrdiff_t>(3 * pixel);
+  return {{first, first + 3}, {image.samples[pixel]}};
+}
+
+// A furnace: what is there is known, and all methods but one have little variance.
+ReferenceImage furnace_reference(const scene::Scene& scene, double radiance) {
+  ReferenceImage reference;
+  reference.radiance.assign(3 * static_cast<std::size_t>(scene.camera.width * scene.camera.height), radiance);
+  reference.mean = {radiance, 0};
+  reference.samples_per_pixel = 1e9;
+  return reference;
+}
+
+const Method none{"path", "exact", "none"}, mis{"path", "exact", "mis"};
+
+} // namespace
+
+// 200 seeds in groups of ten; each pixel of a group is an experiment of its own, since pixels are drawn
+// independently. The number of intervals that hold the truth is binomial: a false alarm in 1 of 1000 runs.
+TEST_CASE("The standard error of the mean covers the radiance of a furnace at the stated rate") {
+  const scene::Scene furnace = shipped("furnace-box", 6);
+  const render::Settings settings = settings_of(none, furnace.defaults);
+  constexpr std::size_t groups = 20, seeds = 10, pixels = 36;
+  constexpr double t_95 = 2.2622; // Student's, two-sided, 9 degrees of freedom
+  int covered = 0;
+  for (std::uint64_t group = 0; group < groups; ++group) {
+    std::vector<ImageEstimate> images;
+    for (std::uint64_t seed = 0; seed < seeds; ++seed)
+      images.push_back(rendered(furnace, settings, 64, group * seeds + seed));
+    for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
+      std::vector<ImageEstimate> of_pixel;
+      for (const ImageEstimate& image : images) of_pixel.push_back(pixel_of(image, pixel));
+      const Figure mean = image_mean(of_pixel);
+      covered += std::abs(mean.value - 2.0) < t_95 * mean.standard_error ? 1 : 0;
+    }
+  }
+  constexpr double experiments = groups * pixels;
+  CAPTURE(covered);
+  CHECK(std::abs(covered - 0.95 * experiments) < 3.29 * std::sqrt(experiments * 0.95 * 0.05));
+}
+
+TEST_CASE("The variance between renders is that within them") {
+  const scene::Scene scene = shipped("cornell-box", 12);
+  const render::Settings settings = settings_of(mis, scene.defaults);
+  constexpr int samples = 256;
+  std::vector<ImageEstimate> images;
+  std::vector<double> within(3 * images.size());
+  const Reference ones(3 * 144, 1.0);
+  double of_films = 0;
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    render::Settings one = settings;
+    one.samples_per_pixel = samples;
+    one.seed = seed;
+    film::Film film(12, 12);
+    (void)render::render(scene, one, film, {});
+    images.push_back(estimate_of(film));
+    for (std::size_t pixel = 0; pixel < 144; ++pixel)
+      for (const double variance : film.variance_of_mean(pixel))
+        of_films += variance * samples / 1.0001 / static_cast<double>(ones.size()) / 10;
+  }
+  const Figure between = variance_per_sample(images, ones);
+  CAPTURE(between.value, between.standard_error, of_films);
+  CHECK(p_value(between, of_films, images.size()) > 1e-3);
+}
+
+TEST_CASE("Measured in turns: what is worse comes out worse") {
+  const scene::Scene furnace = shipped("furnace-sphere", 16);
+  SceneBenchSettings settings;
+  settings.seconds = 4;
+  SceneBench bench(furnace, settings);
+  const Method plain{"path", "uniform", "none"}, printed{"path", "lobe-estimate-printed", "none"},
+      impossible{"none such", "exact", "-"};
+  bench.try_methods({none, plain, printed, impossible});
+  const ReferenceImage reference = bench.reference();
+  CHECK(reference.method == none.name());
+  const auto results = bench.measure(reference);
+  REQUIRE(results.size() == 4);
+  CHECK(results[0].verdict == Verdict::sound);
+  CHECK(results[0].rounds == 10);
+  // MATH.md 2.6: `exact` has the least variance of all.
+  CHECK(results[1].variance.value - 4 * results[1].variance.standard_error > 2 * results[0].variance.value);
+  CHECK(results[2].verdict == Verdict::biased);
+  CHECK(results[2].mean_bias_sigma < -4); // it loses light, and that is measured, too
+  CHECK(results[3].verdict == Verdict::refused);
+  CHECK_THAT(results[3].reason, Catch::Contains("none such"));
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto& points = results[i].convergence;
+    REQUIRE(points.size() >= 3);
+    CHECK(points.back().seconds > 3 * points.front().seconds);
+    CHECK(points.back().relmse < points.front().relmse);
+    CHECK(points.back().relmse_least <= points.back().relmse);
+    CHECK(points.back().relmse <= points.back().relmse_most);
+  }
+}
+
+TEST_CASE("A mean that differs from the reference's is a bias, and its error has a floor") {
+  const scene::Scene furnace = shipped("furnace-box", 8);
+  SceneBenchSettings settings;
+  settings.seconds = 2;
+  SceneBench bench(furnace, settings);
+  bench.try_methods({none, mis});
+  const auto right = bench.measure(furnace_reference(furnace, 2.0));
+  CHECK(right[0].verdict == Verdict::sound);
+  CHECK(right[1].verdict == Verdict::sound);
+  CHECK(std::abs(right[0].mean.value - 2) < 5 * right[0].mean.standard_error);
+  const auto wrong = bench.measure(furnace_reference(furnace, 2.2));
+  for (const MethodResult& result : wrong) {
+    CHECK(result.verdict == Verdict::biased);
+    CHECK_THAT(result.reason, Catch::Contains("off the reference's"));
+    CHECK(result.convergence.back().relmse == Approx(0.04 / (2.2 * 2.2)).epsilon(0.05));
+  }
+}
+
+TEST_CASE("A scene that no method renders has no reference") {
+  const scene::Scene scene = shipped("point-light", 8);
+  SceneBenchSettings settings;
+  settings.seconds = 1;
+  SceneBench bench(scene, settings);
+  bench.try_methods({none});
+  CHECK_FALSE(bench.trials().front().refusal.empty());
+  CHECK_THROWS_AS(bench.reference(), SceneError);
+}
+
+TEST_CASE("A render for a time keeps images on the way") {
+  const scene::Scene scene = shipped("cornell-box", 16);
+  const render::Settings settings = settings_of(mis, scene.defaults);
+  const TimedRender render = render_for(scene, settings, 0.2, {0.05, 0.1}, {});
+  REQUIRE(render.on_the_way.size() == 2);
+  CHECK(render.on_the_way[0].seconds >= 0.05);
+  CHECK(render.on_the_way[1].image.samples[0] > render.on_the_way[0].image.samples[0]);
+  CHECK(render.last.seconds >= 0.2);
+  CHECK(render.samples_per_pixel() >= render.on_the_way[1].image.samples[0]);
+  REQUIRE(render.one_sample);
+  CHECK(render.one_sample->radiance == render_one_sample(scene, settings).radiance);
+  // Too short for one sample of every pixel: still an image.
+  const TimedRender shortest = render_for(shipped("cornell-box", 256), settings, 1e-6, {}, {});
+  CHECK(shortest.samples_per_pixel() >= 1);
+  CHECK_THROWS_AS(render_for(scene, settings, 10, {}, [] { return true; }), Interrupted);
+}
+
+TEST_CASE("Every integrator and variant with every strategy is a method") {
+  const auto methods = all_methods({"exact", "fold"}, false);
+  CHECK(methods.size() == 14);
+  CHECK(methods[2].name() == "path mis");
+  CHECK(methods[9].name() == "path mis, fold");
+  CHECK(methods[3].name() == "light");
+  CHECK(all_methods({"exact"}, true).size() == 5);
+  CHECK(settings_of(methods[1], {}).connect == render::Connect::light);
+  CHECK(settings_of(methods[9], {}).strategy == "fold");
+  CHECK(settings_of(methods[3], {}).integrator == "light");
+}
