@@ -10,13 +10,19 @@ namespace {
 
 constexpr std::size_t channel_count = 3;
 
-// Variance of the mean / mean^2, from the sums S of x and Q of x^2 over n >= 2 samples, S > 0:
-// the unbiased variance of one sample is (Q - S^2/n) / (n - 1), of the mean 1/n of it, and mean^2 is S^2/n^2,
-// which leaves (n Q / S^2 - 1) / (n - 1). By Cauchy-Schwarz it is >= 0; rounding may leave it just below.
-double relative_variance_of_mean(const Pixel& pixel, std::size_t channel) {
+// Unbiased variance of the mean, from the sums S of x and Q of x^2 over n >= 2 samples: that of one sample is
+// (Q - S^2/n) / (n - 1), and of the mean 1/n of it. By Cauchy-Schwarz it is >= 0; rounding may leave it just
+// below.
+double variance_of_mean_in_units(const Pixel& pixel, std::size_t channel) {
   const double n = static_cast<double>(pixel.samples);
-  const double sum = pixel.sum[channel];
-  return std::max(0.0, (n * pixel.sum_of_squares[channel] / sum / sum - 1.0) / (n - 1.0));
+  const double mean = pixel.sum[channel] / n;
+  return std::max(0.0, (pixel.sum_of_squares[channel] / n - mean * mean) / (n - 1.0));
+}
+
+// The same / mean^2, for a mean above 0.
+double relative_variance_of_mean(const Pixel& pixel, std::size_t channel) {
+  const double mean = pixel.sum[channel] / static_cast<double>(pixel.samples);
+  return variance_of_mean_in_units(pixel, channel) / (mean * mean);
 }
 
 // Mean of f(pixel, channel) over all channels with a mean above 0 of pixels with two samples or more; 0
@@ -58,20 +64,21 @@ std::array<double, 3> Film::mean(std::size_t pixel) const {
   if (sums.samples == 0) return {};
   std::array<double, 3> result;
   for (std::size_t channel = 0; channel < channel_count; ++channel)
-    result[channel] = sums.sum[channel] / static_cast<double>(sums.samples);
+    result[channel] = unit_ * sums.sum[channel] / static_cast<double>(sums.samples);
   return result;
 }
 
 std::array<double, 3> Film::variance_of_mean(std::size_t pixel) const {
   const Pixel& sums = pixels_[pixel];
   if (sums.samples < 2) return {};
-  const double n = static_cast<double>(sums.samples);
   std::array<double, 3> result;
-  for (std::size_t channel = 0; channel < channel_count; ++channel) {
-    const double mean = sums.sum[channel] / n;
-    result[channel] = std::max(0.0, (sums.sum_of_squares[channel] / n - mean * mean) / (n - 1.0));
-  }
+  for (std::size_t channel = 0; channel < channel_count; ++channel)
+    result[channel] = unit_ * unit_ * variance_of_mean_in_units(sums, channel);
   return result;
+}
+
+bool Film::has_variance() const {
+  return std::ranges::all_of(pixels_, [](const Pixel& pixel) { return pixel.samples >= 2; });
 }
 
 double Film::relative_variance() const {
@@ -81,8 +88,7 @@ double Film::relative_variance() const {
 }
 
 double Film::relative_standard_error() const {
-  if (std::ranges::any_of(pixels_, [](const Pixel& pixel) { return pixel.samples < 2; }))
-    return std::numeric_limits<double>::infinity();
+  if (!has_variance()) return std::numeric_limits<double>::infinity();
   return mean_where_not_black(pixels_, [](const Pixel& pixel, std::size_t channel) {
     return std::sqrt(relative_variance_of_mean(pixel, channel));
   });

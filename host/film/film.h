@@ -23,15 +23,20 @@ struct Pixel {
 /// Sums stay exact to about 2^-53 times the number of blocks, so that no sample count stalls them (MATH.md
 /// 6). What the float32 blocks themselves round remains: with B samples a block, a mean is good to 2^-24 B of
 /// itself (2^-24 sqrt(B) where samples differ), and a variance of one sample below that part of mean^2 is
-/// rounding, not noise.
+/// rounding, not noise. Squares fit float32 where radiances are between about 1e-18 and 1e18 of the unit.
 class Film {
 public:
   /// Black, without samples. Both sizes > 0.
   Film(int width, int height);
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
-  [[nodiscard]] std::span<const Pixel> pixels() const { return pixels_; } ///< row by row from the top
+  /// Row by row from the top; sums are in units, see set_unit().
+  [[nodiscard]] std::span<const Pixel> pixels() const { return pixels_; }
   [[nodiscard]] std::span<Pixel> pixels() { return pixels_; }
+
+  /// The radiance that stands as 1 in the sums that devices hand over; 1 unless set. Means and variances are
+  /// radiances whatever it is.
+  void set_unit(double radiance) { unit_ = radiance; }
 
   /// Folds one block of `samples` samples of one pixel in. Blocks must come in the same order for the same
   /// bits.
@@ -41,6 +46,8 @@ public:
   [[nodiscard]] std::array<double, 3> mean(std::size_t pixel) const;
   /// Unbiased variance of that mean, per channel; 0 with fewer than two samples. Never negative.
   [[nodiscard]] std::array<double, 3> variance_of_mean(std::size_t pixel) const;
+  /// Whether every pixel has the two samples that a variance takes.
+  [[nodiscard]] bool has_variance() const;
 
   /// Mean over the pixels (and channels) of variance of one sample / mean^2, over pixels that are not black;
   /// 0 where no pixel has two samples and a mean above 0.
@@ -52,6 +59,7 @@ public:
 
 private:
   int width_, height_;
+  double unit_ = 1.0;
   std::vector<Pixel> pixels_;
 };
 

@@ -76,7 +76,7 @@ HostScene prepare(const scene::Scene& scene, Traversal traversal, int lanes) {
   host.materials = material_table(scene.materials);
   host.camera = camera_record(scene.camera, host.geometry.origin);
   if (host.lights.constant >= 0) {
-    host.sky = *scene.constant_radiance;
+    host.sky = *scene.constant_radiance / host.lights.unit;
     host.sky_choice = host.lights.records[static_cast<std::size_t>(host.lights.constant)].probability;
   }
   return host;

@@ -138,6 +138,26 @@ void make_alias_table(std::vector<LightRecord>& records, const std::vector<doubl
   }
 }
 
+// A power of two near the most that a light sends along one ray to a surface `radius` away; 1 where that is
+// ordinary, so that ordinary images keep their bits.
+double unit_of(const std::vector<LightRecord>& records, double radius) {
+  constexpr int ordinary_exponent = 32;
+  double most = 0;
+  for (const LightRecord& record : records) {
+    const double power = std::max({record.power[0], record.power[1], record.power[2]});
+    const bool spreads = record.kind == LIGHT_POINT || record.kind == LIGHT_SPOT;
+    most = std::max(most, spreads ? power / (radius * radius) : power);
+  }
+  const int exponent = most > 0 && std::isfinite(most) ? std::ilogb(most) : 0;
+  return std::abs(exponent) <= ordinary_exponent ? 1 : std::ldexp(1.0, exponent);
+}
+
+void use_unit(LightTable& table, double unit) {
+  table.unit = unit;
+  for (LightRecord& record : table.records)
+    for (float& power : record.power) power = static_cast<float>(power / unit);
+}
+
 } // namespace
 
 bool LightTable::has(LightKinds kind) const {
@@ -151,6 +171,7 @@ LightTable light_table(const scene::Scene& scene, accel::Geometry& geometry) {
   add_distant(collector, scene, geometry.radius);
   const std::vector<double> chances = probabilities(collector);
   if (!chances.empty()) make_alias_table(collector.table.records, chances);
+  use_unit(collector.table, unit_of(collector.table.records, geometry.radius));
   return collector.table;
 }
 

@@ -53,7 +53,7 @@ PathLauncher::PathLauncher(const device::Device& device, const cl::Program& prog
   kernel_.setArg(index++, bounded(settings.rr_depth));
   kernel_.setArg(index++, float4_of(scene.sky));
   kernel_.setArg(index++, scene.sky_choice);
-  kernel_.setArg(index++, static_cast<float>(settings.ambient.value_or(0.0)));
+  kernel_.setArg(index++, static_cast<float>(settings.ambient.value_or(0.0) / scene.lights.unit));
 }
 
 std::int64_t PathLauncher::wanted_jobs(std::int64_t left, int block_samples) const {

@@ -137,11 +137,12 @@ void warn(const scene::Scene& scene, const Settings& settings) {
     return m.kind == scene::Material::Kind::anisotropic_phong && m.exponent_u != m.exponent_v;
   };
   if (std::any_of(scene.meshes.begin(), scene.meshes.end(), anisotropic))
-    spdlog::warn(
-        "anisotropicphong on a mesh: exponentU is along each triangle's first edge, whatever its texture "
-        "coordinates");
+    spdlog::warn("anisotropicphong on a mesh: texture coordinates are not read, and exponentU is along each "
+                 "triangle's "
+                 "first edge: use rectangle, cube or disk, whose axes toWorld turns, or equal exponents");
   if (std::any_of(scene.spheres.begin(), scene.spheres.end(), anisotropic))
-    spdlog::warn("anisotropicphong on a sphere: exponentU is along the circles about the world's z axis");
+    spdlog::warn("anisotropicphong on a sphere: toWorld does not turn it, and exponentU is along the circles "
+                 "about the world's z axis: use equal exponents where that matters");
   if (settings.strategy == "lobe-estimate-printed")
     spdlog::warn("--strategy lobe-estimate-printed is biased: it loses light at grazing angles; "
                  "lobe-estimate does not");
@@ -154,6 +155,9 @@ public:
       : scene_(scene), settings_(settings), events_(events),
         files_(settings.kernel_dir.empty() ? device::KernelFiles()
                                            : device::KernelFiles(settings.kernel_dir)) {}
+
+  // Of the radiances that devices hand over.
+  [[nodiscard]] double unit() const { return host_->lights.unit; }
 
   Worker make(const device::Device& device, Statistics& statistics) {
     const int lanes = settings_.lanes != 0 ? settings_.lanes : device.info.lanes;
@@ -197,7 +201,7 @@ void describe(Statistics& statistics, const std::vector<device::Device>& devices
   }
   const Parts& parts = workers.front().parts;
   statistics.lanes = parts.lanes;
-  statistics.traversal = parts.hierarchy ? "bvh" : "brute_force";
+  statistics.traversal = parts.hierarchy ? "bvh" : "brute";
   statistics.parts = parts.names();
 }
 
@@ -235,6 +239,7 @@ Statistics render(const scene::Scene& scene, const Settings& settings, film::Fil
   std::vector<Worker> workers;
   for (const device::Device& device : devices) workers.push_back(workshop.make(device, statistics));
   describe(statistics, devices, workers);
+  film.set_unit(workshop.unit());
 
   Work work(scene.camera, settings, film, events);
   run_all(work, workers);

@@ -46,7 +46,7 @@ struct Progress {
 struct Statistics {
   std::string device, driver;
   int lanes = 1;
-  std::string traversal;          ///< brute_force or bvh
+  std::string traversal;          ///< brute or bvh
   std::vector<std::string> parts; ///< what the scene's kernel holds code for
   std::uint64_t paths = 0, rays = 0, shadow_rays = 0, nonfinite = 0;
   double seconds_setup = 0.0, seconds_build_kernels = 0.0, seconds_render = 0.0;

@@ -145,6 +145,27 @@ TEST_CASE("Two-valued samples have their closed-form variance at 1e8 samples", "
   CHECK(film.relative_standard_error() == Approx(1.0 / std::sqrt(sample_count - 1.0)).epsilon(1e-12));
 }
 
+TEST_CASE("The unit of the sums changes radiances and no relative figure") {
+  Film plain(1, 1), bright(1, 1);
+  bright.set_unit(0x1p90);
+  for (Film* film : {&plain, &bright}) film->add(0, {{4.0F, 2.0F, 1.0F}, {10.0F, 4.0F, 1.0F}}, 2);
+  for (std::size_t channel = 0; channel < 3; ++channel) {
+    CHECK(bright.mean(0)[channel] == 0x1p90 * plain.mean(0)[channel]);
+    CHECK(bright.variance_of_mean(0)[channel] == 0x1p180 * plain.variance_of_mean(0)[channel]);
+  }
+  CHECK(bright.relative_variance() == plain.relative_variance());
+  CHECK(bright.relative_standard_error() == plain.relative_standard_error());
+}
+
+TEST_CASE("A film has a variance once every pixel has two samples") {
+  Film film(2, 1);
+  film.add(0, {{1.0F, 1.0F, 1.0F}, {1.0F, 1.0F, 1.0F}}, 2);
+  film.add(1, {{1.0F, 1.0F, 1.0F}, {1.0F, 1.0F, 1.0F}}, 1);
+  CHECK_FALSE(film.has_variance());
+  film.add(1, {{1.0F, 1.0F, 1.0F}, {1.0F, 1.0F, 1.0F}}, 1);
+  CHECK(film.has_variance());
+}
+
 TEST_CASE("Black pixels count neither as exact nor as noisy") {
   Film film(2, 1);
   film.add(0, {{2.0F, 0.0F, 0.0F}, {4.0F, 0.0F, 0.0F}}, 2); // red: 0 and 2; green and blue: black

@@ -52,7 +52,7 @@ TEST_CASE("1, 4, 8 and 16 lanes render the same image, testing every shape in tu
   const scene::Scene scene = shipped("cornell-box", side, side);
   const Render reference = render_of(scene, with(16, Traversal::brute_force, 1, 512));
   const Render few = render_of(scene, with(16, Traversal::brute_force, 1, 8));
-  CHECK(reference.statistics.traversal == "brute_force");
+  CHECK(reference.statistics.traversal == "brute");
   for (const int lanes : {1, 4, 8}) check_same(scene, lanes, Traversal::brute_force, reference, few);
 }
 

@@ -47,6 +47,36 @@ TEST_CASE("scenes of any size and in any place give the same image") {
   }
 }
 
+TEST_CASE("lights of any brightness give the same image, bit for bit, in their unit") {
+  scene::Scene scene = shipped("glossy-box", 16, 16);
+  scene.point_lights = {{{0, 0.5, 0}, Rgb(0.5)}};
+  scene.spot_lights = {{{0, 0.5, 0.2}, {0, -1, 0}, Rgb(2), 0.5, 0.4}};
+  scene.directional_lights = {{glm::normalize(Vec3(1, -3, -1)), Rgb(0.25)}};
+  scene.constant_radiance = Rgb(0.125);
+  for (const std::optional<double> ambient : {std::optional<double>(), std::optional(0.5)}) {
+    render::Settings with = settings(64);
+    with.ambient = ambient;
+    const Render reference = render_of(scene, with);
+    for (const double factor : {0x1p-90, 0x1p90}) { // squares that float32 does not hold
+      CAPTURE(factor, ambient.has_value());
+      scene::Scene lit = scene;
+      for (scene::AreaEmitter& light : lit.area_emitters) light.radiance *= factor;
+      for (scene::PointLight& light : lit.point_lights) light.intensity *= factor;
+      for (scene::SpotLight& light : lit.spot_lights) light.intensity *= factor;
+      for (scene::DirectionalLight& light : lit.directional_lights) light.irradiance *= factor;
+      lit.constant_radiance = Rgb(0.125 * factor);
+      if (ambient) with.ambient = factor * *ambient;
+      const Render render = render_of(lit, with);
+      int different = 0;
+      for (std::size_t pixel = 0; pixel < render.film.pixels().size(); ++pixel)
+        for (std::size_t channel = 0; channel < 3; ++channel)
+          different += render.film.mean(pixel)[channel] != factor * reference.film.mean(pixel)[channel];
+      CHECK(different == 0);
+      CHECK(render.film.relative_standard_error() == reference.film.relative_standard_error());
+    }
+  }
+}
+
 TEST_CASE("a closed dark box next to a bright light stays dark") {
   for (const double scale : {1e-3, 1.0, 1e3}) {
     CAPTURE(scale);
