@@ -26,9 +26,9 @@ Vec3 surface(double t, double around) {
 }
 
 void add_knot(scene::Mesh& mesh, std::uint64_t triangles) {
-  const auto rings =
-      static_cast<std::uint32_t>(std::max(3.0, std::sqrt(static_cast<double>(triangles) * 1.5)));
-  const auto sides = static_cast<std::uint32_t>(std::max<std::uint64_t>(3, triangles / 2 / rings));
+  const double even = std::sqrt(static_cast<double>(triangles) * 1.5); // about as long as wide
+  const auto rings = static_cast<std::uint32_t>(std::min(even, static_cast<double>(triangles / 6)));
+  const auto sides = static_cast<std::uint32_t>(triangles / 2 / rings);
   for (std::uint32_t i = 0; i < rings; ++i)
     for (std::uint32_t j = 0; j < sides; ++j)
       mesh.positions.push_back(surface(turn * i / rings, turn * j / sides));

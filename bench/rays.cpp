@@ -60,7 +60,7 @@ public:
     kernel.setArg(first + 1, static_cast<cl_int>(rays.size()));
     kernel.setArg(first + 2, out);
     const std::size_t items =
-        lanes_ == 1 && device_.info.type != "cpu" ? rays.size() / 8 : device_.info.compute_units * 8;
+        lanes_ == 1 && device_.info.type != "cpu" ? (rays.size() + 7) / 8 : device_.info.compute_units * 8;
     const std::size_t local = lanes_ == 1 ? std::min<std::size_t>(64, items) : 1;
     cl::Event done;
     device_.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(items / local * local),
@@ -193,7 +193,7 @@ void measure_rays(const RaysOptions& options) {
     std::vector<float> distances(camera.size());
     theirs.closest(camera, distances);
     const SecondaryRays secondary = secondary_rays(camera, distances);
-    const std::string layout = fmt::format("{} x{}", parts.hierarchy ? "bvh" : "brute_force", lanes);
+    const std::string layout = fmt::format("{} x{}", parts.hierarchy ? "bvh" : "brute", lanes);
     const std::string label = fmt::format("knot,{},{{}},{},{}", scene.meshes.front().triangles.size(),
                                           csv_value(device.info.name), layout);
     for (const Kind& kind :

@@ -38,6 +38,7 @@ TEST_CASE("phlux bench rays writes the contract's columns") {
   REQUIRE(lines.size() == 7);
   CHECK_THAT(lines[0],
              Catch::StartsWith("scene,triangles,kind,device,layout,mrays_per_s,embree_mrays_per_s,ratio"));
+  CHECK_THAT(lines[1], Catch::StartsWith("knot,36,") && Catch::Contains(",brute x"));
   for (const std::string& line : lines) CHECK(columns_of(line) == columns_of(lines[0]));
   for (const char* kind : {",camera,", ",bounce,", ",shadow,"})
     CHECK_THAT(outcome.out, Catch::Contains(kind));
