@@ -58,11 +58,11 @@ void add_amount(CLI::App& app, RenderOptions& options) {
   add_value(app, "--time", "SECONDS", "render for so long instead",
             [&](const std::string& text) { options.time_limit = positive_number("--time", text); });
   add_value(app, "--error", "E",
-            "render until the mean relative standard error is E instead, such as 0.01; with "
-            "--time: until the first of both",
+            "render until the mean relative standard error of what is not black is E instead, such as 0.01; "
+            "with --time: until the first of both",
             [&](const std::string& text) { options.target_error = positive_number("--error", text); });
   add_value(app, "--size", "WxH",
-            "pixels of the image; default: the scene's. The horizontal field of view stays",
+            "pixels of the image; default: the scene's. The field of view along fovAxis stays",
             [&](const std::string& text) { options.size = size("--size", text); });
   add_value(app, "--seed", "N", "the same seed gives the same image on the same device; default: 0",
             [&](const std::string& text) {
@@ -113,7 +113,8 @@ void add_files(CLI::App& app, RenderOptions& options) {
   };
   add_file("-o,--output", "FILE.exr", "the image; default: the scene's name in the working directory",
            options.output);
-  add_file("--png", "FILE", "tone-mapped preview, also rewritten while rendering; default: beside the image",
+  add_file("--png", "FILE",
+           "tone-mapped preview, also rewritten while rendering; default: beside the image; none: without",
            options.preview);
   add_file("--stats", "FILE.json", "figures of the render", options.statistics);
   app.add_flag("--moments", options.moments, "adds channels variance.R, .G and .B: variance of the mean");
@@ -216,10 +217,10 @@ std::optional<Command> parse(int argc, char** argv) {
   program.set_version_flag("--version", "phlux " PHLUX_VERSION);
   program.require_subcommand(1);
   program.get_formatter()->label("REQUIRED", ""); // the usage line says it
-  program.footer(
-      "phlux COMMAND --help lists the options of a command.\n"
-      "Exit codes: 0 done, 1 a check or comparison failed, 2 wrong usage, 3 bad scene or file, 4 no device or it "
-      "failed,\n5 write failed, 130 interrupted.");
+  program.footer("phlux COMMAND --help lists the options of a command.\n"
+                 "Exit codes: 0 done, 1 a check or comparison failed, 2 wrong usage, 3 bad scene or file, 4 "
+                 "no device or it "
+                 "failed,\n5 write failed, 130 interrupted.");
   add_render(program, command);
   add_devices(program, command);
   add_compare(program, command);

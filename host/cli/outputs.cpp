@@ -24,13 +24,22 @@ std::string lower_case_extension(const fs::path& file) {
   return extension;
 }
 
-void reject_other_formats(const fs::path& image) {
-  const std::vector<std::string> others = {".png", ".jpg", ".jpeg", ".hdr", ".pfm",
-                                           ".ppm", ".tif", ".tiff", ".bmp"};
-  if (std::ranges::find(others, lower_case_extension(image)) == others.end()) return;
-  throw UsageError(
-      fmt::format("--output {}: the image is an OpenEXR file, such as {}: --png names the preview",
-                  image.string(), fs::path(image).replace_extension(".exr").string()));
+// Whether the file's name says that it is an image of another format than `own`.
+bool is_of_another_format(const fs::path& file, const std::string& own) {
+  const std::vector<std::string> formats = {".exr", ".png",  ".jpg", ".jpeg", ".hdr",  ".pfm", ".ppm",
+                                            ".tif", ".tiff", ".bmp", ".gif",  ".webp", ".json"};
+  const std::string extension = lower_case_extension(file);
+  return extension != own && std::ranges::find(formats, extension) != formats.end();
+}
+
+void reject_other_formats(const fs::path& image, const fs::path& preview) {
+  if (is_of_another_format(image, ".exr"))
+    throw UsageError(
+        fmt::format("--output {}: the image is an OpenEXR file, such as {}: --png names the preview",
+                    image.string(), fs::path(image).replace_extension(".exr").string()));
+  if (is_of_another_format(preview, ".png"))
+    throw UsageError(fmt::format("--png {}: the preview is a PNG file, such as {}; none: without one",
+                                 preview.string(), fs::path(preview).replace_extension(".png").string()));
 }
 
 fs::path preview_beside(const fs::path& image) {
@@ -56,8 +65,11 @@ void reject_same_names(const Outputs& outputs) {
 Outputs outputs_of(const RenderOptions& options) {
   Outputs outputs{options.output, options.preview, options.statistics};
   if (outputs.image.empty()) outputs.image = options.scene_file.stem() += ".exr";
-  reject_other_formats(outputs.image);
-  if (outputs.preview.empty()) outputs.preview = preview_beside(outputs.image);
+  reject_other_formats(outputs.image, outputs.preview);
+  if (outputs.preview == "none")
+    outputs.preview.clear();
+  else if (outputs.preview.empty())
+    outputs.preview = preview_beside(outputs.image);
   reject_same_names(outputs);
   return outputs;
 }

@@ -24,16 +24,6 @@ namespace {
 
 constexpr int interrupted_exit_code = 130;
 
-// A scene rendered at another size keeps its horizontal field of view.
-scene::Scene load_scene(const RenderOptions& options) {
-  scene::Scene scene = scene_file::load(options.scene_file, options.definitions);
-  if (options.size) {
-    scene.camera.width = (*options.size)[0];
-    scene.camera.height = (*options.size)[1];
-  }
-  return scene;
-}
-
 render::Settings settings_of(const RenderOptions& options, const scene::RenderDefaults& defaults) {
   render::Settings settings;
   settings.integrator = options.integrator.value_or(defaults.integrator);
@@ -117,9 +107,22 @@ files::RenderInfo info_of(const RenderOptions& options, const render::Settings& 
           .seconds = statistics.seconds_render};
 }
 
+void warn_of_moments(const files::Image& image) {
+  if (image.channels.size() == 3) {
+    spdlog::warn("--moments: a variance takes two samples in every pixel: its channels are left out");
+    return;
+  }
+  for (const auto& [name, values] : image.channels)
+    if (std::ranges::any_of(values, [](float value) { return std::isinf(value); })) {
+      spdlog::warn("--moments: {} has values beyond a float's 3e38, written as inf: dim the lights", name);
+      return;
+    }
+}
+
 void write(const Outputs& outputs, const files::RenderInfo& info, const film::Film& film,
            const render::Statistics& statistics, bool moments) {
-  const files::Image image = files::image_of(film, info, moments);
+  const files::Image image = files::image_of(film, info, moments && film.has_variance());
+  if (moments) warn_of_moments(image);
   files::write_exr(outputs.image, image);
   if (!outputs.preview.empty()) files::write_png(outputs.preview, image);
   if (!outputs.statistics.empty())
@@ -143,7 +146,7 @@ int render(const RenderOptions& options) {
   if (options.verbose) spdlog::set_level(spdlog::level::info);
   const Outputs outputs = outputs_of(options);
   check_writable(outputs);
-  const scene::Scene scene = load_scene(options);
+  const scene::Scene scene = scene_file::load(options.scene_file, options.definitions, options.size);
   const render::Settings settings = settings_of(options, scene.defaults);
   film::Film film(scene.camera.width, scene.camera.height);
   const render::Statistics statistics = run(scene, settings, film, outputs, options);

@@ -26,7 +26,7 @@ nlohmann::ordered_json statistics_json(const render::Statistics& statistics, con
             {"build_kernels", statistics.seconds_build_kernels},
             {"render", statistics.seconds_render}}},
           {"kernel_cache", statistics.kernels_from_cache ? "hit" : "miss"},
-          {"variance", film.relative_variance()},
+          {"variance", film.has_variance() ? nlohmann::ordered_json(film.relative_variance()) : nullptr},
           {"relative_standard_error", film.relative_standard_error()},
           {"interrupted", statistics.interrupted}};
 }

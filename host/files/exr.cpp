@@ -142,7 +142,8 @@ void write_exr(const std::filesystem::path& file, const Image& image) {
 Image read_exr(const std::filesystem::path& file) {
   const std::string name = file.string();
   if (::access(name.c_str(), R_OK) != 0)
-    throw SceneError(fmt::format("{}: cannot be read: {}", name, std::strerror(errno)));
+    throw SceneError(fmt::format("{}: cannot be read: {}: an existing OpenEXR image is needed", name,
+                                 std::strerror(errno)));
   try {
     Imf::InputFile input(name.c_str());
     return read_pixels(input);

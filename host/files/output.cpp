@@ -15,8 +15,25 @@ namespace phlux::files {
 namespace fs = std::filesystem;
 namespace {
 
+const char* remedy(int error) {
+  switch (error) {
+  case ENOENT:
+  case ENOTDIR:
+    return "make its folder, or name another";
+  case EISDIR:
+    return "name a file in it";
+  case ENOSPC:
+  case EDQUOT:
+  case EFBIG:
+    return "make room, or name a place with more";
+  default:
+    return "name a file in a folder that you may write to";
+  }
+}
+
 [[noreturn]] void fail(const fs::path& path, int error) {
-  throw WriteError(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(error)));
+  throw WriteError(
+      fmt::format("{}: cannot be written: {}: {}", path.string(), std::strerror(error), remedy(error)));
 }
 
 bool is_special(const fs::path& path) {

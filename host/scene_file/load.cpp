@@ -22,7 +22,8 @@ void warn_of_darkness(const Document& document, const scene::Scene& scene) {
 
 } // namespace
 
-scene::Scene load(const std::filesystem::path& file, const std::map<std::string, std::string>& definitions) {
+scene::Scene load(const std::filesystem::path& file, const std::map<std::string, std::string>& definitions,
+                  const std::optional<std::array<int, 2>>& size) {
   Document document;
   read_document(file, definitions, document);
   Properties properties(document.scene, document);
@@ -32,7 +33,7 @@ scene::Scene load(const std::filesystem::path& file, const std::map<std::string,
   if (!sensor)
     fail(document.scene.where, "the scene has no camera",
          "<sensor type=\"perspective\">...</sensor> is needed");
-  read_sensor(*sensor, document, scene);
+  read_sensor(*sensor, document, size, scene);
   if (const Element* integrator = properties.object("integrator"))
     read_integrator(*integrator, document, scene.defaults);
 

@@ -111,12 +111,17 @@ void place(Properties& properties, scene::Camera& camera) {
 
 } // namespace
 
-void read_sensor(const Element& sensor, const Document& document, scene::Scene& scene) {
+void read_sensor(const Element& sensor, const Document& document,
+                 const std::optional<std::array<int, 2>>& size, scene::Scene& scene) {
   Properties properties(sensor, document);
   if (sensor.type() != "perspective")
     fail(sensor.where, sensor.name() + " is not supported", "supported is perspective");
   scene::Camera& camera = scene.camera;
   if (const Element* film = properties.object("film")) read_film(*film, document, camera);
+  if (size) {
+    camera.width = (*size)[0];
+    camera.height = (*size)[1];
+  }
   if (const Element* sampler = properties.object("sampler")) read_sampler(*sampler, document, scene.defaults);
   place(properties, camera);
   camera.tan_half_fov_x = tan_half_fov_x(properties, static_cast<double>(camera.width) / camera.height);

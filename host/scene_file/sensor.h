@@ -1,13 +1,17 @@
 // <sensor type="perspective"> with its film and sampler, and <integrator>.
 #pragma once
 
+#include <array>
+#include <optional>
+
 #include "scene/scene.h"
 #include "scene_file/document.h"
 
 namespace phlux::scene_file {
 
-/// Camera, image size and samples per pixel. @throws SceneError
-void read_sensor(const Element& sensor, const Document& document, scene::Scene& scene);
+/// Camera, image size (`size` in place of the film's) and samples per pixel. @throws SceneError
+void read_sensor(const Element& sensor, const Document& document,
+                 const std::optional<std::array<int, 2>>& size, scene::Scene& scene);
 
 /// Which integrator the scene asks for, and how deep its paths may go. @throws SceneError
 void read_integrator(const Element& integrator, const Document& document, scene::RenderDefaults& defaults);

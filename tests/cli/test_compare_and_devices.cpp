@@ -51,6 +51,8 @@ TEST_CASE("phlux compare fails for what cannot be compared") {
   CHECK(outcome.exit_code == 3);
   CHECK(outcome.is_one_line_error());
   CHECK(outcome.out.empty());
+  if (!std::filesystem::exists(folder / "b.exr"))
+    CHECK_THAT(outcome.err, Catch::EndsWith(": an existing OpenEXR image is needed\n"));
 }
 
 TEST_CASE("phlux compare ends with 1 where values are not finite, and still prints the figures") {

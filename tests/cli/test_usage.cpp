@@ -44,6 +44,9 @@ const std::vector<Wrong> wrong_usage = {
     {{"render", "scene.xml", "--kernel-dir", "missing"}, "--kernel-dir missing: must be a folder"},
     {{"render", "scene.xml", "-o", "image.png"}, "such as image.exr"},
     {{"render", "scene.xml", "-o", "a.exr", "--stats", "./a.exr"}, "named for two outputs"},
+    {{"render", "scene.xml", "--png", "a.jpg"},
+     "--png a.jpg: the preview is a PNG file, such as a.png; none"},
+    {{"render", "scene.xml", "--png", "a.exr"}, "--png a.exr: the preview is a PNG file"},
     {{"compare", "a.exr"}, "B.exr"},
     {{"devices", "now"}, "now: one argument too many"},
 };

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "scene_file/load.h"
 #include "scene_file/scenes.h"
 
 using namespace phlux::test;
@@ -67,6 +68,19 @@ TEST_CASE("The field of view along every axis") {
   CHECK_THAT(error_of(sensor("<float name=\"fov\" value=\"0\"/>")), StartsWith("scene.xml:3: "));
   CHECK_THAT(error_of(sensor("<float name=\"fov\" value=\"50\"/>\n<string name=\"fovAxis\" value=\"z\"/>")),
              StartsWith("scene.xml:4: ") && Contains("x, y, diagonal, smaller or larger"));
+}
+
+TEST_CASE("Another size keeps the field of view along its axis, as another film would") {
+  const TemporaryFolder folder;
+  for (const char* axis : {"x", "y", "diagonal", "smaller", "larger"}) {
+    CAPTURE(axis);
+    folder.write("scene.xml", sensor("<float name=\"fov\" value=\"60\"/><string name=\"fovAxis\" value=\"" +
+                                     std::string(axis) + "\"/>" + film(300, 200)));
+    const auto camera = phlux::scene_file::load(folder / "scene.xml", {}, {{200, 500}}).camera;
+    CHECK(camera.width == 200);
+    CHECK(camera.height == 500);
+    CHECK(camera.tan_half_fov_x == half_fov(axis, 200, 500));
+  }
 }
 
 TEST_CASE("Both spellings") {
