@@ -17,11 +17,18 @@ void make_folder(const std::filesystem::path& folder) {
     throw WriteError(fmt::format("{}: must be a folder", folder.string()));
 }
 
-CsvFile::CsvFile(const std::filesystem::path& folder, const std::string& name, const std::string& header)
+CsvFile::CsvFile(const std::filesystem::path& folder, const std::string& name, const std::string& header,
+                 const std::vector<std::string>& kept)
     : path_(folder / name) {
   make_folder(folder);
-  file_.open(path_);
+  std::filesystem::path beginning = path_;
+  beginning += ".tmp";
+  file_.open(beginning);
   line(header);
+  for (const std::string& one : kept) line(one);
+  std::error_code error;
+  std::filesystem::rename(beginning, path_, error); // the open file goes along
+  if (error) throw WriteError(fmt::format("{}: cannot be written: {}", path_.string(), error.message()));
 }
 
 void CsvFile::line(const std::string& text) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
 namespace phlux::bench {
 
@@ -12,8 +13,10 @@ void make_folder(const std::filesystem::path& folder);
 
 class CsvFile {
 public:
-  /// Begins `folder`/`name` anew with this line of column names. @throws WriteError
-  CsvFile(const std::filesystem::path& folder, const std::string& name, const std::string& header);
+  /// Begins `folder`/`name` anew with this line of column names and the lines that are kept of it; they are
+  /// there at every moment. @throws WriteError
+  CsvFile(const std::filesystem::path& folder, const std::string& name, const std::string& header,
+          const std::vector<std::string>& kept = {});
 
   /// Adds a line, whose values contain no commas. @throws WriteError
   void line(const std::string& text);

@@ -52,6 +52,13 @@ PhongProgram::PhongProgram(const device::Device& device, const device::KernelFil
       program_(device::build(device, files, {root, defines(strategy, lanes_, std::move(more_defines)), {}})
                    .program) {}
 
+std::string PhongProgram::text(const device::KernelFiles& files, const std::string& root,
+                               const std::string& strategy, int lanes,
+                               std::map<std::string, std::string> more_defines) {
+  return device::significant(
+      device::expand(files, {root, defines(strategy, lanes, std::move(more_defines)), {}}));
+}
+
 void PhongProgram::set_material(const Case& one) {
   if (one == material_) return;
   const render::MaterialTable table = render::material_table({material_of(one)});

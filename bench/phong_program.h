@@ -25,6 +25,11 @@ struct Case {
 
 class PhongProgram {
 public:
+  /// The text that is built for these arguments of the constructor.
+  [[nodiscard]] static std::string text(const device::KernelFiles& files, const std::string& root,
+                                        const std::string& strategy, int lanes,
+                                        std::map<std::string, std::string> more_defines = {});
+
   /// Builds kernels/`root` for a strategy (render::strategy_names()) and a WIDTH (0: what suits the device).
   /// @throws UsageError for an unknown strategy, DeviceError
   PhongProgram(const device::Device& device, const device::KernelFiles& files, const std::string& root,

@@ -1,16 +1,21 @@
 #include "bench/sampler.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <vector>
+
+#include <boost/math/special_functions/beta.hpp>
+#include <boost/math/special_functions/gamma.hpp>
+#include <fmt/format.h>
 
 namespace phlux::bench {
 namespace {
 
 // Float sums of so many terms lose at most a few parts in 1e6 of their standard deviation.
-constexpr std::uint64_t block_samples = 256;
-constexpr int fixed_directions = 16;
+constexpr std::uint64_t most_block_samples = 256;
+constexpr int fixed_directions = 16; // a block has a whole multiple of them
 constexpr int powers = 4, counters = 3;
 
 // Directions at the case's angle and even longitudes, in the layout that the kernel reads.
@@ -27,6 +32,12 @@ std::vector<float> directions_at(double degrees, int lanes) {
   return values;
 }
 
+constexpr const char* root = "sampling.cl";
+
+std::map<std::string, std::string> defines() {
+  return {{"FIXED_DIRECTIONS", std::to_string(fixed_directions)}};
+}
+
 double seconds_of(const cl::Event& event) {
   return 1e-9 * static_cast<double>(event.getProfilingInfo<CL_PROFILING_COMMAND_END>() -
                                     event.getProfilingInfo<CL_PROFILING_COMMAND_START>());
@@ -36,6 +47,19 @@ double seconds_of(const cl::Event& event) {
 
 double rejection_proposals(const Case& one) {
   return (one.diffuse + one.specular * (one.exponent + 2) / 2) / exact_reflectivity(one);
+}
+
+// In the coordinates of kernels/phong-sampling.md the horizon is the longitude psi = pi / 2 - theta, and the
+// lobe's density separates into powers of cos(beta) and cos(psi).
+double printed_loss(const Case& one) {
+  const double sine = std::sin(one.degrees * std::numbers::pi / 180);
+  return boost::math::ibeta((one.exponent + 1) / 2, 0.5, sine * sine) / 2;
+}
+
+double printed_density_at_horizon(const Case& one) {
+  const double n = one.exponent, sine = std::sin(one.degrees * std::numbers::pi / 180);
+  const double latitudes = std::sqrt(std::numbers::pi) * boost::math::tgamma_delta_ratio((n + 1) / 2, 0.5);
+  return (n + 1) / (2 * std::numbers::pi) * std::pow(sine, n) * latitudes;
 }
 
 bool has_roulette(const std::string& strategy) {
@@ -53,22 +77,37 @@ void Sampler::Run::add(const Run& other) {
   draws += other.draws;
   defects += other.defects;
   seconds += other.seconds;
+  wall_seconds += other.wall_seconds;
+}
+
+std::string Sampler::kernels_fingerprint(const device::KernelFiles& files,
+                                         const std::vector<std::string>& strategies, int lanes) {
+  std::uint64_t hash = 0xcbf29ce484222325; // FNV-1a
+  for (const std::string& strategy : strategies)
+    for (const char c : PhongProgram::text(files, root, strategy, lanes, defines()))
+      hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+  return fmt::format("{:016x}", hash);
 }
 
 Sampler::Sampler(const device::Device& device, const device::KernelFiles& files, const std::string& strategy,
                  int lanes)
-    : program_(device, files, "sampling.cl", strategy, lanes,
-               {{"FIXED_DIRECTIONS", std::to_string(fixed_directions)}}),
-      strategy_(strategy), items_(device.info.compute_units * (device.info.type == "cpu" ? 4 : 1024)),
+    : program_(device, files, root, strategy, lanes, defines()), strategy_(strategy),
+      items_(device.info.compute_units * (device.info.type == "cpu" ? 4 : 1024)),
       local_(device.info.type == "cpu" ? 1 : 64), kernel_(program_.program(), "sample_moments") {}
 
-std::uint64_t Sampler::blocks(std::uint64_t samples) const {
-  const std::uint64_t a_block = items_ * static_cast<std::uint64_t>(program_.lanes()) * block_samples;
-  return std::max<std::uint64_t>(1, (samples + a_block - 1) / a_block);
+Sampler::Blocks Sampler::blocks(std::uint64_t samples) const {
+  const auto rounded_up = [](std::uint64_t a, std::uint64_t b) {
+    return std::max<std::uint64_t>(1, (a + b - 1) / b);
+  };
+  const std::uint64_t lane = rounded_up(samples, items_ * static_cast<std::uint64_t>(program_.lanes()));
+  const std::uint64_t size =
+      std::min(most_block_samples, rounded_up(lane, fixed_directions) * fixed_directions);
+  return {rounded_up(lane, size), size};
 }
 
 std::uint32_t Sampler::samples_per_lane(std::uint64_t samples) const {
-  return static_cast<std::uint32_t>(blocks(samples) * block_samples);
+  const auto [count, size] = blocks(samples);
+  return static_cast<std::uint32_t>(count * size);
 }
 
 void Sampler::prepare(const Case& one) {
@@ -78,10 +117,14 @@ void Sampler::prepare(const Case& one) {
   prepared_ = one;
 }
 
-Sampler::Run Sampler::run(const Case& one, std::uint64_t samples, cl_uint2 seed, std::uint32_t first) try {
-  prepare(one);
-  const std::uint64_t block_count = blocks(samples);
-  const auto centre = static_cast<float>(exact_reflectivity(one));
+Sampler::Run Sampler::run(const Case& one, std::uint64_t samples, cl_uint2 seed, std::uint32_t first) {
+  return run({one, Light::constant, has_roulette(strategy_), exact_reflectivity(one), seed}, samples, first);
+}
+
+Sampler::Run Sampler::run(const Subject& subject, std::uint64_t samples, std::uint32_t first) try {
+  prepare(subject.one);
+  const auto [block_count, block_samples] = blocks(samples);
+  const auto centre = static_cast<float>(subject.reflected);
   const auto lanes = static_cast<std::size_t>(program_.lanes());
   const device::Device& device = program_.device();
   std::vector<float> sums(items_ * lanes * block_count * powers);
@@ -90,11 +133,15 @@ Sampler::Run Sampler::run(const Case& one, std::uint64_t samples, cl_uint2 seed,
   const cl::Buffer device_counts(device.context, CL_MEM_WRITE_ONLY, counts.size() * sizeof(cl_uint));
   cl_uint index = program_.bind_material(kernel_);
   const auto set = [&](const auto&... arguments) { (kernel_.setArg(index++, arguments), ...); };
-  set(directions_, seed, cl_uint{first}, static_cast<cl_int>(block_count), static_cast<cl_int>(block_samples),
-      static_cast<cl_int>(has_roulette(strategy_)), cl_float{centre}, device_sums, device_counts);
+  set(directions_, subject.seed, cl_uint{first}, static_cast<cl_int>(block_count),
+      static_cast<cl_int>(block_samples), static_cast<cl_int>(subject.roulette),
+      static_cast<cl_int>(subject.light), cl_float{centre}, device_sums, device_counts);
   cl::Event done;
+  const auto begin = std::chrono::steady_clock::now();
   device.queue.enqueueNDRangeKernel(kernel_, cl::NullRange, cl::NDRange(items_), cl::NDRange(local_), nullptr,
                                     &done);
+  done.wait();
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
   device.queue.enqueueReadBuffer(device_sums, CL_TRUE, 0, sums.size() * sizeof(float), sums.data());
   device.queue.enqueueReadBuffer(device_counts, CL_TRUE, 0, counts.size() * sizeof(cl_uint), counts.data());
 
@@ -109,6 +156,7 @@ Sampler::Run Sampler::run(const Case& one, std::uint64_t samples, cl_uint2 seed,
   run.sums.count = items_ * lanes * block_count * block_samples;
   run.sums.centre = static_cast<double>(centre);
   run.seconds = seconds_of(done);
+  run.wall_seconds = wall.count();
   return run;
 } catch (const cl::Error& error) {
   program_.fail(error);

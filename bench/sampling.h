@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,30 +13,36 @@
 namespace phlux::bench {
 
 struct SamplingOptions {
-  std::filesystem::path folder;        ///< of sampling.csv
-  std::vector<std::string> devices;    ///< --device specifications; the first one is measured
-  int lanes = 0;                       ///< WIDTH; 0: what suits the device
-  std::filesystem::path kernel_dir;    ///< empty: the embedded kernels
-  std::vector<std::string> strategies; ///< empty: all
-  std::vector<Case> cases;             ///< empty: the grid
-  bool quick = false;                  ///< a grid of ten cases
-  std::optional<std::uint64_t>
-      samples; ///< per row; absent: 2^22, 2^20 when quick, fewer where a sample costs much
+  std::filesystem::path folder;         ///< of the tables
+  std::vector<std::string> devices;     ///< --device specifications; the first one is measured
+  int lanes = 0;                        ///< WIDTH; 0: what suits the device
+  std::filesystem::path kernel_dir;     ///< empty: the embedded kernels
+  std::vector<std::string> strategies;  ///< empty: all
+  std::vector<Case> cases;              ///< empty: the grid
+  std::vector<Light> lights;            ///< empty: all
+  bool quick = false;                   ///< a grid of thirteen cases
+  bool fresh = false;                   ///< forget what an earlier run left in the folder
+  std::optional<std::uint64_t> samples; ///< per row; absent: 2^19, 2^18 when quick, fewer where a sample
+                                        ///< costs much
   std::uint32_t seed = 1;
+  std::function<bool()> interrupted; ///< asked after each case
 };
 
 /// Above so many proposals for a sample `rejection` is left out.
-inline constexpr double most_proposals = 1e4;
-
-/// The columns of the contract, then those that say how they were measured.
-extern const char* const sampling_columns;
+inline constexpr double most_proposals = 1000;
 
 /// The cases of MATH.md 2.6, whose variances are known by quadrature, then a grid over material, exponent and
 /// angle.
 [[nodiscard]] std::vector<Case> sampling_cases(bool quick);
 
-/// Measures and writes sampling.csv to the folder as it goes; strategies take turns, so that they share what
-/// else the machine does. Prints a summary. @throws UsageError, DeviceError, WriteError
-void measure_sampling(const SamplingOptions& options);
+/// Measures and writes to the folder as it goes: sampling.csv, where strategies absorb by roulette if that is
+/// how they work, and sampling-no-roulette.csv, where those do not. Strategies take turns, so that they share
+/// what else the machine does. Goes on where a run with the same settings was stopped. Returns whether it
+/// came to its end. @throws UsageError, DeviceError, WriteError
+[[nodiscard]] bool write_sampling_tables(const SamplingOptions& options);
+
+/// The tables, a summary on standard output, and the charts and section of the report. @throws as the above;
+/// WriteError also when the charts cannot be drawn: the tables are there then
+[[nodiscard]] bool measure_sampling(const SamplingOptions& options);
 
 } // namespace phlux::bench

@@ -15,5 +15,7 @@ namespace phlux::bench {
 [[nodiscard]] std::string_view report_script();
 /// bench/scenes.py
 [[nodiscard]] std::string_view scenes_script();
+/// bench/sampling.py
+[[nodiscard]] std::string_view sampling_script();
 
 } // namespace phlux::bench

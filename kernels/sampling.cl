@@ -1,5 +1,6 @@
-// The sampler of phong.cl alone, for measuring it: one material, one angle of incidence, radiance 1 from everywhere.
+// The sampler of phong.cl alone, for measuring it: one material, one angle of incidence, one kind of light.
 #include "only_material.cl"
+#include "sampling_radiance.h"
 
 // One of FIXED_DIRECTIONS directions that differ in their longitude alone, in each lane: three times LANES floats each.
 // That they are read for every sample keeps what depends on them in the loop, as in a render.
@@ -8,8 +9,19 @@ static inline Vec3 fixed_direction(const __global float* directions, int number)
   return vec3(load_reals(at), load_reals(at + LANES), load_reals(at + 2 * LANES));
 }
 
-// Sums over the samples of one block in one lane of d = weight - centre, where weight is 0 for a path that does not
-// survive or goes below the surface and centre is near its mean, so that little is lost to rounding.
+// What arrives from `direction`, which lies above the surface.
+static inline Real radiance_from(int kind, Vec3 fixed, Vec3 direction) {
+  if (kind == RADIANCE_MIRROR_DISK) {
+    const Real dx = direction.x + fixed.x, dy = direction.y + fixed.y, dz = direction.z - fixed.z;
+    const Mask inside = fma(dx, dx, fma(dy, dy, dz * dz)) < MIRROR_DISK_CHORD2;
+    return inside ? (Real)(MIRROR_DISK_RADIANCE) : (Real)(0.0f);
+  }
+  if (kind == RADIANCE_HORIZON_SKY) return HORIZON_SKY_SCALE / (direction.z + HORIZON_SKY_HEIGHT);
+  return (Real)(1.0f);
+}
+
+// Sums over the samples of one block in one lane of d = weight x radiance - centre, where weight is 0 for a path that
+// does not survive or goes below the surface and centre is near the mean, so that little is lost to rounding.
 typedef struct {
   Real d, d2, d3, d4;
 } PowerSums;
@@ -27,7 +39,7 @@ static inline void add_powers(PowerSums* sums, Real d) {
 // themselves: not a unit vector, no density, no finite weight.
 __kernel void sample_moments(const __global MaterialRecord* materials, const __global float* reflectivity,
                              const __global float* directions, uint2 seed, uint first_sample, int blocks,
-                             int block_samples, int roulette, float centre, __global float* sums,
+                             int block_samples, int roulette, int light, float centre, __global float* sums,
                              __global uint* counts) {
   const Phong m = only_material(materials, reflectivity);
   const int item = (int)get_global_id(0);
@@ -46,9 +58,10 @@ __kernel void sample_moments(const __global MaterialRecord* materials, const __g
       const PhongSample s = phong_sample(m, fixed, sequence, (Uint)(2u), absorbing, ALL_LANES);
       const Mask goes_on = s.survives & (s.direction.z > 0.0f);
       const Real weight = vec_mean(s.weight);
+      const Real value = weight * radiance_from(light, fixed, s.direction);
       const Real length2 = vec_dot(s.direction, s.direction);
       const Mask fine = (fabs(length2 - 1.0f) < 1e-5f) & (s.density > 0.0f) & (weight - weight == 0.0f);
-      add_powers(&block_sums, (goes_on ? weight : (Real)(0.0f)) - centre);
+      add_powers(&block_sums, (goes_on ? value : (Real)(0.0f)) - centre);
       rays += goes_on ? (Uint)(1u) : (Uint)(0u);
       defects += (goes_on & !fine) ? (Uint)(1u) : (Uint)(0u);
       draws += s.draws;

@@ -17,6 +17,7 @@ namespace phlux::cli {
 namespace {
 
 const char* const default_folder = "bench-results";
+constexpr int interrupted_exit_code = 130;
 
 // What every measurement has: a folder, a device and a width.
 template<class Options>
@@ -90,12 +91,14 @@ bench::Case case_of(const std::string& text) {
 
 void add_sampling(CLI::App& bench, std::optional<Command>& command) {
   CLI::App& app = *bench.add_subcommand(
-      "sampling", "Mean, variance, rays and time of a sample by every strategy: sampling.csv");
+      "sampling",
+      "Mean, variance, rays and time of a sample by every strategy: sampling.csv, sampling-no-roulette.csv");
   const auto options = std::make_shared<bench::SamplingOptions>();
   add_common(app, *options);
-  app.add_flag("--quick", options->quick, "ten cases with a million samples each");
-  add_value(app, "--samples", "N",
-            "samples for each strategy and case; default: 4 million, or a million with --quick",
+  app.add_flag("--quick", options->quick, "thirteen cases with a quarter of a million samples each");
+  app.add_flag("--fresh", options->fresh,
+               "begins anew where an earlier run with the same settings would go on");
+  add_value(app, "--samples", "N", "samples for each row; default: half a million, or a quarter with --quick",
             [options](const std::string& text) {
               constexpr std::uint64_t most = 1'000'000'000'000;
               options->samples = whole_number("--samples", text, 1, most);
@@ -107,14 +110,23 @@ void add_sampling(CLI::App& bench, std::optional<Command>& command) {
   add_values(app, "--case", "KD,KS,N,DEGREES",
              "only this material and angle of incidence; may be repeated; default: a grid",
              [options](const std::string& text) { options->cases.push_back(case_of(text)); });
+  add_values(app, "--integrand", "NAME",
+             "only this light: constant, mirror-disk (a bright disk about the mirror direction) or "
+             "horizon-sky (a sky "
+             "that is bright at the horizon); may be repeated",
+             [options](const std::string& text) {
+               options->lights.push_back(
+                   static_cast<bench::Light>(choice("--integrand", text, bench::light_names())));
+             });
   add_value(app, "--seed", "N", "of the random numbers; default: 1", [options](const std::string& text) {
     constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
     options->seed = static_cast<std::uint32_t>(whole_number("--seed", text, 0, most));
   });
   app.final_callback([&command, options] {
     command = [options] {
-      bench::measure_sampling(*options);
-      return 0;
+      const InterruptGuard interrupt;
+      options->interrupted = [&interrupt] { return interrupt.requested(); };
+      return bench::measure_sampling(*options) ? 0 : interrupted_exit_code;
     };
   });
 }
@@ -133,8 +145,6 @@ void add_figures(CLI::App& bench, std::optional<Command>& command) {
     };
   });
 }
-
-constexpr int interrupted_exit_code = 130;
 
 void add_scenes(CLI::App& bench, std::optional<Command>& command) {
   CLI::App& app = *bench.add_subcommand(

@@ -94,8 +94,9 @@ TEST_CASE("Samples of later launches continue the sequence; another seed is anot
   const auto both = sampler.run(one, 2 * half.sums.count, {{5, 5}});
   CHECK(both.sums.count == 2 * half.sums.count);
   CHECK(both.rays == half.rays + other_half.rays);
-  CHECK(both.sums.d2 == Approx(half.sums.d2 + other_half.sums.d2).epsilon(1e-12));
-  CHECK(sampler.run(one, 1, {{5, 6}}).rays != half.rays);
+  CHECK(both.sums.d2 ==
+        Approx(half.sums.d2 + other_half.sums.d2).epsilon(1e-6)); // blocks are summed in float
+  CHECK(sampler.run(one, 1, {{5, 6}}).sums.d != half.sums.d);
 }
 
 TEST_CASE("The printed estimate is seen to be biased, the guarded one is not") {

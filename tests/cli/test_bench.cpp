@@ -19,6 +19,17 @@ long columns_of(const std::string& line) {
   return std::count(line.begin(), line.end(), ',') + 1;
 }
 
+// Whether the charts are there; without matplotlib they cannot be, and the exit code says so.
+bool has_charts(const Outcome& outcome) {
+  if (outcome.err.find("python3-matplotlib") == std::string::npos) {
+    CHECK(outcome.exit_code == 0);
+    return true;
+  }
+  WARN("no matplotlib: the charts are not tested");
+  CHECK(outcome.exit_code == 5);
+  return false;
+}
+
 } // namespace
 
 TEST_CASE("phlux bench rays writes the contract's columns") {
@@ -26,11 +37,7 @@ TEST_CASE("phlux bench rays writes the contract's columns") {
   const Outcome outcome =
       run({{"bench", "rays", "--triangles", "36,1000", "--out", "out/new"}, folder.path(), {}, {}});
   CAPTURE(outcome.err);
-  if (outcome.err.find("python3-matplotlib") != std::string::npos) {
-    WARN("no matplotlib: the charts are not tested");
-    CHECK(outcome.exit_code == 5);
-  } else {
-    CHECK(outcome.exit_code == 0);
+  if (has_charts(outcome)) {
     CHECK_THAT(TemporaryFolder::read(folder / "out/new/index.html"), Catch::Contains("Rays against Embree"));
     CHECK_THAT(TemporaryFolder::read(folder / "out/new/rays-rates.svg"), Catch::Contains("</svg>"));
   }
@@ -46,23 +53,52 @@ TEST_CASE("phlux bench rays writes the contract's columns") {
 
 TEST_CASE("phlux bench sampling writes the contract's columns, a row for each strategy and case") {
   const TemporaryFolder folder;
-  const Outcome outcome = run({{"bench", "sampling", "--out", ".", "--samples", "1000", "--strategy", "exact",
-                                "--strategy", "rejection", "--case", ".4,.05,50,30", "--case", "0,1,1e6,89"},
-                               folder.path(),
-                               {},
-                               {}});
+  const Invocation invocation{{"bench", "sampling", "--out", ".", "--samples", "1000", "--strategy", "exact",
+                               "--strategy", "rejection", "--case", ".4,.05,50,30", "--case", "0,1,1e6,89",
+                               "--integrand", "constant"},
+                              folder.path(),
+                              {},
+                              {}};
+  const Outcome outcome = run(invocation);
   CAPTURE(outcome.err);
-  CHECK(outcome.exit_code == 0);
+  if (has_charts(outcome)) {
+    CHECK_THAT(TemporaryFolder::read(folder / "sampling-tradeoff-constant.svg"), Catch::Contains("</svg>"));
+    CHECK_THAT(TemporaryFolder::read(folder / "index.html"), Catch::Contains("Sampling strategies"));
+  }
   const auto lines = lines_of(TemporaryFolder::read(folder / "sampling.csv"));
   REQUIRE(lines.size() == 4); // rejection would need too many proposals in the second case
   CHECK_THAT(lines[0], Catch::StartsWith("strategy,kd,ks,n,theta_deg,samples,mean,exact,bias_sigma,variance,"
                                          "variance_standard_error,rays_per_sample,ns_per_sample,"
                                          "variance_times_cost"));
+  CHECK(lines[0].ends_with(",integrand"));
   CHECK_THAT(lines[1], Catch::StartsWith("exact,0.4,0.05,50,30,"));
   CHECK_THAT(lines[2], Catch::StartsWith("rejection,0.4,0.05,50,30,"));
   CHECK_THAT(lines[3], Catch::StartsWith("exact,0,1,1000000,89,"));
   for (const std::string& line : lines) CHECK(columns_of(line) == columns_of(lines[0]));
+  for (std::size_t i = 1; i < lines.size(); ++i) CHECK(lines[i].ends_with(",constant"));
+  CHECK(lines_of(TemporaryFolder::read(folder / "sampling-no-roulette.csv")).size() == 4);
   CHECK_THAT(outcome.out, Catch::Contains("rejection is left out of 1 cases"));
+
+  const Outcome again = run(invocation);
+  CHECK(again.exit_code == outcome.exit_code);
+  CHECK_THAT(again.out, Catch::Contains("2 of 2 measurements are there"));
+}
+
+TEST_CASE("phlux bench sampling --quick draws maps in light and dark") {
+  const TemporaryFolder folder;
+  const Outcome outcome = run({{"bench", "sampling", "--quick", "--samples", "1", "--strategy", "cosine",
+                                "--strategy", "exact", "--integrand", "mirror-disk"},
+                               folder.path(),
+                               {},
+                               {}});
+  CAPTURE(outcome.err);
+  if (!has_charts(outcome)) return;
+  for (const char* name : {"winners", "tradeoff", "cost"}) {
+    const std::string chart = folder / (std::string("bench-results/sampling-") + name + "-mirror-disk");
+    CHECK_THAT(TemporaryFolder::read(chart + ".png"), Catch::StartsWith("\x89PNG"));
+    CHECK_THAT(TemporaryFolder::read(chart + "-dark.png"), Catch::StartsWith("\x89PNG"));
+    CHECK_THAT(TemporaryFolder::read(chart + ".svg"), Catch::Contains("prefers-color-scheme:dark"));
+  }
 }
 
 TEST_CASE("phlux bench figures draws the seven figures of CW 197") {
@@ -282,6 +318,7 @@ TEST_CASE("phlux bench: bad input is one line and its exit code") {
       {{"sampling", "--case", ".4,.7,50,30"}, 2, "at most 1"},
       {{"sampling", "--case", ".4,.05,-1,30"}, 2, "--case -1: must be a number from 0 to"},
       {{"sampling", "--case", ".4,.05,50,90"}, 2, "--case 90"},
+      {{"sampling", "--integrand", "moon"}, 2, "--integrand moon: must be one of constant"},
       {{"sampling", "--out", "/proc/phlux"}, 5, "/proc/phlux"},
       {{"sampling", "--device", "none such"}, 4, "none such"},
       {{"figures", "--out", "/proc/phlux"}, 5, "/proc/phlux"},
