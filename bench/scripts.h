@@ -17,5 +17,7 @@ namespace phlux::bench {
 [[nodiscard]] std::string_view scenes_script();
 /// bench/sampling.py
 [[nodiscard]] std::string_view sampling_script();
+/// bench/arithmetic.py
+[[nodiscard]] std::string_view arithmetic_script();
 
 } // namespace phlux::bench

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "bench/arithmetic.h"
 #include "bench/figures.h"
 #include "bench/rays.h"
 #include "bench/sampling.h"
@@ -131,6 +132,20 @@ void add_sampling(CLI::App& bench, std::optional<Command>& command) {
   });
 }
 
+void add_arithmetic(CLI::App& bench, std::optional<Command>& command) {
+  CLI::App& app = *bench.add_subcommand(
+      "arithmetic", "Accuracy against speed of the formulas that kernels could use: arithmetic.csv");
+  const auto options = std::make_shared<bench::ArithmeticOptions>();
+  add_common(app, *options);
+  app.add_flag("--quick", options->quick, "fewer values");
+  app.final_callback([&command, options] {
+    command = [options] {
+      bench::measure_arithmetic(*options);
+      return 0;
+    };
+  });
+}
+
 void add_figures(CLI::App& bench, std::optional<Command>& command) {
   CLI::App& app = *bench.add_subcommand(
       "figures", "The figures of CW 197 from the kernels' output: figure-1 to figure-7 (.csv, .svg, .png)");
@@ -192,6 +207,7 @@ void add_bench(CLI::App& program, std::optional<Command>& command) {
   add_scenes(app, command);
   add_rays(app, command);
   add_sampling(app, command);
+  add_arithmetic(app, command);
   add_figures(app, command);
 }
 

@@ -101,6 +101,20 @@ TEST_CASE("phlux bench sampling --quick draws maps in light and dark") {
   }
 }
 
+TEST_CASE("phlux bench arithmetic writes a table, its charts and a section of the report") {
+  const TemporaryFolder folder;
+  const Outcome outcome = run({{"bench", "arithmetic", "--quick", "--out", "out"}, folder.path(), {}, {}});
+  CAPTURE(outcome.err);
+  const auto lines = lines_of(TemporaryFolder::read(folder / "out/arithmetic.csv"));
+  REQUIRE(lines.size() > 50);
+  for (const std::string& line : lines) CHECK(columns_of(line) == columns_of(lines[0]));
+  if (!has_charts(outcome)) return;
+  for (const char* chart : {"lobe", "sine", "geometry", "functions"})
+    CHECK_THAT(TemporaryFolder::read(folder / (std::string("out/arithmetic-") + chart + ".svg")),
+               Catch::Contains("</svg>"));
+  CHECK_THAT(TemporaryFolder::read(folder / "out/index.html"), Catch::Contains("Arithmetic"));
+}
+
 TEST_CASE("phlux bench figures draws the seven figures of CW 197") {
   const TemporaryFolder folder;
   const Outcome outcome = run({{"bench", "figures", "--out", "a folder"}, folder.path(), {}, {}});
@@ -321,6 +335,8 @@ TEST_CASE("phlux bench: bad input is one line and its exit code") {
       {{"sampling", "--integrand", "moon"}, 2, "--integrand moon: must be one of constant"},
       {{"sampling", "--out", "/proc/phlux"}, 5, "/proc/phlux"},
       {{"sampling", "--device", "none such"}, 4, "none such"},
+      {{"arithmetic", "--out", "/proc/phlux"}, 5, "/proc/phlux"},
+      {{"arithmetic", "--width", "5"}, 2, "--width 5"},
       {{"figures", "--out", "/proc/phlux"}, 5, "/proc/phlux"},
       {{"figures", "--out", "file"}, 5, "file"},
       {{"figures", "--device", "none such"}, 4, "none such"},

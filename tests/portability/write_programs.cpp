@@ -101,6 +101,7 @@ int main(int argc, char** argv) {
       good = good &&
              write(folder, "sampling-" + strategy, "sampling.cl", lanes, sampler("STRATEGY_" + strategy));
     good = good && write(folder, "figures", "figures.cl", lanes, sampler("STRATEGY_EXACT"));
+    good = good && write(folder, "arithmetic", "arithmetic.cl", lanes, {{"PHLUX_PHONG_LOBE", "1"}});
   }
   return good ? 0 : 1;
 }
