@@ -1,6 +1,7 @@
 #include "bench/moments.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -22,6 +23,13 @@ Moments moments_of(const PowerSums& sums) {
 double bias_in_sigmas(const Moments& moments, double exact) {
   const double arithmetic = static_cast<double>(std::numeric_limits<float>::epsilon()) * std::abs(exact);
   return (moments.mean - exact) / std::hypot(moments.mean_standard_error, arithmetic);
+}
+
+double median(std::vector<double> values) {
+  assert(!values.empty());
+  std::ranges::sort(values);
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
 }
 
 } // namespace phlux::bench

@@ -1,7 +1,8 @@
-// Mean and variance of samples, with what is known of their own errors.
+// Mean and variance of samples, with what is known of their own errors; medians.
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 namespace phlux::bench {
 
@@ -27,5 +28,8 @@ struct Moments {
 /// (mean - exact) in units of the mean's standard error, which counts as at least one unit in the last place
 /// of a float: where the integrand is constant, the error of the samples' mean is that of their arithmetic.
 [[nodiscard]] double bias_in_sigmas(const Moments& moments, double exact);
+
+/// The middle one, or the mean of the two in the middle. At least one value.
+[[nodiscard]] double median(std::vector<double> values);
 
 } // namespace phlux::bench

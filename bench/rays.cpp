@@ -17,6 +17,7 @@
 #include "bench/draw.h"
 #include "bench/embree_rays.h"
 #include "bench/knot_scene.h"
+#include "bench/moments.h"
 #include "bench/provenance.h"
 #include "bench/scripts.h"
 #include "device/program.h"
@@ -28,11 +29,6 @@ namespace {
 
 using scene::Vec3;
 using Clock = std::chrono::steady_clock;
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
 
 double seconds_of(const std::function<void()>& work) {
   const Clock::time_point begin = Clock::now();

@@ -13,6 +13,7 @@
 
 #include "bench/csv.h"
 #include "bench/draw.h"
+#include "bench/moments.h"
 #include "bench/provenance.h"
 #include "bench/sampling_table.h"
 #include "bench/saved_table.h"
@@ -199,11 +200,6 @@ struct Summary {
   int defects = 0, rows = 0, marked = 0, cheapest = 0;
   std::vector<double> relative_costs; // to lobe-ks in the same unit
 };
-
-double median(std::vector<double> values) {
-  std::ranges::sort(values);
-  return values[values.size() / 2];
-}
 
 std::map<std::string, Summary> summaries_of(const SavedTable& table) {
   const auto number = [&](const SavedTable::Row& row, const char* column) {

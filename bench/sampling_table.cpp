@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "bench/csv.h"
+#include "bench/moments.h"
 
 namespace phlux::bench {
 namespace {
@@ -35,11 +36,6 @@ double lobe_samples(const SamplingRow& row) {
   if (row.strategy == "cosine" || row.strategy == "disk")
     density = std::max(width, std::cos(angle)) / std::numbers::pi;
   return count * density * solid_angle;
-}
-
-double median(std::vector<double> values) {
-  std::ranges::sort(values);
-  return values[values.size() / 2];
 }
 
 } // namespace

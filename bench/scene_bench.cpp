@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "bench/moments.h"
 #include "bench/timed_render.h"
 #include "errors.h"
 
@@ -34,12 +35,6 @@ constexpr double rounding = 1e-5;
 
 double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
-}
-
-double median(std::vector<double> values) {
-  std::ranges::sort(values);
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
 }
 
 std::vector<double> doubling_times(double seconds) {

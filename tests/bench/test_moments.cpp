@@ -44,3 +44,9 @@ TEST_CASE("Bias is counted in standard errors of the mean") {
   CHECK(std::abs(bias_in_sigmas(constant, .5 * (1 + 6e-8))) < 1); // float's rounding is no bias
   CHECK(bias_in_sigmas(constant, .4) > 1e5);
 }
+
+TEST_CASE("moments: the median of an odd and of an even number of values") {
+  CHECK(median({3}) == 3);
+  CHECK(median({9, 1, 2}) == 2);
+  CHECK(median({8, 1, 4, 2}) == 3);
+}
