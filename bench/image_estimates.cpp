@@ -80,14 +80,17 @@ double unexplained_without(Repeats repeats, const Reference& reference, std::opt
 
 } // namespace
 
+// Light tracing begins no sample in a pixel: each has the image's paths per pixel.
 ImageEstimate estimate_of(const film::Film& film) {
   ImageEstimate image;
   const std::size_t pixels = film.pixels().size();
+  const double of_all = film.samples_per_pixel();
   image.radiance.reserve(3 * pixels);
   image.samples.reserve(pixels);
   for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
     for (const double channel : film.mean(pixel)) image.radiance.push_back(channel);
-    image.samples.push_back(static_cast<double>(film.pixels()[pixel].samples));
+    const std::uint64_t own = film.pixels()[pixel].samples;
+    image.samples.push_back(own > 0 ? static_cast<double>(own) : of_all);
   }
   return image;
 }

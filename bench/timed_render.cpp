@@ -22,12 +22,20 @@ private:
   spdlog::level::level_enum level_;
 };
 
+// Light tracing begins no sample in a pixel, so there the image's paths per pixel count.
+bool all_pixels(const film::Film& film, const std::function<bool(double)>& have) {
+  if (std::ranges::all_of(film.pixels(), [](const film::Pixel& pixel) { return pixel.samples == 0; }))
+    return have(film.samples_per_pixel());
+  return std::ranges::all_of(
+      film.pixels(), [&](const film::Pixel& pixel) { return have(static_cast<double>(pixel.samples)); });
+}
+
 bool every_pixel_has_one(const film::Film& film) {
-  return std::ranges::all_of(film.pixels(), [](const film::Pixel& pixel) { return pixel.samples == 1; });
+  return all_pixels(film, [](double samples) { return samples == 1; });
 }
 
 bool every_pixel_has_some(const film::Film& film) {
-  return std::ranges::all_of(film.pixels(), [](const film::Pixel& pixel) { return pixel.samples > 0; });
+  return all_pixels(film, [](double samples) { return samples >= 1; });
 }
 
 // For a time that was too short for one sample of every pixel.
