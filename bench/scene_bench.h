@@ -32,7 +32,6 @@ struct Trial {
   std::string refusal{}; ///< why it cannot render the scene; the rest is empty then
   double variance = 0;   ///< per sample, relative to a provisional reference; an upper estimate
   double seconds_per_sample = 0;
-  bool kernels_were_built = false;
   std::vector<ImageEstimate> images{};
 };
 

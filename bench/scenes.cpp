@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "bench/array_file.h"
+#include "bench/build_ahead.h"
 #include "bench/csv.h"
 #include "bench/draw.h"
 #include "bench/provenance.h"
@@ -29,7 +30,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double default_seconds = 120, quick_seconds = 11; // a scene
-constexpr double default_total = 18 * 60, quick_total = 90;
+constexpr double default_total = 17 * 60, quick_total = 90;
 constexpr int default_side = 128, quick_side = 64;
 
 const std::vector<std::string> columns = {"scene",
@@ -262,12 +263,13 @@ ReferenceImage reference_of(const SceneBench& bench, const SceneRun& scene,
   return reference;
 }
 
-struct KernelCount {
-  std::size_t built = 0, programs = 0;
+struct SceneResults {
+  ReferenceImage reference;
+  std::vector<MethodResult> methods;
 };
 
-void measure(const Run& run, const SceneRun& scene, const std::vector<Method>& methods, Tables& tables,
-             KernelCount& kernels, const std::function<void(const std::string&)>& report) {
+SceneResults measure(const Run& run, const SceneRun& scene, const std::vector<Method>& methods,
+                     Tables& tables, const std::function<void(const std::string&)>& report) {
   SceneBenchSettings settings;
   settings.devices = run.options.devices;
   settings.lanes = run.options.lanes;
@@ -279,10 +281,6 @@ void measure(const Run& run, const SceneRun& scene, const std::vector<Method>& m
   settings.report = report;
   SceneBench bench(scene.scene, settings);
   bench.try_methods(methods);
-  for (const Trial& trial : bench.trials()) {
-    kernels.built += trial.kernels_were_built ? 1 : 0;
-    kernels.programs += trial.refusal.empty() ? 1 : 0;
-  }
   ReferenceImage reference = reference_of(bench, scene, run.options.folder / "references");
   const std::vector<MethodResult> results = bench.measure(reference);
   // The reference's own renders may all have missed what the rounds met.
@@ -297,7 +295,7 @@ void measure(const Run& run, const SceneRun& scene, const std::vector<Method>& m
       tables.convergence.add(convergence_row(scene, reference, result, point));
   }
   tables.write();
-  print(scene, reference, results);
+  return {reference, results};
 }
 
 // ---- All scenes
@@ -342,17 +340,70 @@ std::vector<Method> missing(const Run& run, const SceneRun& scene, const Tables&
   return only_refusals ? std::vector<Method>{} : methods;
 }
 
-void finish(const Run& run, const KernelCount& kernels) {
-  const bool measured = kernels.programs > 0; // else the provenance there says how
-  if (measured || !std::filesystem::exists(run.options.folder / "scenes.provenance.json"))
-    write_provenance(
-        run.options.folder, "scenes",
-        {command_of(run.options), run.device, run.lanes,
-         fmt::format("{} of {} programs were built in this run; timings exclude building", kernels.built,
-                     kernels.programs),
-         fmt::format("{} and up for the rounds, from 1000000 above for trials, from 2000000 above "
-                     "for references",
-                     run.options.seed)});
+// The programs of all scenes and methods, built or found in the cache; returns how many were built.
+std::size_t build_kernels(const ScenesOptions& options, const std::vector<std::filesystem::path>& files,
+                          const std::vector<Method>& methods) {
+  std::vector<std::function<std::size_t()>> jobs;
+  for (const auto& file : files)
+    for (const Method& method : methods)
+      jobs.emplace_back([&options, &file, &method]() -> std::size_t {
+        const scene::Scene scene = load_at_size(file, 1);
+        render::Settings settings = settings_of(method, scene.defaults);
+        settings.devices = options.devices;
+        settings.lanes = options.lanes;
+        settings.kernel_dir = options.kernel_dir;
+        settings.samples_per_pixel = 1;
+        film::Film film(scene.camera.width, scene.camera.height);
+        try {
+          return render::render(scene, settings, film, {}).kernels_from_cache ? 0 : 1;
+        } catch (const Error&) {
+          return 0;
+        }
+      });
+  return run_in_children(jobs);
+}
+
+struct Measured {
+  std::size_t scenes = 0, programs = 0, programs_built = 0;
+};
+
+void measure_all(const Run& run, const std::vector<SceneRun>& scenes, Tables& tables, Measured& measured) {
+  StatusLine status;
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const std::vector<Method> methods = missing(run, scenes[i], tables);
+    if (methods.empty()) {
+      fmt::print("{}: measured already\n", scenes[i].name);
+      continue;
+    }
+    const Clock::time_point begin = Clock::now();
+    const SceneResults results = measure(run, scenes[i], methods, tables, [&](const std::string& what) {
+      const double spent = std::chrono::duration<double>(Clock::now() - begin).count();
+      const double left =
+          std::max(0.0, run.seconds - spent) + run.seconds * static_cast<double>(scenes.size() - i - 1);
+      status.show(fmt::format("scene {} of {}, {}: {}  {} left", i + 1, scenes.size(), scenes[i].name, what,
+                              clock_text(left)));
+    });
+    status.clear();
+    print(scenes[i], results.reference, results.methods);
+    ++measured.scenes;
+  }
+}
+
+void finish(const Run& run, const Measured& measured) {
+  // Where nothing was measured, what is there says how it was.
+  if (measured.scenes > 0 || !std::filesystem::exists(run.options.folder / "scenes.provenance.json")) {
+    const std::string kernels =
+        run.options.build_ahead
+            ? fmt::format("{} programs of {} scenes and methods were not in the cache; all were built before "
+                          "anything was timed",
+                          measured.programs_built, measured.programs)
+            : "built before anything was timed";
+    write_provenance(run.options.folder, "scenes",
+                     {command_of(run.options), run.device, run.lanes, kernels,
+                      fmt::format("{} and up for the rounds, from 1000000 above for trials, from 2000000 "
+                                  "above for references",
+                                  run.options.seed)});
+  }
   draw_charts(run.options.folder, scenes_script());
 }
 
@@ -375,42 +426,31 @@ std::vector<std::filesystem::path> shipped_scenes() {
 bool measure_scenes(const ScenesOptions& options) {
   const std::vector<std::filesystem::path> files = options.scenes.empty() ? shipped_scenes() : options.scenes;
   check_names(files);
+  for (const auto& file : files)
+    (void)scene_file::load(file); // bad ones are errors before minutes have passed
   make_folder(options.folder);
+  Tables tables(options.folder);
+  Measured measured;
+  const std::vector<Method> methods = all_methods(options.strategies, options.quick);
+  if (options.build_ahead && tables.results.rows().empty()) {
+    tables.write();
+    StatusLine status;
+    status.show("building kernels");
+    measured.programs = files.size() * methods.size();
+    measured.programs_built = build_kernels(options, files, methods);
+  }
   const device::Device device = device::open_devices(options.devices).front();
-  Run run{options, device.info, options.lanes != 0 ? options.lanes : device.info.lanes,
-          all_methods(options.strategies, options.quick), seconds_for_each(options, files.size())};
+  const Run run{options, device.info, options.lanes != 0 ? options.lanes : device.info.lanes, methods,
+                seconds_for_each(options, files.size())};
   std::vector<SceneRun> scenes;
   for (const auto& file : files) scenes.push_back(load(file, run));
-
-  Tables tables(options.folder);
-  tables.write(); // an unwritable folder is found before minutes have passed
-  KernelCount kernels;
-  StatusLine status;
   try {
-    for (std::size_t i = 0; i < scenes.size(); ++i) {
-      const std::vector<Method> methods = missing(run, scenes[i], tables);
-      if (methods.empty()) {
-        fmt::print("{}: measured already\n", scenes[i].name);
-        continue;
-      }
-      const Clock::time_point begin = Clock::now();
-      const auto report = [&](const std::string& what) {
-        const double spent = std::chrono::duration<double>(Clock::now() - begin).count();
-        const double left =
-            std::max(0.0, run.seconds - spent) + run.seconds * static_cast<double>(scenes.size() - i - 1);
-        status.show(fmt::format("scene {} of {}, {}: {}  {} left", i + 1, scenes.size(), scenes[i].name, what,
-                                clock_text(left)));
-      };
-      report("loading");
-      measure(run, scenes[i], methods, tables, kernels, report);
-      status.clear();
-    }
+    measure_all(run, scenes, tables, measured);
   } catch (const Interrupted&) {
-    status.clear();
     fmt::print("interrupted: the same command goes on with the scenes that are missing\n");
     return false;
   }
-  finish(run, kernels);
+  finish(run, measured);
   fmt::print("{}\n", (options.folder / "index.html").string());
   return true;
 }

@@ -19,9 +19,10 @@ struct ScenesOptions {
   std::vector<std::filesystem::path> scenes; ///< empty: those that ship with phlux
   std::vector<std::string> strategies = {"exact"};
   bool quick = false;              ///< fewer and shorter renders, and of bidir's weights balance alone
-  std::optional<double> seconds;   ///< for each scene; absent: what keeps all within 18 minutes, or 100 s
+  std::optional<double> seconds;   ///< for each scene; absent: what keeps all within 17 minutes, or 90 s
   std::optional<int> largest_side; ///< pixels; absent: 128, 64 when quick
   std::uint64_t seed = 1;
+  bool build_ahead = false;          ///< on all processors; only in a process that has not used OpenCL yet
   std::function<bool()> interrupted; ///< may be empty
 };
 

@@ -337,10 +337,11 @@ TEXT = [
     "phlux compare: squared error / (reference² + 0.0001), the mean over pixels and channels. It is estimated from whole "
     "renders with different seeds, and its standard error by a jackknife over them. Variance times seconds of a sample is the "
     "time to unit variance: who has the least wins.",
-    "A variance is called suspect (of being infinite) where the largest 0.1% of the samples hold more than 30% of the squared "
-    "error while repeats disagree on the variance by a tenth, or where it at least doubles between one sample and many. Then "
-    "the table gives none, and charts show what was met, hollow, as a lower bound. A method is called biased where it is known "
-    "to be, or where its mean, or what its variance does not explain of its error, differs from the reference (p < 0.0001).",
+    "A variance is called suspect (of being infinite) where repeats disagree on it by a quarter, or by a tenth while the "
+    "largest 0.1% of the samples hold more than 30% of the squared error, or where it at least doubles between one sample and "
+    "many. Then the table gives none, and charts show what was met, hollow, as a lower bound. A method is called biased where "
+    "it is known to be, or where its mean, or what its variance does not explain of its error, differs from the reference "
+    "(p < 0.0001).",
     "The reference is rendered by the method that converged best in a trial. Errors near the reference's own mean nothing: it "
     "is drawn as a line.",
 ]

@@ -193,6 +193,7 @@ void add_scenes(CLI::App& bench, std::optional<Command>& command) {
     command = [options] {
       const InterruptGuard guard;
       options->interrupted = [&guard] { return guard.requested(); };
+      options->build_ahead = true;
       return bench::measure_scenes(*options) ? 0 : interrupted_exit_code;
     };
   });
