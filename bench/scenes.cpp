@@ -407,6 +407,11 @@ void finish(const Run& run, const Measured& measured) {
   draw_charts(run.options.folder, scenes_script());
 }
 
+bool stopped() {
+  fmt::print("interrupted: the same command goes on with the scenes that are missing\n");
+  return false;
+}
+
 } // namespace
 
 std::vector<std::filesystem::path> shipped_scenes() {
@@ -447,8 +452,10 @@ bool measure_scenes(const ScenesOptions& options) {
   try {
     measure_all(run, scenes, tables, measured);
   } catch (const Interrupted&) {
-    fmt::print("interrupted: the same command goes on with the scenes that are missing\n");
-    return false;
+    return stopped();
+  } catch (const DeviceError&) { // a compiler gives up, too, when it is interrupted
+    if (options.interrupted && options.interrupted()) return stopped();
+    throw;
   }
   finish(run, measured);
   fmt::print("{}\n", (options.folder / "index.html").string());
