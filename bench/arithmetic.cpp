@@ -19,7 +19,7 @@
 namespace phlux::bench {
 namespace {
 
-constexpr int rounds = 15;
+constexpr int rounds = 25;
 constexpr std::size_t elements_of_lane = 8; // of a work item, when timed: they stay in the nearest cache
 
 cl::Program build(const device::Device& device, const device::KernelFiles& files, int lanes, bool native) {
@@ -154,13 +154,44 @@ const std::vector<std::string>& arithmetic_columns() {
   return columns;
 }
 
+namespace {
+
+struct Timings {
+  std::vector<double> loop;                  // of each round, nanoseconds
+  std::vector<std::vector<double>> formulas; // less the loop in the same round
+};
+
+// Launches of the same length, whatever a formula costs: what else the machine does cuts into long ones more.
+Timings time_in_turns(const ArithmeticKernels& kernels, const FormulaGroup& group,
+                      const std::vector<const Formula*>& formulas, double exponent, bool quick) {
+  const double launch = quick ? 2e5 : 1e6; // nanoseconds
+  constexpr std::size_t trial = 1 << 16;
+  std::vector<std::string> names = {empty_kernel(group)};
+  for (const Formula* formula : formulas) names.push_back(formula->kernel);
+  std::vector<std::size_t> values;
+  for (const std::string& name : names) {
+    (void)kernels.nanoseconds(group, name, exponent, 1); // drivers compile at the first launch
+    const double about = kernels.nanoseconds(group, name, exponent, trial);
+    values.push_back(static_cast<std::size_t>(launch / std::max(about, 1e-3)));
+  }
+  Timings timings{{}, std::vector<std::vector<double>>(formulas.size())};
+  for (int round = 0; round < rounds; ++round) {
+    timings.loop.push_back(kernels.nanoseconds(group, names[0], exponent, values[0]));
+    for (std::size_t i = 0; i < formulas.size(); ++i)
+      timings.formulas[i].push_back(kernels.nanoseconds(group, names[i + 1], exponent, values[i + 1]) -
+                                    timings.loop.back());
+  }
+  return timings;
+}
+
+} // namespace
+
 void write_arithmetic_table(const ArithmeticOptions& options) {
   CsvFile table(options.folder, "arithmetic.csv", fmt::format("{}", fmt::join(arithmetic_columns(), ",")));
   const device::Device device = device::open_devices(options.devices).front();
   const int lanes = options.lanes != 0 ? options.lanes : device.info.lanes;
   const ArithmeticKernels kernels(device, kernel_files(options.kernel_dir), lanes);
-  const std::size_t values = std::size_t{1} << (options.quick ? 15 : 18),
-                    timed = std::size_t{1} << (options.quick ? 18 : 21);
+  const std::size_t values = std::size_t{1} << (options.quick ? 15 : 18);
   StatusLine status;
   for (const FormulaGroup& group : formula_groups())
     for (const double exponent : group.exponents) {
@@ -168,24 +199,15 @@ void write_arithmetic_table(const ArithmeticOptions& options) {
       std::vector<const Formula*> formulas;
       for (const Formula& formula : group.formulas)
         if (kernels.has(formula)) formulas.push_back(&formula);
-      (void)kernels.nanoseconds(group, empty_kernel(group), exponent,
-                                1); // drivers compile at the first launch
-      for (const Formula* formula : formulas) (void)kernels.nanoseconds(group, formula->kernel, exponent, 1);
-      std::vector<double> loop;
-      std::vector<std::vector<double>> times(formulas.size());
-      for (int round = 0; round < rounds; ++round) {
-        loop.push_back(kernels.nanoseconds(group, empty_kernel(group), exponent, timed));
-        for (std::size_t i = 0; i < formulas.size(); ++i)
-          times[i].push_back(kernels.nanoseconds(group, formulas[i]->kernel, exponent, timed) - loop.back());
-      }
+      const Timings timings = time_in_turns(kernels, group, formulas, exponent, options.quick);
       for (std::size_t i = 0; i < formulas.size(); ++i) {
         const FormulaErrors e = kernels.errors(group, *formulas[i], exponent, values, options.seed);
-        const auto [least, most] = std::ranges::minmax(times[i]);
+        const auto [least, most] = std::ranges::minmax(timings.formulas[i]);
         table.line(fmt::format(
             "{},{},{},{},{},{},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{},{},{}", group.name,
             formulas[i]->name, exponent, formulas[i]->used ? 1 : 0, e.values, e.failed, e.largest_relative,
-            e.rms_relative, e.largest_ulp, e.rms_ulp, median(times[i]), least, most, median(loop), rounds,
-            csv_value(device.info.name), lanes));
+            e.rms_relative, e.largest_ulp, e.rms_ulp, median(timings.formulas[i]), least, most,
+            median(timings.loop), rounds, csv_value(device.info.name), lanes));
       }
     }
 }

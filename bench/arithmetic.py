@@ -109,6 +109,8 @@ def verdicts(rows):
         used = next(row for row in here if row.used)
         rivals = [row for row in here if row.rms_relative <= 2 * used.rms_relative and row.failed <= used.failed]
         best = min(rivals, key=lambda row: row.ns_per_value)
+        if time_of(best) > 0.95 * time_of(used):
+            best = used
         lines.append([group, n if group in ("lobe", "sine") else "", used.formula, used.ns_per_value, used.rms_relative,
                       used.largest_ulp, "the same" if best is used else best.formula,
                       1.0 if best is used else time_of(used) / time_of(best)])
