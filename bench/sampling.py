@@ -316,16 +316,16 @@ def summary_of(rows, lights):
                 line += [wins[strategy], *map(float, np.quantile(factors[strategy], (0.5, 0.9)))]
             else:
                 line += ["", "", ""]
-        words = sorted({mark for row in of_strategy for mark in row.marks})
-        line.append(", ".join(f"{mark} in {sum(mark in row.marks for row in of_strategy)} of {len(of_strategy)}"
-                              for mark in words))
+        line += [sum(bool(row.marks) for row in of_strategy), len(of_strategy)]
         lines.append(line)
-    columns = ["strategy", "time / lobe-ks"]
+    columns = ["strategy", "time"]
     for light in lights:
-        columns += [f"{light}: wins", "median loss", "90% below"]
-    return {"columns": columns + ["marks"], "rows": lines,
-            "note": "loss, its median and what nine of ten cases are below: variance × cost over that of the best strategy in the same case, with roulette where the "
-                    f"strategy has it and a ray that costs {RAY_COST} samples of lobe-ks; rows with marks neither win nor count"}
+        columns += [f"{light}: best in", "median loss", "90% below"]
+    note = ("time: over that of lobe-ks, median; loss, its median and what nine of ten cases are below: variance × cost over "
+            "that of the best strategy in the same case, with roulette where the strategy has it and a ray that costs "
+            f"{RAY_COST} samples of lobe-ks. Marked rows (biased, suspected of infinite variance, or with too few samples) "
+            "neither win nor count.")
+    return {"columns": columns + ["marked", "of"], "rows": lines, "note": note}
 
 
 def write_section(folder, rows, lights, charts):
@@ -336,7 +336,7 @@ def write_section(folder, rows, lights, charts):
         "lobe-estimate-printed, the estimate as CW 197 prints it, is biased: it loses the share of the lobe that its own "
         "sample finds below the surface. Its variance diverges logarithmically as well (a sample that is drawn with "
         "probability e weighs 1/e, and e may be as small as one likes), so it is given none and takes no part. A row is "
-        "unresolved when the standard error of its variance is above a quarter of it: too few samples met what matters.",
+        "unresolved when the standard error of its variance is above a third of it: too few samples met what matters.",
     ]
     style.section(folder, "sampling", title="Sampling strategies", order=20, text=text,
                   summary=summary_of(rows, lights), charts=charts,

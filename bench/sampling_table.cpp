@@ -16,7 +16,7 @@ namespace {
 
 // A bias or a divergence that not one in so many samples would meet is none.
 constexpr double least_share = 1e-10;
-constexpr double most_relative_error = 0.25;
+constexpr double most_relative_error = 1.0 / 3;
 constexpr double most_sigmas = 4;
 constexpr double least_lobe_samples = 32;
 // What float32 and the table of reflectivities make of a mean, and what float32 makes of a constant.

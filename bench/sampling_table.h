@@ -23,7 +23,7 @@ struct SamplingRow {
 struct Marks {
   bool biased = false;     ///< a known bias, of any size that could ever be seen
   bool diverges = false;   ///< the variance is infinite by what printed_density_at_horizon() says
-  bool unresolved = false; ///< too few samples: the variance's standard error is above a quarter of it, or
+  bool unresolved = false; ///< too few samples: the variance's standard error is above a third of it, or
                            ///< hardly one is expected where the lobe is
   bool off = false; ///< without a known bias, the mean is 4 standard errors or more from the exact value, and
                     ///< by more than the arithmetic explains
