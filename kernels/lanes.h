@@ -166,6 +166,24 @@ static inline void scatter_real(__global float* base, Int index, Real value, Mas
 #endif
 }
 
+static inline void scatter_int(__global int* base, Int index, Int value, Mask m) {
+#if WIDTH == 1
+  if (m) base[index] = value;
+#else
+  LANE_EACH(LANE_STORE);
+#endif
+}
+
+// base[index] += value in the lanes of m, one lane after another: two lanes may share an index.
+static inline void add_real(__global float* base, Int index, Real value, Mask m) {
+#if WIDTH == 1
+  if (m) base[index] += value;
+#else
+#define LANE_ADD(k) (m.s##k ? (void)(base[index.s##k] += value.s##k) : (void)0)
+  LANE_EACH(LANE_ADD);
+#endif
+}
+
 // Private copies, for loops over lanes.
 static inline void lanes_to_array(Real v, float* array) {
 #if WIDTH == 1
@@ -209,6 +227,22 @@ static inline Int load_ints(const __global int* base) {
   return *base;
 #else
   return LANE_JOIN(vload, WIDTH)(0, base);
+#endif
+}
+
+// WIDTH consecutive words to `base`.
+static inline void store_reals(__global float* base, Real v) {
+#if WIDTH == 1
+  *base = v;
+#else
+  LANE_JOIN(vstore, WIDTH)(v, 0, base);
+#endif
+}
+static inline void store_ints(__global int* base, Int v) {
+#if WIDTH == 1
+  *base = v;
+#else
+  LANE_JOIN(vstore, WIDTH)(v, 0, base);
 #endif
 }
 
@@ -259,35 +293,60 @@ static inline int first_lane(Mask m) {
 #endif
 }
 
+static inline int count_lanes(Mask m) {
+#ifdef LANES_AVX512
+  return popcount((int)lane_bits(m));
+#else
+  return (int)sum_of_lanes(m ? (Uint)(1u) : (Uint)(0u));
+#endif
+}
+
+// How many lanes of m stand before each lane of it; without meaning in other lanes.
+static inline Int rank_lanes(Mask m) {
+#ifdef LANES_AVX512
+  return LANE_INTS(__builtin_ia32_expandsi512_mask(LANE_NATIVE_INTS(LANE_NUMBERS), LANE_NATIVE_INTS((Int)(0)),
+                                                   (ushort)lane_bits(m)));
+#elif WIDTH == 1
+  return 0;
+#else
+  int chosen[WIDTH], rank[WIDTH];
+  int_lanes_to_array(m, chosen);
+  for (int lane = 0, count = 0; lane < WIDTH; ++lane) {
+    rank[lane] = count;
+    count += chosen[lane] != 0;
+  }
+  return int_lanes_from_array(rank);
+#endif
+}
+
+// Moves the lanes of m to the front, in lane order; the others may hold anything.
+static inline Real pack_lanes(Mask m, Real v) {
+#ifdef LANES_AVX512
+  return LANE_REALS(__builtin_ia32_compresssf512_mask(LANE_NATIVE_FLOATS(v), LANE_NATIVE_FLOATS((Real)(0.0f)),
+                                                      (ushort)lane_bits(m)));
+#elif WIDTH == 1
+  return v;
+#else
+  float from[WIDTH], to[WIDTH];
+  int chosen[WIDTH];
+  lanes_to_array(v, from);
+  lanes_to_array((Real)(0.0f), to);
+  int_lanes_to_array(m, chosen);
+  for (int lane = 0, count = 0; lane < WIDTH; ++lane) {
+    to[count] = from[lane];
+    count += chosen[lane] != 0;
+  }
+  return lanes_from_array(to);
+#endif
+}
+static inline Int pack_int_lanes(Mask m, Int v) { return real_bits(pack_lanes(m, bits_real(v))); }
+
 // Appends the keys and values of the lanes in m to two arrays, in lane order; the arrays have room for WIDTH more.
 // Returns how many.
 static inline int append_lanes(Mask m, Real key, Int value, float* keys, int* values) {
-#ifdef LANES_AVX512
-  const ushort bits = (ushort)lane_bits(m);
-  vstore16(
-      LANE_REALS(__builtin_ia32_compresssf512_mask(LANE_NATIVE_FLOATS(key), LANE_NATIVE_FLOATS((Real)(0.0f)), bits)), 0,
-      keys);
-  vstore16(LANE_INTS(__builtin_ia32_compresssi512_mask(LANE_NATIVE_INTS(value), LANE_NATIVE_INTS((Int)(0)), bits)), 0,
-           values);
-  return popcount((int)bits);
-#elif WIDTH == 1
-  *keys = key;
-  *values = value;
-  return m != 0;
-#else
-  float key_of[WIDTH];
-  int value_of[WIDTH], chosen[WIDTH];
-  lanes_to_array(key, key_of);
-  int_lanes_to_array(value, value_of);
-  int_lanes_to_array(m, chosen);
-  int count = 0;
-  for (int lane = 0; lane < WIDTH; ++lane) {
-    keys[count] = key_of[lane];
-    values[count] = value_of[lane];
-    count += chosen[lane] != 0;
-  }
-  return count;
-#endif
+  lanes_to_array(pack_lanes(m, key), keys);
+  int_lanes_to_array(pack_int_lanes(m, value), values);
+  return count_lanes(m);
 }
 
 // ---- Vectors

@@ -137,9 +137,40 @@ static inline SurfacePoint surface_point(const Scene* scene, Ray ray, Hit hit) {
   return s;
 }
 
+// A point of a surface for a ray to start or end at: what a SurfacePoint, a light's point and a stored vertex share.
+typedef struct {
+  Vec3 position, normal; // as SurfacePoint's
+  Real error;
+} Place;
+
+static inline Place place_of(SurfacePoint point) {
+  Place place;
+  place.position = point.position;
+  place.normal = point.normal;
+  place.error = point.error;
+  return place;
+}
+
 // Where a ray along `direction` starts, just off the surface on the side that it leaves to.
 static inline Vec3 step_off(Vec3 position, Vec3 normal, Real error, Vec3 direction) {
   return vec_along(position, times_sign(error, vec_dot(normal, direction)), normal);
+}
+
+// The ray from a surface to a point in space, and the distance before which it must be free.
+static inline Ray ray_to_point(Place from, Vec3 to, Real* distance) {
+  Ray ray;
+  ray.origin = step_off(from.position, from.normal, from.error, vec_sub(to, from.position));
+  const Vec3 way = vec_sub(to, ray.origin);
+  *distance = sqrt(vec_dot(way, way));
+  ray.direction = vec_scale((Real)(1.0f) / *distance, way);
+  return ray;
+}
+
+// The same to a point of a surface whose normal faces the start: it ends short by what the surface's crossing may be
+// wrong as seen from there.
+static inline Ray ray_between(Place from, Place to, Real* distance) {
+  const Real reach = vec_largest(vec_sub(to.position, from.position));
+  return ray_to_point(from, vec_along(to.position, to.error + ERROR_UNITS * reach, to.normal), distance);
 }
 
 #endif

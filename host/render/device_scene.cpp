@@ -3,6 +3,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include "errors.h"
 
@@ -37,6 +38,7 @@ CameraRecord camera_record(const scene::Camera& camera, const scene::Vec3& origi
   }
   record.principal_x = static_cast<float>(camera.principal_x);
   record.principal_y = static_cast<float>(camera.principal_y);
+  record.film_area = static_cast<float>(4 * glm::length(left) * glm::length(up));
   record.width = camera.width;
   record.height = camera.height;
   return record;
@@ -75,10 +77,6 @@ HostScene prepare(const scene::Scene& scene, Traversal traversal, int lanes) {
   host.lights = light_table(scene, host.geometry);
   host.materials = material_table(scene.materials);
   host.camera = camera_record(scene.camera, host.geometry.origin);
-  if (host.lights.constant >= 0) {
-    host.sky = *scene.constant_radiance / host.lights.unit;
-    host.sky_choice = host.lights.records[static_cast<std::size_t>(host.lights.constant)].probability;
-  }
   return host;
 }
 

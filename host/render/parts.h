@@ -11,7 +11,10 @@
 
 namespace phlux::render {
 
+enum class Integrator { path, light, bidir };
+
 struct Parts {
+  Integrator integrator = Integrator::path;
   int lanes = 1;
   bool hierarchy = false;
   bool planars = false, triangles = false, parallelograms = false, ellipses = false, spheres = false;
@@ -23,15 +26,19 @@ struct Parts {
   bool ambient = false;      ///< a control variate is asked for
   bool light_choice = false; ///< there is more than one light to choose from
   Connect connect = Connect::mis;
+  Weights weights = Weights::balance;
   std::string strategy;
 
   /// Names for people, such as "spheres" or "light_planar", in a fixed order.
   [[nodiscard]] std::vector<std::string> names() const;
+  /// The kernel file of the integrator.
+  [[nodiscard]] const char* file() const;
   /// Macros for the kernels.
   [[nodiscard]] std::map<std::string, std::string> defines() const;
 };
 
-/// @throws UsageError for a strategy, a --connect or an --ambient that cannot render this scene
+/// @throws UsageError for an integrator that there is not, and for a strategy, a --connect or an --ambient that
+/// cannot render this scene
 [[nodiscard]] Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry,
                                const LightTable& lights, const Settings& settings, int lanes);
 
