@@ -63,18 +63,22 @@ static inline Ratios arrived_from_light(const Scene* scene, const Walk* walk, Ve
 // Walks the batch's light subpaths and shows them to the eye. Returns whether there was room for their vertices.
 static inline int walk_light_subpaths(Bidir* b, Batch batch) {
   const Scene* scene = b->scene;
-  Walk walk = no_walk(b->seed);
-  Trail trail;
-  trail.first = trail.length = (Int)(0);
+  Walk walk = no_walk(b->seed), next = no_walk(b->seed);
+  Starts starts = no_starts();
+  Trail trail = no_trail();
   Mask alive = NO_LANES;
   for (int row = 0;; ++row) {
-    const Mask starting = take_paths(&batch, &walk.path, !alive);
-    if (any_lane(starting)) {
-      alive |= leave_light(scene, b->list, &batch, b->limits, &walk, &b->queue, &b->output, starting);
-      trail.first = starting ? row * ROW_WORDS + LANE_NUMBERS : trail.first;
-      trail.length = starting ? (Int)(0) : trail.length;
-      store_trail(&b->light, walk.path, trail, starting & !alive);
+    const Mask idle = !alive;
+    while (wants_starts(&starts, &batch, count_lanes(idle))) {
+      Mask started;
+      const Mask shines = leave_light(scene, b->list, &batch, b->limits, &next, &b->queue, &b->output, &started);
+      put_starts(&starts, &next, shines);
+      store_trail(&b->light, next.path, no_trail(), started & !shines);
     }
+    const Mask starting = take_starts(&starts, &walk, idle);
+    alive |= starting;
+    trail.first = starting ? row * ROW_WORDS + LANE_NUMBERS : trail.first;
+    trail.length = starting ? (Int)(0) : trail.length;
     if (!any_lane(alive)) return 1;
     if (row == b->light.rows) return 0;
 
@@ -108,20 +112,15 @@ static inline Contribution to_own_pixel(const Walk* walk, Vec3 value, Real weigh
   return c;
 }
 
-static inline void leave_eye(const Bidir* b, const Batch* batch, Walk* walk, Mask starting) {
-  RandomSequence sequence = walk->sequence;
-  find_path(b->list, batch, walk->path, &sequence);
-  const RandomWords words = random_words(sequence, (Uint)(0), 0);
-  const Ray ray = camera_ray(b->scene, sequence.pixel, uniform_real(words.x), uniform_real(words.y));
-  const Ratios ratios = ratios_from_eye(film_density(b->scene, ray.direction));
-  walk->sequence.pixel = starting ? sequence.pixel : walk->sequence.pixel;
-  walk->sequence.sample = starting ? sequence.sample : walk->sequence.sample;
-  walk->ray.origin = vec_select(starting, ray.origin, walk->ray.origin);
-  walk->ray.direction = vec_select(starting, ray.direction, walk->ray.direction);
-  walk->throughput = vec_select(starting, vec_all((Real)(1.0f)), walk->throughput);
-  walk->edges = starting ? (Int)(0) : walk->edges;
-  walk->ratios.edge = starting ? ratios.edge : walk->ratios.edge;
-  walk->ratios.rest = starting ? ratios.rest : walk->ratios.rest;
+// The batch's next eye subpaths, as leave_light.
+static inline Mask leave_eye(const Bidir* b, Batch* batch, Walk* walk) {
+  const Mask starting = take_paths(batch, &walk->path, ALL_LANES);
+  find_path(b->list, batch, walk->path, &walk->sequence);
+  const RandomWords words = random_words(walk->sequence, (Uint)(0), 0);
+  walk->ray = camera_ray(b->scene, walk->sequence.pixel, uniform_real(words.x), uniform_real(words.y));
+  walk->throughput = vec_all((Real)(1.0f));
+  walk->ratios = ratios_from_eye(film_density(b->scene, walk->ray.direction));
+  return starting;
 }
 
 // Adds what a light that the eye subpaths of m have hit sends back along them.
@@ -178,18 +177,17 @@ static inline void add_light_sample(Bidir* b, const Walk* walk, Vertex v, Mask m
 // vertices.
 static inline int walk_eye_subpaths(Bidir* b, Batch batch) {
   const Scene* scene = b->scene;
-  Walk walk = no_walk(b->seed);
-  Trail trail;
-  trail.first = trail.length = (Int)(0);
+  Walk walk = no_walk(b->seed), next = no_walk(b->seed);
+  Starts starts = no_starts();
+  Trail trail = no_trail();
   Mask alive = NO_LANES;
   for (int row = 0;; ++row) {
-    const Mask starting = take_paths(&batch, &walk.path, !alive);
-    if (any_lane(starting)) {
-      leave_eye(b, &batch, &walk, starting);
-      trail.first = starting ? row * ROW_WORDS + LANE_NUMBERS : trail.first;
-      trail.length = starting ? (Int)(0) : trail.length;
-    }
+    const Mask idle = !alive;
+    while (wants_starts(&starts, &batch, count_lanes(idle))) put_starts(&starts, &next, leave_eye(b, &batch, &next));
+    const Mask starting = take_starts(&starts, &walk, idle);
     alive |= starting;
+    trail.first = starting ? row * ROW_WORDS + LANE_NUMBERS : trail.first;
+    trail.length = starting ? (Int)(0) : trail.length;
     if (!any_lane(alive)) return 1;
     if (row == b->eye.rows) return 0;
 

@@ -44,7 +44,7 @@ typedef LANE_JOIN(int, WIDTH) Mask;
 // AVX-512 has single instructions for what the portable forms below spell out; LANES_PORTABLE tests those forms.
 #if WIDTH == 16 && defined(__AVX512F__) && !defined(LANES_PORTABLE) && defined(__has_builtin)
 #if __has_builtin(__builtin_ia32_gathersiv16sf) && __has_builtin(__builtin_ia32_cmpd512_mask) &&                       \
-    __has_builtin(__builtin_ia32_compresssf512_mask)
+    __has_builtin(__builtin_ia32_compresssf512_mask) && __has_builtin(__builtin_ia32_expandsf512_mask)
 #define LANES_AVX512
 typedef float LaneNativeFloats __attribute__((vector_size(64)));
 typedef int LaneNativeInts __attribute__((vector_size(64)));
@@ -341,6 +341,30 @@ static inline Real pack_lanes(Mask m, Real v) {
 }
 static inline Int pack_int_lanes(Mask m, Int v) { return real_bits(pack_lanes(m, bits_real(v))); }
 
+// The other way round: the lanes of m take the first values of v, in lane order; the others keep `old`.
+static inline Real unpack_lanes(Mask m, Real v, Real old) {
+#ifdef LANES_AVX512
+  return LANE_REALS(
+      __builtin_ia32_expandsf512_mask(LANE_NATIVE_FLOATS(v), LANE_NATIVE_FLOATS(old), (ushort)lane_bits(m)));
+#elif WIDTH == 1
+  return m ? v : old;
+#else
+  float from[WIDTH], to[WIDTH];
+  int chosen[WIDTH];
+  lanes_to_array(v, from);
+  lanes_to_array(old, to);
+  int_lanes_to_array(m, chosen);
+  for (int lane = 0, count = 0; lane < WIDTH; ++lane) {
+    to[lane] = chosen[lane] ? from[count] : to[lane];
+    count += chosen[lane] != 0;
+  }
+  return lanes_from_array(to);
+#endif
+}
+static inline Int unpack_int_lanes(Mask m, Int v, Int old) {
+  return real_bits(unpack_lanes(m, bits_real(v), bits_real(old)));
+}
+
 // Appends the keys and values of the lanes in m to two arrays, in lane order; the arrays have room for WIDTH more.
 // Returns how many.
 static inline int append_lanes(Mask m, Real key, Int value, float* keys, int* values) {
@@ -378,6 +402,7 @@ static inline Vec3 vec_cross(Vec3 a, Vec3 b) {
 static inline Vec3 vec_select(Mask m, Vec3 yes, Vec3 no) {
   return vec3(m ? yes.x : no.x, m ? yes.y : no.y, m ? yes.z : no.z);
 }
+static inline Vec3 pack_vec(Mask m, Vec3 v) { return vec3(pack_lanes(m, v.x), pack_lanes(m, v.y), pack_lanes(m, v.z)); }
 static inline Vec3 vec_normalize(Vec3 a) { return vec_scale((Real)(1.0f) / sqrt(vec_dot(a, a)), a); }
 static inline Real vec_max(Vec3 a) { return larger(a.x, larger(a.y, a.z)); }
 static inline Real vec_mean(Vec3 a) { return (a.x + a.y + a.z) * (1.0f / 3.0f); }

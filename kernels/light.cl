@@ -21,11 +21,14 @@ __kernel void trace_light(SCENE_PARAMETERS, int pixel_count, int first_pixel, in
     output.count = 0;
     output.nonfinite = (Uint)(0u);
 
-    Walk walk = no_walk(seed);
-    Mask alive = NO_LANES;
+    Walk walk = no_walk(seed), next = no_walk(seed);
+    Starts starts = no_starts();
+    Mask alive = NO_LANES, started;
     while (true) {
-      const Mask starting = take_paths(&batch, &walk.path, !alive);
-      if (any_lane(starting)) alive |= leave_light(&scene, list, &batch, limits, &walk, &queue, &output, starting);
+      const Mask idle = !alive;
+      while (wants_starts(&starts, &batch, count_lanes(idle)))
+        put_starts(&starts, &next, leave_light(&scene, list, &batch, limits, &next, &queue, &output, &started));
+      alive |= take_starts(&starts, &walk, idle);
       if (!any_lane(alive)) break;
 
       const Hit hit = scene_intersect(&scene, walk.ray, alive);

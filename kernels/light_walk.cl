@@ -2,10 +2,10 @@
 #ifndef PHLUX_LIGHT_WALK_CL
 #define PHLUX_LIGHT_WALK_CL
 
-#include "batch.cl"
 #include "camera.cl"
 #include "emission.cl"
 #include "shadow_queue.cl"
+#include "starts.cl"
 #include "walk.cl"
 
 #define TECHNIQUE(light_vertices, eye_vertices) (((light_vertices) << 16) | (eye_vertices))
@@ -75,25 +75,24 @@ static inline void show_light(const Scene* scene, const Walk* walk, Emission e, 
 #endif
 }
 
-// Starts the lanes of `starting` on their paths; returns those whose first edge is to be traced.
-static inline Mask leave_light(const Scene* scene, JobList list, const Batch* batch, WalkLimits limits, Walk* walk,
-                               ShadowQueue* queue, Output* output, Mask starting) {
-  RandomSequence sequence = walk->sequence;
-  find_path(list, batch, walk->path, &sequence);
-  walk->sequence.pixel = starting ? sequence.pixel : walk->sequence.pixel;
-  walk->sequence.sample = starting ? sequence.sample : walk->sequence.sample;
-  const Emission e = emission_sample(scene, random_words(sequence, (Uint)(DIMENSION_EMISSION), 0),
-                                     random_words(sequence, (Uint)(DIMENSION_EMISSION + 1), 0));
-  walk->ray.origin = vec_select(starting, e.ray.origin, walk->ray.origin);
-  walk->ray.direction = vec_select(starting, e.ray.direction, walk->ray.direction);
-  walk->throughput = vec_select(starting, vec_scale(1.0f / e.density, e.radiance), walk->throughput);
-  walk->edges = starting ? (Int)(0) : walk->edges;
+// The batch's next paths, one for each lane as long as there are any, before their first edge; returns the lanes that
+// have one to be traced.
+static inline Mask leave_light(const Scene* scene, JobList list, Batch* batch, WalkLimits limits, Walk* walk,
+                               ShadowQueue* queue, Output* output, Mask* started) {
+  const Mask starting = take_paths(batch, &walk->path, ALL_LANES);
+  find_path(list, batch, walk->path, &walk->sequence);
+  const Emission e = emission_sample(scene, random_words(walk->sequence, (Uint)(DIMENSION_EMISSION), 0),
+                                     random_words(walk->sequence, (Uint)(DIMENSION_EMISSION + 1), 0));
+  walk->ray = e.ray;
+  walk->throughput = vec_scale(1.0f / e.density, e.radiance);
 #ifdef PHLUX_BIDIR
-  walk->light = starting ? e.light : walk->light;
-  walk->light_cosine = starting ? vec_dot(e.place.normal, e.ray.direction) : walk->light_cosine;
+  walk->light = e.light;
+  walk->light_cosine = vec_dot(e.place.normal, e.ray.direction);
 #endif
-  show_light(scene, walk, e, queue, output, starting);
-  return starting & (vec_max(e.radiance) > 0.0f) & (Mask)(limits.edges > 1 ? ALL_LANES : NO_LANES);
+  const Mask shines = starting & (vec_max(e.radiance) > 0.0f);
+  show_light(scene, walk, e, queue, output, shines);
+  *started = starting;
+  return limits.edges > 1 ? shines : NO_LANES;
 }
 
 // Connects the eye to the vertices of m.

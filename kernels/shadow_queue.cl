@@ -26,7 +26,6 @@ static inline void vec_to_arrays(Vec3 v, float (*arrays)[2 * LANES], int at) {
 static inline Vec3 vec_from_arrays(const float (*arrays)[2 * LANES], int at) {
   return vec3(lanes_from_array(arrays[0] + at), lanes_from_array(arrays[1] + at), lanes_from_array(arrays[2] + at));
 }
-static inline Vec3 pack_vec(Mask m, Vec3 v) { return vec3(pack_lanes(m, v.x), pack_lanes(m, v.y), pack_lanes(m, v.z)); }
 
 // The entries from `at` on.
 static inline Ray waiting_ray(const ShadowQueue* queue, int at) {

@@ -25,6 +25,12 @@ typedef struct {
   Int first, length;
 } Trail;
 
+static inline Trail no_trail(void) {
+  Trail trail;
+  trail.first = trail.length = (Int)(0);
+  return trail;
+}
+
 #define ROW_WORDS (VERTEX_WORDS * LANES)
 
 static inline void store_vec(__global float* words, int word, Vec3 v) {

@@ -35,16 +35,6 @@ void Film::add(std::size_t pixel, const BlockSum& block, std::uint32_t samples) 
   sums.samples += samples;
 }
 
-void Film::add_splat(std::size_t pixel, const std::array<double, 3>& value) {
-  assert(pixel < pixels_.size());
-  if (splats_.empty()) splats_.resize(pixels_.size());
-  Splats& sums = splats_[pixel];
-  for (std::size_t channel = 0; channel < channel_count; ++channel) {
-    sums.sum[channel] += value[channel];
-    sums.sum_of_squares[channel] += value[channel] * value[channel];
-  }
-}
-
 double Film::splatting_paths_per_pixel() const {
   return static_cast<double>(splatting_paths_) / static_cast<double>(pixels_.size());
 }

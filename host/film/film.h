@@ -22,7 +22,8 @@ struct Pixel {
 };
 
 /// Sums over what paths that began elsewhere brought to a pixel; each square is of what one path brought.
-struct Splats {
+/// One cache line, as splats fall where they like.
+struct alignas(64) Splats {
   std::array<double, 3> sum{}, sum_of_squares{};
 };
 
@@ -50,7 +51,16 @@ public:
 
   /// Adds what one path brought to a pixel that it did not begin in. A pixel's radiance is the mean of its
   /// samples plus the sum of its splats / the number of splatting paths per pixel of the image.
-  void add_splat(std::size_t pixel, const std::array<double, 3>& value);
+  void add_splat(std::size_t pixel, const std::array<double, 3>& value) {
+    Splats& sums = splats_[pixel];
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      sums.sum[channel] += value[channel];
+      sums.sum_of_squares[channel] += value[channel] * value[channel];
+    }
+  }
+  void use_splats() { splats_.resize(pixels_.size()); } ///< before the first add_splat()
+  /// Fetches what add_splat() will need soon.
+  void expect_splat(std::size_t pixel) const { __builtin_prefetch(&splats_[pixel], 1); }
   /// Counts paths of the whole image that could have brought splats.
   void add_splatting_paths(std::uint64_t paths) { splatting_paths_ += paths; }
 

@@ -12,7 +12,7 @@ namespace phlux::film {
 /// One batch's records as the device wrote them: arrays of `capacity` words each, of which the first `count`
 /// hold (kernels/scene_data.h, RecordWords).
 struct SplatRecords {
-  const float* words = nullptr;
+  float* words = nullptr;
   std::size_t capacity = 0, count = 0;
   std::size_t paths = 0; ///< of the batch: its records name paths below that
 };
@@ -20,16 +20,18 @@ struct SplatRecords {
 /// Adds up what each path brought to each pixel before it goes to the film, which wants the squares of that.
 class SplatFolder {
 public:
+  /// Changes the records. The film uses splats.
   void fold(const SplatRecords& records, Film& film);
 
 private:
-  struct Entry {
-    std::size_t pixel;
-    std::array<double, 3> value;
-    std::int32_t earlier; ///< entry of the same path, -1: none
+  void merge(const SplatRecords& records);
+
+  struct PathSoFar {
+    std::uint64_t pixels = 0; ///< a bit for each pixel that it has been to, which pixels share
+    std::int32_t last = -1;   ///< its latest record, -1: none
   };
-  std::vector<Entry> entries_;
-  std::vector<std::int32_t> last_; ///< per path: its latest entry
+  std::vector<PathSoFar> paths_;
+  std::vector<std::int32_t> earlier_; ///< per record: the one before of the same path, -1: none
 };
 
 } // namespace phlux::film

@@ -209,7 +209,7 @@ void Launcher::read_back(Flight& flight) {
     const std::size_t words =
         flight.batches * static_cast<std::size_t>(flight.record_capacity) * record_words;
     flight.host_records = static_cast<float*>(device_.queue.enqueueMapBuffer(
-        from.records, CL_FALSE, CL_MAP_READ, 0, words * sizeof(float), nullptr, &flight.read));
+        from.records, CL_FALSE, CL_MAP_READ | CL_MAP_WRITE, 0, words * sizeof(float), nullptr, &flight.read));
   }
   if (parts_.integrator != Integrator::light)
     read(from.sums, flight.host_sums, static_cast<std::size_t>(flight.launch.jobs));
@@ -275,6 +275,7 @@ void Launcher::collect(film::Film& film) {
   const std::uint64_t paths = static_cast<std::uint64_t>(flight.launch.jobs) *
                               static_cast<std::uint64_t>(flight.launch.block_samples);
   if (flight.batches > 0) {
+    film.use_splats();
     fold_records(flight, film);
     film.add_splatting_paths(paths);
   }
