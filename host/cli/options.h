@@ -19,7 +19,8 @@ struct RenderOptions {
   std::map<std::string, std::string> definitions;
 
   std::optional<std::string> integrator, strategy;
-  render::Connect connect = render::Connect::mis;
+  std::optional<render::Connect> connect;
+  std::optional<render::Weights> weights;
   std::optional<int> max_depth, rr_depth;
   std::optional<double> ambient;
 

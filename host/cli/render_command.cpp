@@ -28,7 +28,13 @@ render::Settings settings_of(const RenderOptions& options, const scene::RenderDe
   render::Settings settings;
   settings.integrator = options.integrator.value_or(defaults.integrator);
   settings.strategy = options.strategy.value_or(settings.strategy);
-  settings.connect = options.connect;
+  if (options.connect && settings.integrator != "path")
+    throw UsageError("--connect is for path alone: " + settings.integrator + " has its own ways to the lights");
+  if (options.weights && settings.integrator != "bidir")
+    throw UsageError("--weights is for bidir alone: " + settings.integrator +
+                     " makes each path in one way: leave it out or use -i bidir");
+  settings.connect = options.connect.value_or(settings.connect);
+  settings.weights = options.weights.value_or(settings.weights);
   settings.ambient = options.ambient;
   settings.samples_per_pixel = options.samples_per_pixel.value_or(defaults.samples_per_pixel);
   settings.time_limit = options.time_limit;
