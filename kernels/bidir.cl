@@ -51,7 +51,7 @@ static inline Ratios arrived_from_light(const Scene* scene, const Walk* walk, Ve
   const Ratios later = ratios_arrived(walk->ratios, distance * distance, cosine);
   const Mask first = walk->edges == 1;
   if (!any_lane(first)) return later;
-  const Real emission = GATHER_REAL(scene->lights, walk->light, emission_density);
+  const Real emission = LIGHT_REAL(scene, walk->light, emission_density);
   const Ratios start =
       ratios_from_light(density_of_start(scene, walk, v, distance), emission, cosine, is_hittable(scene, walk->light));
   Ratios r;
@@ -131,11 +131,11 @@ static inline void add_hit_light(Bidir* b, const Walk* walk, SurfacePoint point,
   const Scene* scene = b->scene;
   const Int light = max(point.light, (Int)(0));
   const Real cosine = -vec_dot(point.normal, walk->ray.direction);
-  const Real emission = GATHER_REAL(scene->lights, light, emission_density);
+  const Real emission = LIGHT_REAL(scene, light, emission_density);
   const Real seen = PHONG_PI * emission * distance * distance / cosine;
   const Real sampled = light_density(scene, walk->ray.origin, light, distance, cosine);
   const Real weight = weight_of_hit(walk->ratios, walk->edges == 1 ? seen : sampled, emission);
-  const Vec3 value = vec_mul(walk->throughput, GATHER_VEC3(scene->lights, light, power));
+  const Vec3 value = vec_mul(walk->throughput, LIGHT_VEC3(scene, light, power));
   add_contribution(&b->output, to_own_pixel(walk, value, weight, TECHNIQUE(0, walk->edges + 1)), emits);
 #endif
 }
@@ -166,7 +166,7 @@ static inline void add_light_sample(Bidir* b, const Walk* walk, Vertex v, Mask m
   const Vec3 reflected = vec_mul(walk->throughput, material_eval(v.material, v.fixed, generated));
   const Vec3 value = vec_scale(generated.z / light.density, vec_mul(light.radiance, reflected));
   const Real weight =
-      weight_of_light_sample(walk->ratios, light.density, GATHER_REAL(scene->lights, light.light, emission_density),
+      weight_of_light_sample(walk->ratios, light.density, LIGHT_REAL(scene, light.light, emission_density),
                              material_density(v.material, v.fixed, generated),
                              material_density(v.material, generated, v.fixed), cosine, light.hittable);
   add_if_free(scene, &b->queue, &b->output, light.ray, light.distance,

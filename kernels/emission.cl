@@ -34,7 +34,7 @@ static inline void emit_from_surface(Emission* e, Place place, Vec3 upward, Mask
 static inline void emit_from_infinity(const Scene* scene, Emission* e, Vec3 direction, Real u1, Real u2, Mask m) {
   Real cos_phi, sin_phi;
   cos_sin_turns(u2, &cos_phi, &sin_phi);
-  const Real disk_radius = sqrt(GATHER_REAL(scene->lights, e->light, area) * PHONG_INV_PI);
+  const Real disk_radius = sqrt(LIGHT_REAL(scene, e->light, area) * PHONG_INV_PI);
   const Real radius = disk_radius * sqrt(u1);
   const Frame frame = frame_about(direction);
   const Vec3 across = from_frame(frame, vec3(radius * cos_phi, radius * sin_phi, -disk_radius));
@@ -47,8 +47,8 @@ static inline void emit_from_infinity(const Scene* scene, Emission* e, Vec3 dire
 static inline Emission emission_sample(const Scene* scene, RandomWords choice, RandomWords aim) {
   Emission e;
   e.light = choose_light(scene, choice.x, choice.y);
-  e.radiance = GATHER_VEC3(scene->lights, e.light, power);
-  e.density = GATHER_REAL(scene->lights, e.light, emission_density);
+  e.radiance = LIGHT_VEC3(scene, e.light, power);
+  e.density = LIGHT_REAL(scene, e.light, emission_density);
   e.surface = e.sky = NO_LANES;
   e.place.position = e.place.normal = e.ray.origin = e.ray.direction = vec_all((Real)(0.0f));
   e.place.error = (Real)(0.0f);
@@ -64,7 +64,7 @@ static inline Emission emission_sample(const Scene* scene, RandomWords choice, R
   {
     const Mask m = LIGHT_IS(kind, LIGHT_SPHERE);
     const Int primitive = sphere_primitive(scene, e.light, m);
-    const Mask front_inside = GATHER_INT(scene->primitives, primitive, region) != 0;
+    const Mask front_inside = PRIMITIVE_INT(scene, primitive, region) != 0;
     const Vec3 unit = sphere_direction(uniform_real(choice.z), uniform_real(choice.w));
     emit_from_surface(&e, sphere_light_point(sphere_of_light(scene, primitive), unit, front_inside),
                       cosine_direction(uniform_real(aim.x), uniform_real(aim.y)), m);
@@ -79,18 +79,18 @@ static inline Emission emission_sample(const Scene* scene, RandomWords choice, R
     const Real cap = (0.5f * PHONG_INV_PI) * light_probability(scene, e.light) / e.density; // 1 - cos(cutoff)
     const Real drop = uniform_real(aim.x) * cap;
     const Real sine = sqrt(drop * (2.0f - drop));
-    const Frame about_axis = frame_about(GATHER_VEC3(scene->lights, e.light, direction));
+    const Frame about_axis = frame_about(LIGHT_VEC3(scene, e.light, direction));
     direction =
         vec_select(spot, from_frame(about_axis, polar_direction(sine, 1.0f - drop, uniform_real(aim.y))), direction);
     const Real falloff = spot ? spot_falloff(scene, e.light, 1.0f - drop) : (Real)(1.0f);
     e.radiance = vec_scale(falloff, e.radiance);
 #endif
-    e.ray.origin = vec_select(m, GATHER_VEC3(scene->lights, e.light, position), e.ray.origin);
+    e.ray.origin = vec_select(m, LIGHT_VEC3(scene, e.light, position), e.ray.origin);
     e.ray.direction = vec_select(m, direction, e.ray.direction);
   }
 #endif
 #ifdef PHLUX_LIGHT_DIRECTIONAL
-  emit_from_infinity(scene, &e, GATHER_VEC3(scene->lights, e.light, direction), uniform_real(choice.z),
+  emit_from_infinity(scene, &e, LIGHT_VEC3(scene, e.light, direction), uniform_real(choice.z),
                      uniform_real(choice.w), LIGHT_IS(kind, LIGHT_DIRECTIONAL));
 #endif
 #ifdef PHLUX_LIGHT_CONSTANT

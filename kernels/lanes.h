@@ -44,7 +44,8 @@ typedef LANE_JOIN(int, WIDTH) Mask;
 // AVX-512 has single instructions for what the portable forms below spell out; LANES_PORTABLE tests those forms.
 #if WIDTH == 16 && defined(__AVX512F__) && !defined(LANES_PORTABLE) && defined(__has_builtin)
 #if __has_builtin(__builtin_ia32_gathersiv16sf) && __has_builtin(__builtin_ia32_cmpd512_mask) &&                       \
-    __has_builtin(__builtin_ia32_compresssf512_mask) && __has_builtin(__builtin_ia32_expandsf512_mask)
+    __has_builtin(__builtin_ia32_compresssf512_mask) && __has_builtin(__builtin_ia32_expandsf512_mask) && \
+    __has_builtin(__builtin_ia32_permvarsf512)
 #define LANES_AVX512
 typedef float LaneNativeFloats __attribute__((vector_size(64)));
 typedef int LaneNativeInts __attribute__((vector_size(64)));
@@ -155,6 +156,23 @@ static inline Int gather_int(const __global int* base, Int index) {
   gather_int((const __global int*)(table), (index) * (int)(sizeof(*(table)) / 4) + MEMBER_PLACE(int, table, member))
 #define GATHER_VEC3(table, index, member)                                                                              \
   vec3(GATHER_REAL(table, index, member[0]), GATHER_REAL(table, index, member[1]), GATHER_REAL(table, index, member[2]))
+
+// A table of at most LANES structs of 4-byte members can be kept member by member, in private memory, where looking an
+// entry up is to permute a register; a gather takes many times as long. Only where registers can be permuted.
+#ifdef LANES_AVX512
+#define LANES_PERMUTE
+static inline Real permute_real(const float* values, Int index) {
+  return LANE_REALS(__builtin_ia32_permvarsf512(LANE_NATIVE_FLOATS(vload16(0, values)), LANE_NATIVE_INTS(index)));
+}
+static inline Int permute_int(const float* values, Int index) { return real_bits(permute_real(values, index)); }
+// The table has LANES entries of `words` words, used or not.
+static inline void load_members(const __global void* table, int words, float (*members)[LANES]) {
+  for (int word = 0; word < words; ++word)
+    vstore16(gather_real((const __global float*)table, LANE_NUMBERS * words + word), 0, members[word]);
+}
+#define PERMUTE_REAL(members, table, index, member) permute_real((members)[MEMBER_PLACE(float, table, member)], index)
+#define PERMUTE_INT(members, table, index, member) permute_int((members)[MEMBER_PLACE(int, table, member)], index)
+#endif
 
 // base[index] = value in the lanes of m, in lane order.
 static inline void scatter_real(__global float* base, Int index, Real value, Mask m) {

@@ -20,8 +20,8 @@
 static inline Int choose_light(const Scene* scene, Uint cell_word, Uint alias_word) {
 #ifdef PHLUX_LIGHT_CHOICE
   const Int cell = uint_to_int(mul_hi(cell_word, (Uint)((uint)scene->light_count)));
-  const Mask keep = uniform_real(alias_word) < GATHER_REAL(scene->lights, cell, alias_threshold);
-  return keep ? cell : GATHER_INT(scene->lights, cell, alias);
+  const Mask keep = uniform_real(alias_word) < LIGHT_REAL(scene, cell, alias_threshold);
+  return keep ? cell : LIGHT_INT(scene, cell, alias);
 #else
   return (Int)(0);
 #endif
@@ -29,7 +29,7 @@ static inline Int choose_light(const Scene* scene, Uint cell_word, Uint alias_wo
 
 static inline Int light_kind(const Scene* scene, Int light) {
 #ifdef PHLUX_LIGHT_KINDS
-  return GATHER_INT(scene->lights, light, kind);
+  return LIGHT_INT(scene, light, kind);
 #else
   return (Int)(scene->lights[0].kind);
 #endif
@@ -37,7 +37,7 @@ static inline Int light_kind(const Scene* scene, Int light) {
 
 static inline Real light_probability(const Scene* scene, Int light) {
 #ifdef PHLUX_LIGHT_CHOICE
-  return GATHER_REAL(scene->lights, light, probability);
+  return LIGHT_REAL(scene, light, probability);
 #else
   return (Real)(1.0f);
 #endif
@@ -46,12 +46,12 @@ static inline Real light_probability(const Scene* scene, Int light) {
 #ifdef PHLUX_LIGHT_PLANAR
 // A point of a flat light, uniform over its area; its normal is on the side that emits. The lanes of m are on one.
 static inline Place planar_light_point(const Scene* scene, Int light, Mask m, Real u1, Real u2) {
-  const Int primitive = m ? GATHER_INT(scene->lights, light, primitive) : (Int)(0);
+  const Int primitive = m ? LIGHT_INT(scene, light, primitive) : (Int)(0);
   const Int words = planar_words(primitive);
 #if defined(PHLUX_TRIANGLES) || defined(PHLUX_ELLIPSES)
-  const Int region = GATHER_INT(scene->primitives, primitive, region);
+  const Int region = PRIMITIVE_INT(scene, primitive, region);
 #endif
-  const Real area = GATHER_REAL(scene->lights, light, area);
+  const Real area = LIGHT_REAL(scene, light, area);
   // |edge_u x edge_v| from the area of the region that it spans; the parallelogram's is 4 of them.
   Real u = 2.0f * u1 - 1.0f, v = 2.0f * u2 - 1.0f, cross_length = 0.25f * area;
 #ifdef PHLUX_TRIANGLES
@@ -86,9 +86,9 @@ static inline Place planar_light_point(const Scene* scene, Int light, Mask m, Re
 // The primitive of a light; that of any sphere in lanes that are not of m.
 static inline Int sphere_primitive(const Scene* scene, Int light, Mask m) {
 #ifdef PHLUX_PLANARS
-  return m ? GATHER_INT(scene->lights, light, primitive) : (Int)(scene->first_sphere);
+  return m ? LIGHT_INT(scene, light, primitive) : (Int)(scene->first_sphere);
 #else
-  return m ? GATHER_INT(scene->lights, light, primitive) : (Int)(0);
+  return m ? LIGHT_INT(scene, light, primitive) : (Int)(0);
 #endif
 }
 
@@ -114,7 +114,7 @@ static inline Place sphere_light_point(SphereShape sphere, Vec3 unit, Mask front
 // How much of its intensity a spot light sends at an angle of the given cosine to its axis.
 static inline Real spot_falloff(const Scene* scene, Int light, Real cosine) {
   const Real angle = acos(clamp(cosine, (Real)(-1.0f), (Real)(1.0f)));
-  return clamp((GATHER_REAL(scene->lights, light, cutoff) - angle) * GATHER_REAL(scene->lights, light, inv_transition),
+  return clamp((LIGHT_REAL(scene, light, cutoff) - angle) * LIGHT_REAL(scene, light, inv_transition),
                (Real)(0.0f), (Real)(1.0f));
 }
 #endif
@@ -145,7 +145,7 @@ static inline Real one_minus_cone_cosine(SphereShape sphere, Real distance2) {
 // light's normal makes an angle of `cosine` with the way back; without meaning in lanes whose light has no surface.
 static inline Real light_density(const Scene* scene, Vec3 lit, Int light, Real distance, Real cosine) {
   const Real choice = light_probability(scene, light);
-  Real density = choice * distance * distance / (cosine * GATHER_REAL(scene->lights, light, area));
+  Real density = choice * distance * distance / (cosine * LIGHT_REAL(scene, light, area));
 #ifdef PHLUX_LIGHT_SPHERE
   const Mask is_sphere = LIGHT_IS(light_kind(scene, light), LIGHT_SPHERE);
   const Int primitive = sphere_primitive(scene, light, is_sphere);
@@ -153,7 +153,7 @@ static inline Real light_density(const Scene* scene, Vec3 lit, Int light, Real d
   const Vec3 to_center = vec_sub(sphere.center, lit);
   const Real distance2 = vec_dot(to_center, to_center);
   const Mask outside =
-      (distance2 > sphere.radius * sphere.radius) & (GATHER_INT(scene->primitives, primitive, region) == 0);
+      (distance2 > sphere.radius * sphere.radius) & (PRIMITIVE_INT(scene, primitive, region) == 0);
   const Real cone = choice * (0.5f * PHONG_INV_PI) / one_minus_cone_cosine(sphere, distance2);
   density = (is_sphere & outside) ? cone : density;
 #endif
@@ -176,7 +176,7 @@ static inline void sample_planar_light(const Scene* scene, LightSample* s, Place
   Real distance;
   const Ray ray = ray_between(lit, place, &distance);
   const Real cosine = -vec_dot(place.normal, ray.direction);
-  const Real by_area = distance * distance / (cosine * GATHER_REAL(scene->lights, s->light, area));
+  const Real by_area = distance * distance / (cosine * LIGHT_REAL(scene, s->light, area));
   keep_surface_sample(s, ray, distance, cosine, light_probability(scene, s->light) * by_area, m);
 }
 #endif
@@ -186,7 +186,7 @@ static inline void sample_planar_light(const Scene* scene, LightSample* s, Place
 static inline void sample_sphere_light(const Scene* scene, LightSample* s, Place lit, Mask m, Real u1, Real u2) {
   const Int primitive = sphere_primitive(scene, s->light, m);
   const SphereShape sphere = sphere_of_light(scene, primitive);
-  const Mask front_inside = GATHER_INT(scene->primitives, primitive, region) != 0;
+  const Mask front_inside = PRIMITIVE_INT(scene, primitive, region) != 0;
   const Vec3 to_center = vec_sub(sphere.center, lit.position);
   const Real distance2 = vec_dot(to_center, to_center);
   const Real center_distance = sqrt(distance2);
@@ -209,7 +209,7 @@ static inline void sample_sphere_light(const Scene* scene, LightSample* s, Place
   Real distance;
   const Ray ray = ray_between(lit, place, &distance);
   const Real cosine = -vec_dot(place.normal, ray.direction);
-  const Real by_area = distance * distance / (cosine * GATHER_REAL(scene->lights, s->light, area));
+  const Real by_area = distance * distance / (cosine * LIGHT_REAL(scene, s->light, area));
   const Real density = in_cone ? (0.5f * PHONG_INV_PI) / cone : by_area;
   keep_surface_sample(s, ray, distance, cosine, light_probability(scene, s->light) * density, m);
 }
@@ -218,10 +218,10 @@ static inline void sample_sphere_light(const Scene* scene, LightSample* s, Place
 #if defined(PHLUX_LIGHT_POINT) || defined(PHLUX_LIGHT_SPOT)
 static inline void sample_point_light(const Scene* scene, LightSample* s, Place lit, Int kind, Mask m) {
   Real distance;
-  const Ray ray = ray_to_point(lit, GATHER_VEC3(scene->lights, s->light, position), &distance);
+  const Ray ray = ray_to_point(lit, LIGHT_VEC3(scene, s->light, position), &distance);
   const Real density = distance * distance * light_probability(scene, s->light);
 #ifdef PHLUX_LIGHT_SPOT
-  const Real cosine = -vec_dot(GATHER_VEC3(scene->lights, s->light, direction), ray.direction);
+  const Real cosine = -vec_dot(LIGHT_VEC3(scene, s->light, direction), ray.direction);
   const Real falloff = kind == LIGHT_SPOT ? spot_falloff(scene, s->light, cosine) : (Real)(1.0f);
   s->radiance = vec_select(m, vec_scale(falloff, s->radiance), s->radiance);
 #endif
@@ -252,7 +252,7 @@ static inline LightSample light_sample(const Scene* scene, SurfacePoint point, R
   s.ray.origin = lit.position;
   s.ray.direction = lit.normal;
   s.distance = (Real)(0.0f);
-  s.radiance = GATHER_VEC3(scene->lights, s.light, power);
+  s.radiance = LIGHT_VEC3(scene, s.light, power);
   s.density = (Real)(1.0f);
   s.hittable = NO_LANES;
   s.valid = NO_LANES;
@@ -267,7 +267,7 @@ static inline LightSample light_sample(const Scene* scene, SurfacePoint point, R
   sample_point_light(scene, &s, lit, kind, LIGHT_IS(kind, LIGHT_POINT) | LIGHT_IS(kind, LIGHT_SPOT));
 #endif
 #ifdef PHLUX_LIGHT_DIRECTIONAL
-  aim_to_infinity(&s, lit, vec_scale((Real)(-1.0f), GATHER_VEC3(scene->lights, s.light, direction)),
+  aim_to_infinity(&s, lit, vec_scale((Real)(-1.0f), LIGHT_VEC3(scene, s.light, direction)),
                   light_probability(scene, s.light), LIGHT_IS(kind, LIGHT_DIRECTIONAL));
 #endif
 #ifdef PHLUX_LIGHT_CONSTANT

@@ -52,7 +52,7 @@ static inline void add_emission(const Scene* scene, Path* path, Hit hit, Surface
   const Mask emits = m & point.front & (point.light >= 0);
   if (!any_lane(emits)) return;
   const Int light = max(point.light, (Int)(0));
-  Vec3 arriving = vec_mul(path->throughput, GATHER_VEC3(scene->lights, light, power));
+  Vec3 arriving = vec_mul(path->throughput, LIGHT_VEC3(scene, light, power));
 #if PHLUX_CONNECT == CONNECT_LIGHT
   const Mask counts = emits & (path->edges == 1);
 #else

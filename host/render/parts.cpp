@@ -162,6 +162,10 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
   parts.light_constant = lights.has(LIGHT_CONSTANT);
   const bool chooses = parts.connect != Connect::none || parts.integrator == Integrator::light;
   parts.light_choice = lights.records.size() > 1 && chooses;
+  parts.one_light = lights.records.size() == 1;
+  parts.few_lights = lights.records.size() <= few_entries;
+  parts.few_materials = scene.materials.size() <= few_entries;
+  parts.few_primitives = geometry.primitives.size() <= few_entries && !parts.hierarchy;
   return parts;
 }
 
@@ -193,6 +197,12 @@ std::map<std::string, std::string> Parts::defines() const {
   if (kinds > 1) macros["PHLUX_LIGHT_KINDS"] = "1";
   if (regions > 1) macros["PHLUX_MIXED_REGIONS"] = "1";
   if (emission || light_constant) macros["PHLUX_HITTABLE_LIGHTS"] = "1";
+  if (one_light) macros["PHLUX_ONE_LIGHT"] = "1";
+  if (lanes == static_cast<int>(few_entries)) {
+    if (few_lights) macros["PHLUX_FEW_LIGHTS"] = "1";
+    if (few_materials) macros["PHLUX_FEW_MATERIALS"] = "1";
+    if (few_primitives) macros["PHLUX_FEW_PRIMITIVES"] = "1";
+  }
   if (phong_lobe) macros["PHONG_TABLE_INTERVALS"] = std::to_string(reflectivity_intervals);
   if (integrator == Integrator::bidir) {
     macros["PHLUX_BIDIR"] = "1";

@@ -1,6 +1,7 @@
 // What a scene's kernel holds code for: the parts, each a macro of the kernels, and nothing else.
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <string>
 #include <vector>
@@ -10,6 +11,9 @@
 #include "render/render.h"
 
 namespace phlux::render {
+
+/// Tables of no more entries are few enough to be permuted in the registers of a CPU (kernels/lanes.h).
+inline constexpr std::size_t few_entries = 16;
 
 enum class Integrator { path, light, bidir };
 
@@ -25,6 +29,7 @@ struct Parts {
        light_directional = false, light_constant = false;
   bool ambient = false;      ///< a control variate is asked for
   bool light_choice = false; ///< there is more than one light to choose from
+  bool one_light = false, few_lights = false, few_materials = false, few_primitives = false; ///< no code
   Connect connect = Connect::mis;
   Weights weights = Weights::balance;
   std::string strategy;
