@@ -310,7 +310,7 @@ static inline void sum_jobs(const Bidir* b, Batch batch, __global float* sums) {
     for (int channel = 0; channel < 3; ++channel) {
       float sum = 0.0f, sum_of_squares = 0.0f;
       for (int sample = 0; sample < b->list.block_samples; ++sample) {
-        const float value = radiance[channel * batch.path_count + job * b->list.block_samples + sample];
+        const float value = radiance[4 * (job * b->list.block_samples + sample) + channel];
         sum += value;
         sum_of_squares += value * value;
       }
@@ -358,8 +358,7 @@ __kernel void trace_bidir(SCENE_PARAMETERS, int pixel_count, int first_pixel, in
     b.output.records = records + (size_t)index * (size_t)record_words * (size_t)record_capacity;
     b.output.capacity = record_capacity;
     b.output.count = 0;
-    b.output.path_count = batch.path_count;
-    for (int word = 0; word < 3 * batch.path_count; ++word) b.output.radiance[word] = 0.0f;
+    for (int word = 0; word < 4 * batch.path_count; ++word) b.output.radiance[word] = 0.0f;
     const int fits = walk_light_subpaths(&b, batch) && walk_eye_subpaths(&b, batch);
     if (fits) connect_subpaths(&b, batch);
     trace_last(&scene, &b.queue, &b.output);

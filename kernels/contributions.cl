@@ -22,8 +22,7 @@ typedef struct {
   int count; // records so far, those beyond the capacity included: the host then makes more room and tries again
   Uint nonfinite;
 #ifdef PHLUX_BIDIR
-  __global float* radiance; // three arrays of `path_count` words: of each path at its own pixel
-  int path_count;
+  __global float* radiance; // four words for each path: what it brought to its own pixel
 #endif
 } Output;
 
@@ -52,9 +51,7 @@ static inline void add_contribution(Output* output, Contribution c, Mask m) {
   output->nonfinite += (m & !finite) ? (Uint)(1u) : (Uint)(0u);
   const Mask counts = m & finite;
 #ifdef PHLUX_BIDIR
-  add_real(output->radiance, c.path, weighted.x, counts & c.own);
-  add_real(output->radiance + output->path_count, c.path, weighted.y, counts & c.own);
-  add_real(output->radiance + 2 * output->path_count, c.path, weighted.z, counts & c.own);
+  if (any_lane(counts & c.own)) add_vec(output->radiance, c.path, weighted, counts & c.own);
 #endif
 #ifdef PHLUX_TECHNIQUES
   const Mask recorded = counts;

@@ -192,16 +192,6 @@ static inline void scatter_int(__global int* base, Int index, Int value, Mask m)
 #endif
 }
 
-// base[index] += value in the lanes of m, one lane after another: two lanes may share an index.
-static inline void add_real(__global float* base, Int index, Real value, Mask m) {
-#if WIDTH == 1
-  if (m) base[index] += value;
-#else
-#define LANE_ADD(k) (m.s##k ? (void)(base[index.s##k] += value.s##k) : (void)0)
-  LANE_EACH(LANE_ADD);
-#endif
-}
-
 // Private copies, for loops over lanes.
 static inline void lanes_to_array(Real v, float* array) {
 #if WIDTH == 1
@@ -425,6 +415,24 @@ static inline Vec3 vec_normalize(Vec3 a) { return vec_scale((Real)(1.0f) / sqrt(
 static inline Real vec_max(Vec3 a) { return larger(a.x, larger(a.y, a.z)); }
 static inline Real vec_mean(Vec3 a) { return (a.x + a.y + a.z) * (1.0f / 3.0f); }
 static inline Real vec_largest(Vec3 a) { return larger(fabs(a.x), larger(fabs(a.y), fabs(a.z))); }
+
+// Adds v to the vector `index` of `base`, of four words each, in the lanes of m, one lane after another: two lanes may
+// share an index.
+static inline void add_vec(__global float* base, Int index, Vec3 v, Mask m) {
+#if WIDTH == 1
+  if (m) vstore4(vload4((size_t)index, base) + (float4)(v.x, v.y, v.z, 0.0f), (size_t)index, base);
+#else
+  float x[WIDTH], y[WIDTH], z[WIDTH];
+  int at[WIDTH];
+  const int count = count_lanes(m);
+  lanes_to_array(pack_lanes(m, v.x), x);
+  lanes_to_array(pack_lanes(m, v.y), y);
+  lanes_to_array(pack_lanes(m, v.z), z);
+  int_lanes_to_array(pack_int_lanes(m, index), at);
+  for (int i = 0; i < count; ++i)
+    vstore4(vload4((size_t)at[i], base) + (float4)(x[i], y[i], z[i], 0.0f), (size_t)at[i], base);
+#endif
+}
 
 // Cosine and sine of 2 pi turns, for turns in [0, 1]; both within 2 ulp of the larger. Polynomials fitted for the
 // least relative error over an eighth of a turn to either side of the nearest quarter.

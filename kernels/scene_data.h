@@ -104,7 +104,7 @@ enum VertexWords {
 };
 
 // What a batch of bidirectional paths needs for each path besides vertices: where the two subpaths' are, and radiance.
-enum { SCRATCH_WORDS_PER_PATH = 7 };
+enum { SCRATCH_WORDS_PER_PATH = 8 };
 
 // One node of the hierarchy: the boxes of CHILDREN children, then the children. A child >= 0 is a node; one < 0 is a
 // leaf: ~child = first block << 5 | (blocks - 1) << 1 | (1 where the blocks hold spheres).

@@ -123,6 +123,10 @@ void add_files(CLI::App& app, RenderOptions& options) {
   add_file("--png", "FILE",
            "tone-mapped preview, also rewritten while rendering; default: beside the image; none: without",
            options.preview);
+  add_file("--contributions", "DIR",
+           "bidir and light: an image for every way of making a path, s light and t eye vertices, weighted and "
+           "unweighted, and a contact sheet",
+           options.contributions);
   add_file("--stats", "FILE.json", "figures of the render", options.statistics);
   app.add_flag("--moments", options.moments, "adds channels variance.R, .G and .B: variance of the mean");
   app.add_flag("-q,--quiet", options.quiet, "no progress and no summary");

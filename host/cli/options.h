@@ -37,6 +37,7 @@ struct RenderOptions {
   std::filesystem::path output;  ///< empty: the scene's name, .exr, in the working directory
   std::filesystem::path preview; ///< empty: the output's name, .png, beside it
   std::filesystem::path statistics;
+  std::filesystem::path contributions; ///< folder, empty: none
   bool moments = false, quiet = false, verbose = false;
 };
 

@@ -78,6 +78,15 @@ std::array<double, 3> Film::variance_of_mean(std::size_t pixel) const {
   return result;
 }
 
+std::vector<std::array<double, 3>>
+Film::technique_image(const std::vector<std::array<double, 3>>& sums) const {
+  std::vector<std::array<double, 3>> image = sums;
+  const double factor = splatting_paths_ > 0 ? unit_ / splatting_paths_per_pixel() : 0.0;
+  for (std::array<double, 3>& pixel : image)
+    for (double& value : pixel) value *= factor;
+  return image;
+}
+
 bool Film::has_variance() const {
   if (std::ranges::all_of(pixels_, [](const Pixel& pixel) { return pixel.samples >= 2; })) return true;
   const bool only_splats = std::ranges::all_of(pixels_, [](const Pixel& pixel) { return pixel.samples == 0; });

@@ -4,8 +4,11 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
+
+#include "film/techniques.h"
 
 namespace phlux::film {
 
@@ -64,6 +67,13 @@ public:
   /// Counts paths of the whole image that could have brought splats.
   void add_splatting_paths(std::uint64_t paths) { splatting_paths_ += paths; }
 
+  /// Keeps what each technique brings by itself as well, from here on.
+  void use_techniques() { techniques_.emplace(pixels_.size()); }
+  [[nodiscard]] Techniques* techniques() { return techniques_ ? &*techniques_ : nullptr; }
+  /// One technique's image, of sums of `techniques()`: radiance per pixel.
+  [[nodiscard]] std::vector<std::array<double, 3>>
+  technique_image(const std::vector<std::array<double, 3>>& sums) const;
+
   /// Mean radiance of a pixel; 0 without samples.
   [[nodiscard]] std::array<double, 3> mean(std::size_t pixel) const;
   /// Unbiased variance of that mean, per channel; 0 with fewer than two samples. Never negative.
@@ -91,6 +101,7 @@ private:
   std::vector<Pixel> pixels_;
   std::vector<Splats> splats_; ///< empty where nothing splats
   std::uint64_t splatting_paths_ = 0;
+  std::optional<Techniques> techniques_;
 };
 
 } // namespace phlux::film

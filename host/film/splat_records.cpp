@@ -35,6 +35,7 @@ void SplatFolder::merge(const SplatRecords& records) {
   earlier_.resize(std::max(earlier_.size(), records.count));
   for (std::size_t i = 0; i < records.count; ++i) {
     if (i % words_per_line == 0) fetch(records, i + 10 * words_per_line);
+    if (pixels[i] == merged) continue;
     PathSoFar& path = paths_[static_cast<std::size_t>(paths[i])];
     const std::uint64_t bit = bit_of(pixels[i]);
     std::int32_t same = (path.pixels & bit) != 0 ? path.last : -1;
@@ -64,6 +65,29 @@ void SplatFolder::fold(const SplatRecords& records, Film& film) {
     if (i + ahead < records.count && pixels[i + ahead] != merged)
       film.expect_splat(static_cast<std::size_t>(pixels[i + ahead]));
     if (pixels[i] != merged) film.add_splat(static_cast<std::size_t>(pixels[i]), {red[i], green[i], blue[i]});
+  }
+}
+
+void SplatFolder::fold_techniques(const SplatRecords& records, Film& film) {
+  const auto integers = [&](std::size_t array) {
+    return reinterpret_cast<std::int32_t*>(records.words + array * records.capacity);
+  };
+  const auto reals = [&](std::size_t array) { return records.words + array * records.capacity; };
+  std::int32_t* const pixels = integers(RECORD_PIXEL);
+  for (std::size_t i = 0; i < records.count; ++i) {
+    const std::int32_t tag = integers(RECORD_TECHNIQUE)[i];
+    const bool own = tag < 0;
+    const std::int32_t technique = own ? ~tag : tag;
+    const float weight = reals(RECORD_WEIGHT)[i];
+    std::array<double, 3> value;
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      float& word = reals(RECORD_VALUE + channel)[i];
+      value[channel] = word;
+      word *= weight;
+    }
+    film.techniques()->add({technique >> 16, technique & 0xffff}, static_cast<std::size_t>(pixels[i]), value,
+                           weight);
+    if (own) pixels[i] = merged;
   }
 }
 

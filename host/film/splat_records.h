@@ -23,6 +23,10 @@ public:
   /// Changes the records. The film uses splats.
   void fold(const SplatRecords& records, Film& film);
 
+  /// For records that tell techniques apart, before fold(): hands each to the film's techniques, weights it,
+  /// and takes out those to the paths' own pixels, which the film has already.
+  static void fold_techniques(const SplatRecords& records, Film& film);
+
 private:
   void merge(const SplatRecords& records);
 

@@ -48,7 +48,9 @@ int vertex_words(const Parts& parts) {
   return parts.anisotropic ? VERTEX_WORDS_MOST : parts.smooth_normals ? VERTEX_TANGENT : VERTEX_GEOMETRIC;
 }
 
-constexpr int record_words = RECORD_VALUE + 3;
+std::size_t record_words(const Parts& parts) {
+  return parts.techniques ? RECORD_TECHNIQUE + 1 : RECORD_VALUE + 3;
+}
 
 } // namespace
 
@@ -84,7 +86,8 @@ std::int64_t Launcher::wanted_jobs(std::int64_t left, int block_samples) const {
   // The kernel counts jobs, and words of their sums, in int; a launch's records must fit a buffer.
   std::int64_t largest = std::numeric_limits<cl_int>::max() / 8;
   if (parts_.integrator != Integrator::path) {
-    const double bytes_per_job = (records_per_path_ + 1) * block_samples * record_words * sizeof(float);
+    const double bytes_per_job = (records_per_path_ + 1) * block_samples *
+                                 static_cast<double>(record_words(parts_) * sizeof(float));
     largest = std::min(largest, static_cast<std::int64_t>(static_cast<double>(device_.info.largest_buffer) /
                                                           (4 * bytes_per_job)));
   }
@@ -176,10 +179,10 @@ void Launcher::start(Flight& flight) {
   set(to.counters);
   if (batches) {
     const auto capacity = static_cast<std::size_t>(flight.record_capacity);
-    reserve(to.records, to.records_bytes, flight.batches * capacity * record_words * sizeof(float), "splats");
+    reserve(to.records, to.records_bytes, flight.batches * capacity * record_words(parts_) * sizeof(float), "splats");
     reserve(to.record_counts, to.record_counts_bytes, flight.batches * sizeof(cl_int), "counts of splats");
     set(static_cast<cl_int>(flight.batch_jobs));
-    set(static_cast<cl_int>(record_words));
+    set(static_cast<cl_int>(record_words(parts_)));
     set(static_cast<cl_int>(flight.record_capacity));
     set(to.records);
     set(to.record_counts);
@@ -207,7 +210,7 @@ void Launcher::read_back(Flight& flight) {
   if (flight.batches > 0) {
     read(from.record_counts, flight.host_record_counts, flight.batches);
     const std::size_t words =
-        flight.batches * static_cast<std::size_t>(flight.record_capacity) * record_words;
+        flight.batches * static_cast<std::size_t>(flight.record_capacity) * record_words(parts_);
     flight.host_records = static_cast<float*>(device_.queue.enqueueMapBuffer(
         from.records, CL_FALSE, CL_MAP_READ | CL_MAP_WRITE, 0, words * sizeof(float), nullptr, &flight.read));
   }
@@ -248,10 +251,11 @@ void Launcher::fold_records(Flight& flight, film::Film& film) {
   const auto capacity = static_cast<std::size_t>(flight.record_capacity);
   for (std::size_t batch = 0; batch < flight.batches; ++batch) {
     film::SplatRecords records;
-    records.words = flight.host_records + batch * capacity * record_words;
+    records.words = flight.host_records + batch * capacity * record_words(parts_);
     records.capacity = capacity;
     records.count = static_cast<std::size_t>(flight.host_record_counts[batch]);
     records.paths = static_cast<std::size_t>(flight.batch_jobs * flight.launch.block_samples);
+    if (parts_.techniques) film::SplatFolder::fold_techniques(records, film);
     folder_.fold(records, film);
   }
 }

@@ -128,6 +128,9 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
   parts.lanes = lanes;
   parts.integrator = find_integrator(settings.integrator);
   parts.weights = settings.weights;
+  parts.techniques = settings.techniques;
+  if (parts.techniques && parts.integrator == Integrator::path)
+    throw UsageError("--contributions: a path from the eye is made in one way: use -i bidir or light");
   parts.strategy = find_strategy(settings.strategy).macro;
   parts.connect = possible_connect(settings, lights);
   parts.hierarchy = !geometry.nodes.empty() || geometry.root < 0;
@@ -204,6 +207,7 @@ std::map<std::string, std::string> Parts::defines() const {
     if (few_primitives) macros["PHLUX_FEW_PRIMITIVES"] = "1";
   }
   if (phong_lobe) macros["PHONG_TABLE_INTERVALS"] = std::to_string(reflectivity_intervals);
+  if (techniques) macros["PHLUX_TECHNIQUES"] = "1";
   if (integrator == Integrator::bidir) {
     macros["PHLUX_BIDIR"] = "1";
     macros["PHLUX_WEIGHTS"] = weights == Weights::balance ? "WEIGHTS_BALANCE"

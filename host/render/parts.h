@@ -32,6 +32,7 @@ struct Parts {
   bool one_light = false, few_lights = false, few_materials = false, few_primitives = false; ///< no code
   Connect connect = Connect::mis;
   Weights weights = Weights::balance;
+  bool techniques = false; ///< contributions are recorded one by one
   std::string strategy;
 
   /// Names for people, such as "spheres" or "light_planar", in a fixed order.

@@ -237,6 +237,7 @@ Statistics render(const scene::Scene& scene, const Settings& settings, film::Fil
   for (const device::Device& device : devices) workers.push_back(workshop.make(device, statistics));
   describe(statistics, devices, workers);
   film.set_unit(workshop.unit());
+  if (settings.techniques) film.use_techniques();
 
   Work work(scene.camera, settings, film, events);
   run_all(work, workers);

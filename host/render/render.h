@@ -22,6 +22,7 @@ struct Settings {
   std::string strategy = "exact"; ///< how directions are sampled, MATH.md 2.3
   Connect connect = Connect::mis;       ///< path
   Weights weights = Weights::balance;   ///< bidir
+  bool techniques = false; ///< light, bidir: the film keeps what each technique brings by itself as well
   std::optional<double> ambient;      ///< path: radiance of a control variate (CW 197, 2.2, reference 15)
   int samples_per_pixel = 4;          ///< ignored where a time or an error is asked for
   std::optional<double> time_limit;   ///< seconds of rendering
