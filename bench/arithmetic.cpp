@@ -10,6 +10,7 @@
 
 #include "bench/csv.h"
 #include "bench/draw.h"
+#include "bench/moments.h"
 #include "bench/phong_program.h"
 #include "bench/provenance.h"
 #include "bench/scripts.h"
@@ -30,11 +31,6 @@ cl::Program build(const device::Device& device, const device::KernelFiles& files
 
 double unit_in_last_place(double value) {
   return std::ldexp(1.0, std::max(std::ilogb(value), -126) - 23);
-}
-
-double median(std::vector<double> values) {
-  std::ranges::sort(values);
-  return values[values.size() / 2];
 }
 
 std::size_t work_items(const device::Device& device) {

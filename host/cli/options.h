@@ -19,8 +19,7 @@ struct RenderOptions {
   std::map<std::string, std::string> definitions;
 
   std::optional<std::string> integrator, strategy;
-  std::optional<render::Connect> connect;
-  std::optional<render::Weights> weights;
+  render::Connect connect = render::Connect::mis;
   std::optional<int> max_depth, rr_depth;
   std::optional<double> ambient;
 
@@ -37,7 +36,6 @@ struct RenderOptions {
   std::filesystem::path output;  ///< empty: the scene's name, .exr, in the working directory
   std::filesystem::path preview; ///< empty: the output's name, .png, beside it
   std::filesystem::path statistics;
-  std::filesystem::path contributions; ///< folder, empty: none
   bool moments = false, quiet = false, verbose = false;
 };
 

@@ -25,7 +25,6 @@
   MEMBER(LightRecord, cutoff)                                                                                \
   MEMBER(LightRecord, inv_transition)                                                                        \
   MEMBER(LightRecord, probability)                                                                           \
-  MEMBER(LightRecord, emission_density)                                                                      \
   MEMBER(LightRecord, alias_threshold)                                                                       \
   MEMBER(LightRecord, alias)                                                                                 \
   MEMBER(CameraRecord, position)                                                                             \
@@ -34,6 +33,5 @@
   MEMBER(CameraRecord, up)                                                                                   \
   MEMBER(CameraRecord, principal_x)                                                                          \
   MEMBER(CameraRecord, principal_y)                                                                          \
-  MEMBER(CameraRecord, film_area)                                                                            \
   MEMBER(CameraRecord, width)                                                                                \
   MEMBER(CameraRecord, height)
