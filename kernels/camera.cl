@@ -26,4 +26,43 @@ static inline Ray camera_ray(const Scene* scene, Uint pixel, Real u, Real v) {
   return ray;
 }
 
+// How the camera sees the direction `from_eye` (unit).
+typedef struct {
+  Mask seen;    // in front of the camera and on the film
+  Int pixel;    // which pixel it is in
+  Real density; // of camera_ray over the whole film, per solid angle at the eye: 1 / (film area x cos^3)
+} FilmPoint;
+
+static inline FilmPoint camera_sees(const Scene* scene, Vec3 from_eye) {
+  const __global CameraRecord* camera = scene->camera;
+  const float width = (float)camera->width, height = (float)camera->height;
+  const Vec3 left = camera_vector(camera->left), up = camera_vector(camera->up);
+  const Real cosine = vec_dot(from_eye, camera_vector(camera->forward));
+  const Real x = 0.5f - 0.5f * vec_dot(from_eye, left) / (cosine * vec_dot(left, left)) - camera->principal_x;
+  const Real y = 0.5f - 0.5f * vec_dot(from_eye, up) / (cosine * vec_dot(up, up)) - camera->principal_y;
+  // Floor, not a cast: a cast would draw in light from beyond the left and upper borders.
+  const Real column = floor(x * width), row = floor(y * height);
+  FilmPoint point;
+  point.seen = (cosine > 0.0f) & (column >= 0.0f) & (column < width) & (row >= 0.0f) & (row < height);
+  const Int first = (Int)(0);
+  point.pixel = (point.seen ? to_int(row) : first) * camera->width + (point.seen ? to_int(column) : first);
+  point.density = 1.0f / (camera->film_area * cosine * cosine * cosine);
+  return point;
+}
+
+static inline FilmPoint select_film(Mask m, FilmPoint yes, FilmPoint no) {
+  FilmPoint point;
+  point.seen = (m & yes.seen) | ((!m) & no.seen);
+  point.pixel = m ? yes.pixel : no.pixel;
+  point.density = m ? yes.density : no.density;
+  return point;
+}
+
+#ifdef PHLUX_BIDIR
+static inline Real film_density(const Scene* scene, Vec3 from_eye) {
+  const Real cosine = vec_dot(from_eye, camera_vector(scene->camera->forward));
+  return 1.0f / (scene->camera->film_area * cosine * cosine * cosine);
+}
+#endif
+
 #endif

@@ -1,18 +1,10 @@
-// The film as kernels see it: jobs, each one pixel and one block of its samples, whose sums are handed to the host.
-// Jobs count pixel by pixel, then block by block; lane l of a launch takes jobs l, l + stride, ... so that a lane whose
-// path has ended begins the next at once.
+// The film as the path tracer sees it: jobs, whose sums are handed to the host. Lane l of a launch takes jobs
+// l, l + stride, ... so that a lane whose path has ended begins the next at once.
 #ifndef PHLUX_FILM_CL
 #define PHLUX_FILM_CL
 
 #include "lanes.h"
-
-// What a launch is to do (host/render/schedule.h).
-typedef struct {
-  int pixel_count; // of the image
-  int first_pixel; // job 0 is of that pixel
-  int job_count;
-  int first_sample, block_samples, end_sample; // block b has samples first_sample + b block_samples onwards
-} JobList;
+#include "launch.h"
 
 // The job that each lane is at.
 typedef struct {
@@ -69,13 +61,12 @@ static inline void add_sample(JobList list, Job* job, Vec3 radiance, __global fl
   const Real total = radiance.x + radiance.y + radiance.z;
   const Mask finite = total - total == 0.0f;
   const Mask counts = ended & finite;
-  const Mask last = sample_number(list, *job) + 1 >= list.end_sample;
   job->nonfinite += (ended & !finite) ? (Uint)(1u) : (Uint)(0u);
   job->sum = vec_select(counts, vec_add(job->sum, radiance), job->sum);
   job->sum_of_squares =
       vec_select(counts, vec_add(job->sum_of_squares, vec_mul(radiance, radiance)), job->sum_of_squares);
   job->samples += ended ? (Int)(1) : (Int)(0);
-  const Mask complete = ended & (last | (job->samples == list.block_samples));
+  const Mask complete = ended & (job->samples == list.block_samples);
   if (any_lane(complete)) hand_over(list, job, sums, complete);
 }
 

@@ -44,7 +44,8 @@ typedef LANE_JOIN(int, WIDTH) Mask;
 // AVX-512 has single instructions for what the portable forms below spell out; LANES_PORTABLE tests those forms.
 #if WIDTH == 16 && defined(__AVX512F__) && !defined(LANES_PORTABLE) && defined(__has_builtin)
 #if __has_builtin(__builtin_ia32_gathersiv16sf) && __has_builtin(__builtin_ia32_cmpd512_mask) &&                       \
-    __has_builtin(__builtin_ia32_compresssf512_mask)
+    __has_builtin(__builtin_ia32_compresssf512_mask) && __has_builtin(__builtin_ia32_expandsf512_mask) && \
+    __has_builtin(__builtin_ia32_permvarsf512)
 #define LANES_AVX512
 typedef float LaneNativeFloats __attribute__((vector_size(64)));
 typedef int LaneNativeInts __attribute__((vector_size(64)));
@@ -156,12 +157,37 @@ static inline Int gather_int(const __global int* base, Int index) {
 #define GATHER_VEC3(table, index, member)                                                                              \
   vec3(GATHER_REAL(table, index, member[0]), GATHER_REAL(table, index, member[1]), GATHER_REAL(table, index, member[2]))
 
+// A table of at most LANES structs of 4-byte members can be kept member by member, in private memory, where looking an
+// entry up is to permute a register; a gather takes many times as long. Only where registers can be permuted.
+#ifdef LANES_AVX512
+#define LANES_PERMUTE
+static inline Real permute_real(const float* values, Int index) {
+  return LANE_REALS(__builtin_ia32_permvarsf512(LANE_NATIVE_FLOATS(vload16(0, values)), LANE_NATIVE_INTS(index)));
+}
+static inline Int permute_int(const float* values, Int index) { return real_bits(permute_real(values, index)); }
+// The table has LANES entries of `words` words, used or not.
+static inline void load_members(const __global void* table, int words, float (*members)[LANES]) {
+  for (int word = 0; word < words; ++word)
+    vstore16(gather_real((const __global float*)table, LANE_NUMBERS * words + word), 0, members[word]);
+}
+#define PERMUTE_REAL(members, table, index, member) permute_real((members)[MEMBER_PLACE(float, table, member)], index)
+#define PERMUTE_INT(members, table, index, member) permute_int((members)[MEMBER_PLACE(int, table, member)], index)
+#endif
+
 // base[index] = value in the lanes of m, in lane order.
 static inline void scatter_real(__global float* base, Int index, Real value, Mask m) {
 #if WIDTH == 1
   if (m) base[index] = value;
 #else
 #define LANE_STORE(k) (m.s##k ? (void)(base[index.s##k] = value.s##k) : (void)0)
+  LANE_EACH(LANE_STORE);
+#endif
+}
+
+static inline void scatter_int(__global int* base, Int index, Int value, Mask m) {
+#if WIDTH == 1
+  if (m) base[index] = value;
+#else
   LANE_EACH(LANE_STORE);
 #endif
 }
@@ -212,6 +238,22 @@ static inline Int load_ints(const __global int* base) {
 #endif
 }
 
+// WIDTH consecutive words to `base`.
+static inline void store_reals(__global float* base, Real v) {
+#if WIDTH == 1
+  *base = v;
+#else
+  LANE_JOIN(vstore, WIDTH)(v, 0, base);
+#endif
+}
+static inline void store_ints(__global int* base, Int v) {
+#if WIDTH == 1
+  *base = v;
+#else
+  LANE_JOIN(vstore, WIDTH)(v, 0, base);
+#endif
+}
+
 // ---- Across lanes
 
 // The smallest of all lanes.
@@ -259,35 +301,84 @@ static inline int first_lane(Mask m) {
 #endif
 }
 
+static inline int count_lanes(Mask m) {
+#ifdef LANES_AVX512
+  return popcount((int)lane_bits(m));
+#else
+  return (int)sum_of_lanes(m ? (Uint)(1u) : (Uint)(0u));
+#endif
+}
+
+// How many lanes of m stand before each lane of it; without meaning in other lanes.
+static inline Int rank_lanes(Mask m) {
+#ifdef LANES_AVX512
+  return LANE_INTS(__builtin_ia32_expandsi512_mask(LANE_NATIVE_INTS(LANE_NUMBERS), LANE_NATIVE_INTS((Int)(0)),
+                                                   (ushort)lane_bits(m)));
+#elif WIDTH == 1
+  return 0;
+#else
+  int chosen[WIDTH], rank[WIDTH];
+  int_lanes_to_array(m, chosen);
+  for (int lane = 0, count = 0; lane < WIDTH; ++lane) {
+    rank[lane] = count;
+    count += chosen[lane] != 0;
+  }
+  return int_lanes_from_array(rank);
+#endif
+}
+
+// Moves the lanes of m to the front, in lane order; the others may hold anything.
+static inline Real pack_lanes(Mask m, Real v) {
+#ifdef LANES_AVX512
+  return LANE_REALS(__builtin_ia32_compresssf512_mask(LANE_NATIVE_FLOATS(v), LANE_NATIVE_FLOATS((Real)(0.0f)),
+                                                      (ushort)lane_bits(m)));
+#elif WIDTH == 1
+  return v;
+#else
+  float from[WIDTH], to[WIDTH];
+  int chosen[WIDTH];
+  lanes_to_array(v, from);
+  lanes_to_array((Real)(0.0f), to);
+  int_lanes_to_array(m, chosen);
+  for (int lane = 0, count = 0; lane < WIDTH; ++lane) {
+    to[count] = from[lane];
+    count += chosen[lane] != 0;
+  }
+  return lanes_from_array(to);
+#endif
+}
+static inline Int pack_int_lanes(Mask m, Int v) { return real_bits(pack_lanes(m, bits_real(v))); }
+
+// The other way round: the lanes of m take the first values of v, in lane order; the others keep `old`.
+static inline Real unpack_lanes(Mask m, Real v, Real old) {
+#ifdef LANES_AVX512
+  return LANE_REALS(
+      __builtin_ia32_expandsf512_mask(LANE_NATIVE_FLOATS(v), LANE_NATIVE_FLOATS(old), (ushort)lane_bits(m)));
+#elif WIDTH == 1
+  return m ? v : old;
+#else
+  float from[WIDTH], to[WIDTH];
+  int chosen[WIDTH];
+  lanes_to_array(v, from);
+  lanes_to_array(old, to);
+  int_lanes_to_array(m, chosen);
+  for (int lane = 0, count = 0; lane < WIDTH; ++lane) {
+    to[lane] = chosen[lane] ? from[count] : to[lane];
+    count += chosen[lane] != 0;
+  }
+  return lanes_from_array(to);
+#endif
+}
+static inline Int unpack_int_lanes(Mask m, Int v, Int old) {
+  return real_bits(unpack_lanes(m, bits_real(v), bits_real(old)));
+}
+
 // Appends the keys and values of the lanes in m to two arrays, in lane order; the arrays have room for WIDTH more.
 // Returns how many.
 static inline int append_lanes(Mask m, Real key, Int value, float* keys, int* values) {
-#ifdef LANES_AVX512
-  const ushort bits = (ushort)lane_bits(m);
-  vstore16(
-      LANE_REALS(__builtin_ia32_compresssf512_mask(LANE_NATIVE_FLOATS(key), LANE_NATIVE_FLOATS((Real)(0.0f)), bits)), 0,
-      keys);
-  vstore16(LANE_INTS(__builtin_ia32_compresssi512_mask(LANE_NATIVE_INTS(value), LANE_NATIVE_INTS((Int)(0)), bits)), 0,
-           values);
-  return popcount((int)bits);
-#elif WIDTH == 1
-  *keys = key;
-  *values = value;
-  return m != 0;
-#else
-  float key_of[WIDTH];
-  int value_of[WIDTH], chosen[WIDTH];
-  lanes_to_array(key, key_of);
-  int_lanes_to_array(value, value_of);
-  int_lanes_to_array(m, chosen);
-  int count = 0;
-  for (int lane = 0; lane < WIDTH; ++lane) {
-    keys[count] = key_of[lane];
-    values[count] = value_of[lane];
-    count += chosen[lane] != 0;
-  }
-  return count;
-#endif
+  lanes_to_array(pack_lanes(m, key), keys);
+  int_lanes_to_array(pack_int_lanes(m, value), values);
+  return count_lanes(m);
 }
 
 // ---- Vectors
@@ -319,10 +410,29 @@ static inline Vec3 vec_cross(Vec3 a, Vec3 b) {
 static inline Vec3 vec_select(Mask m, Vec3 yes, Vec3 no) {
   return vec3(m ? yes.x : no.x, m ? yes.y : no.y, m ? yes.z : no.z);
 }
+static inline Vec3 pack_vec(Mask m, Vec3 v) { return vec3(pack_lanes(m, v.x), pack_lanes(m, v.y), pack_lanes(m, v.z)); }
 static inline Vec3 vec_normalize(Vec3 a) { return vec_scale((Real)(1.0f) / sqrt(vec_dot(a, a)), a); }
 static inline Real vec_max(Vec3 a) { return larger(a.x, larger(a.y, a.z)); }
 static inline Real vec_mean(Vec3 a) { return (a.x + a.y + a.z) * (1.0f / 3.0f); }
 static inline Real vec_largest(Vec3 a) { return larger(fabs(a.x), larger(fabs(a.y), fabs(a.z))); }
+
+// Adds v to the vector `index` of `base`, of four words each, in the lanes of m, one lane after another: two lanes may
+// share an index.
+static inline void add_vec(__global float* base, Int index, Vec3 v, Mask m) {
+#if WIDTH == 1
+  if (m) vstore4(vload4((size_t)index, base) + (float4)(v.x, v.y, v.z, 0.0f), (size_t)index, base);
+#else
+  float x[WIDTH], y[WIDTH], z[WIDTH];
+  int at[WIDTH];
+  const int count = count_lanes(m);
+  lanes_to_array(pack_lanes(m, v.x), x);
+  lanes_to_array(pack_lanes(m, v.y), y);
+  lanes_to_array(pack_lanes(m, v.z), z);
+  int_lanes_to_array(pack_int_lanes(m, index), at);
+  for (int i = 0; i < count; ++i)
+    vstore4(vload4((size_t)at[i], base) + (float4)(x[i], y[i], z[i], 0.0f), (size_t)at[i], base);
+#endif
+}
 
 // Cosine and sine of 2 pi turns, for turns in [0, 1]; both within 2 ulp of the larger. Polynomials fitted for the
 // least relative error over an eighth of a turn to either side of the nearest quarter.

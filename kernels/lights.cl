@@ -1,5 +1,6 @@
 // Lights: choosing one, choosing a direction towards it, and the density with which that direction is chosen.
-// Densities are per solid angle at the lit point and include the probability of choosing the light.
+// Densities are per solid angle at the lit point and include the probability of choosing the light. Emission, the other
+// way round, is in emission.cl.
 #ifndef PHLUX_LIGHTS_CL
 #define PHLUX_LIGHTS_CL
 
@@ -7,101 +8,50 @@
 #include "random.h"
 #include "surface.cl"
 
-#if PHLUX_CONNECT != CONNECT_NONE
+#ifdef PHLUX_LIGHT_KINDS
+#define LIGHT_IS(kind, which) ((kind) == (which))
+#else
+#define LIGHT_IS(kind, which) ((void)(kind), ALL_LANES)
+#endif
 
-typedef struct {
-  Ray ray;       // from the lit point, stepped off its surface, to the light
-  Real distance; // before which the ray must be free
-  Vec3 radiance; // arriving along it; for a light without a surface, what stands for radiance / density (density is 1)
-  Real density;
-  Mask hittable; // a ray along a sampled direction of the surface could find this light as well
-  Mask valid;    // something arrives: the light faces the point
-} LightSample;
+// ---- The light and the point of it
 
 // The light for one random word (the other decides between the two lights of the cell), by the alias method.
 static inline Int choose_light(const Scene* scene, Uint cell_word, Uint alias_word) {
 #ifdef PHLUX_LIGHT_CHOICE
   const Int cell = uint_to_int(mul_hi(cell_word, (Uint)((uint)scene->light_count)));
-  const Mask keep = uniform_real(alias_word) < GATHER_REAL(scene->lights, cell, alias_threshold);
-  return keep ? cell : GATHER_INT(scene->lights, cell, alias);
+  const Mask keep = uniform_real(alias_word) < LIGHT_REAL(scene, cell, alias_threshold);
+  return keep ? cell : LIGHT_INT(scene, cell, alias);
 #else
   return (Int)(0);
 #endif
 }
 
+static inline Int light_kind(const Scene* scene, Int light) {
+#ifdef PHLUX_LIGHT_KINDS
+  return LIGHT_INT(scene, light, kind);
+#else
+  return (Int)(scene->lights[0].kind);
+#endif
+}
+
 static inline Real light_probability(const Scene* scene, Int light) {
 #ifdef PHLUX_LIGHT_CHOICE
-  return GATHER_REAL(scene->lights, light, probability);
+  return LIGHT_REAL(scene, light, probability);
 #else
   return (Real)(1.0f);
 #endif
 }
 
-#ifdef PHLUX_LIGHT_SPHERE
-// The cone that a sphere fills as seen from outside: 1 - cos of its half angle, without cancellation.
-static inline Real one_minus_cone_cosine(SphereShape sphere, Real distance2) {
-  const Real sine2 = sphere.radius * sphere.radius / distance2;
-  return sine2 / (1.0f + sqrt(larger(1.0f - sine2, (Real)(0.0f))));
-}
-#endif
-
-// Density with which light_sample at `lit` would have chosen the direction of `ray`, which found `hit_point` on the
-// front of `light` after `distance`; without meaning in lanes that found no light.
-static inline Real light_density_of_hit(const Scene* scene, Vec3 lit, Ray ray, Real distance, SurfacePoint hit_point,
-                                        Int light) {
-  const Real choice = light_probability(scene, light);
-  const Real cosine = -vec_dot(hit_point.normal, ray.direction);
-  Real density = choice * distance * distance / (cosine * GATHER_REAL(scene->lights, light, area));
-#ifdef PHLUX_LIGHT_SPHERE
-  const Mask is_sphere = GATHER_INT(scene->lights, light, kind) == LIGHT_SPHERE;
-  const Int primitive = GATHER_INT(scene->lights, light, primitive);
-#ifdef PHLUX_PLANARS
-  const SphereShape sphere = gather_sphere(scene, max(primitive - scene->first_sphere, (Int)(0)));
-#else
-  const SphereShape sphere = gather_sphere(scene, primitive);
-#endif
-  const Vec3 to_center = vec_sub(sphere.center, lit);
-  const Real distance2 = vec_dot(to_center, to_center);
-  const Mask outside =
-      (distance2 > sphere.radius * sphere.radius) & (GATHER_INT(scene->primitives, primitive, region) == 0);
-  const Real cone = choice * (0.5f * PHONG_INV_PI) / one_minus_cone_cosine(sphere, distance2);
-  density = (is_sphere & outside) ? cone : density;
-#endif
-  return density;
-}
-
-// The direction from `lit` to a point on a light's surface whose outward front normal is `normal`.
-static inline void aim_at(LightSample* s, SurfacePoint lit, Vec3 target, Vec3 normal, Real target_error) {
-  const Vec3 direct = vec_sub(target, lit.position);
-  const Real reach = vec_largest(direct);
-  s->ray.origin = step_off(lit.position, lit.normal, lit.error, direct);
-  // Stop short of the light by what its crossing may be wrong as seen from here.
-  const Vec3 end = vec_along(target, target_error + ERROR_UNITS * reach, normal);
-  const Vec3 way = vec_sub(end, s->ray.origin);
-  s->distance = sqrt(vec_dot(way, way));
-  s->ray.direction = vec_scale((Real)(1.0f) / s->distance, way);
-}
-
-// Takes `mine`, a point of a light's surface, into *s in the lanes of m.
-static inline void keep_surface_sample(LightSample* s, LightSample mine, Mask m, Mask faces) {
-  s->ray.origin = vec_select(m, mine.ray.origin, s->ray.origin);
-  s->ray.direction = vec_select(m, mine.ray.direction, s->ray.direction);
-  s->distance = m ? mine.distance : s->distance;
-  s->density = m ? mine.density : s->density;
-  s->hittable = s->hittable | m;
-  s->valid = s->valid | (m & faces);
-}
-
 #ifdef PHLUX_LIGHT_PLANAR
-// A point of a flat light, uniform over its area.
-static inline void sample_planar_light(const Scene* scene, LightSample* s, SurfacePoint lit, Int light, Mask m, Real u1,
-                                       Real u2) {
-  const Int primitive = m ? GATHER_INT(scene->lights, light, primitive) : (Int)(0);
+// A point of a flat light, uniform over its area; its normal is on the side that emits. The lanes of m are on one.
+static inline Place planar_light_point(const Scene* scene, Int light, Mask m, Real u1, Real u2) {
+  const Int primitive = m ? LIGHT_INT(scene, light, primitive) : (Int)(0);
   const Int words = planar_words(primitive);
 #if defined(PHLUX_TRIANGLES) || defined(PHLUX_ELLIPSES)
-  const Int region = GATHER_INT(scene->primitives, primitive, region);
+  const Int region = PRIMITIVE_INT(scene, primitive, region);
 #endif
-  const Real area = GATHER_REAL(scene->lights, light, area);
+  const Real area = LIGHT_REAL(scene, light, area);
   // |edge_u x edge_v| from the area of the region that it spans; the parallelogram's is 4 of them.
   Real u = 2.0f * u1 - 1.0f, v = 2.0f * u2 - 1.0f, cross_length = 0.25f * area;
 #ifdef PHLUX_TRIANGLES
@@ -120,32 +70,123 @@ static inline void sample_planar_light(const Scene* scene, LightSample* s, Surfa
   v = ellipse ? radius * sin_phi : v;
   cross_length = ellipse ? area * PHONG_INV_PI : cross_length;
 #endif
-  const Vec3 normal = gather_planar(scene, words, PLANAR_NORMAL);
   const Vec3 origin = gather_planar(scene, words, PLANAR_ORIGIN);
   const Vec3 edge_part = vec_along(vec_scale(-u, gather_planar(scene, words, PLANAR_MINUS_U)), v,
                                    gather_planar(scene, words, PLANAR_EDGE_V));
   const Vec3 from_origin = vec_scale(cross_length, edge_part);
-  const Vec3 target = vec_add(origin, from_origin);
-  LightSample mine = *s;
-  aim_at(&mine, lit, target, normal, ERROR_UNITS * (vec_largest(target) + vec_largest(from_origin)));
-  const Real cosine = -vec_dot(normal, mine.ray.direction);
-  mine.density = light_probability(scene, light) * mine.distance * mine.distance / (cosine * area);
-  keep_surface_sample(s, mine, m, cosine > 0.0f);
+  Place point;
+  point.position = vec_add(origin, from_origin);
+  point.normal = gather_planar(scene, words, PLANAR_NORMAL);
+  point.error = ERROR_UNITS * (vec_largest(point.position) + vec_largest(from_origin));
+  return point;
+}
+#endif
+
+#ifdef PHLUX_LIGHT_SPHERE
+// The primitive of a light; that of any sphere in lanes that are not of m.
+static inline Int sphere_primitive(const Scene* scene, Int light, Mask m) {
+#ifdef PHLUX_PLANARS
+  return m ? LIGHT_INT(scene, light, primitive) : (Int)(scene->first_sphere);
+#else
+  return m ? LIGHT_INT(scene, light, primitive) : (Int)(0);
+#endif
+}
+
+static inline SphereShape sphere_of_light(const Scene* scene, Int primitive) {
+#ifdef PHLUX_PLANARS
+  return gather_sphere(scene, primitive - scene->first_sphere);
+#else
+  return gather_sphere(scene, primitive);
+#endif
+}
+
+// The point of a spherical light in the direction `unit` from its centre; its normal is on the side that emits.
+static inline Place sphere_light_point(SphereShape sphere, Vec3 unit, Mask front_inside) {
+  Place point;
+  point.position = vec_along(sphere.center, sphere.radius, unit);
+  point.normal = vec_select(front_inside, vec_scale((Real)(-1.0f), unit), unit);
+  point.error = ERROR_UNITS * (vec_largest(sphere.center) + sphere.radius);
+  return point;
+}
+#endif
+
+#ifdef PHLUX_LIGHT_SPOT
+// How much of its intensity a spot light sends at an angle of the given cosine to its axis.
+static inline Real spot_falloff(const Scene* scene, Int light, Real cosine) {
+  const Real angle = acos(clamp(cosine, (Real)(-1.0f), (Real)(1.0f)));
+  return clamp((LIGHT_REAL(scene, light, cutoff) - angle) * LIGHT_REAL(scene, light, inv_transition),
+               (Real)(0.0f), (Real)(1.0f));
+}
+#endif
+
+// ---- Light samples
+
+#if PHLUX_CONNECT != CONNECT_NONE
+
+typedef struct {
+  Ray ray;       // from the lit point, stepped off its surface, to the light
+  Real distance; // before which the ray must be free
+  Vec3 radiance; // arriving along it is radiance / density; intensity or irradiance of a light without a surface
+  Real density;  // distance^2 (point, spot) or 1 (directional) stands for a light without a surface
+  Int light;
+  Mask hittable; // a ray along a sampled direction of the surface could find this light as well
+  Mask valid;    // something arrives: the light faces the point
+} LightSample;
+
+#ifdef PHLUX_LIGHT_SPHERE
+// The cone that a sphere fills as seen from outside: 1 - cos of its half angle, without cancellation.
+static inline Real one_minus_cone_cosine(SphereShape sphere, Real distance2) {
+  const Real sine2 = sphere.radius * sphere.radius / distance2;
+  return sine2 / (1.0f + sqrt(larger(1.0f - sine2, (Real)(0.0f))));
+}
+#endif
+
+// Density with which light_sample at `lit` would have chosen the point of `light` that lies `distance` away, where the
+// light's normal makes an angle of `cosine` with the way back; without meaning in lanes whose light has no surface.
+static inline Real light_density(const Scene* scene, Vec3 lit, Int light, Real distance, Real cosine) {
+  const Real choice = light_probability(scene, light);
+  Real density = choice * distance * distance / (cosine * LIGHT_REAL(scene, light, area));
+#ifdef PHLUX_LIGHT_SPHERE
+  const Mask is_sphere = LIGHT_IS(light_kind(scene, light), LIGHT_SPHERE);
+  const Int primitive = sphere_primitive(scene, light, is_sphere);
+  const SphereShape sphere = sphere_of_light(scene, primitive);
+  const Vec3 to_center = vec_sub(sphere.center, lit);
+  const Real distance2 = vec_dot(to_center, to_center);
+  const Mask outside =
+      (distance2 > sphere.radius * sphere.radius) & (PRIMITIVE_INT(scene, primitive, region) == 0);
+  const Real cone = choice * (0.5f * PHONG_INV_PI) / one_minus_cone_cosine(sphere, distance2);
+  density = (is_sphere & outside) ? cone : density;
+#endif
+  return density;
+}
+
+// Takes a ray to a light's surface into *s in the lanes of m.
+static inline void keep_surface_sample(LightSample* s, Ray ray, Real distance, Real cosine, Real density, Mask m) {
+  s->ray.origin = vec_select(m, ray.origin, s->ray.origin);
+  s->ray.direction = vec_select(m, ray.direction, s->ray.direction);
+  s->distance = m ? distance : s->distance;
+  s->density = m ? density : s->density;
+  s->hittable = s->hittable | m;
+  s->valid = s->valid | (m & (cosine > 0.0f));
+}
+
+#ifdef PHLUX_LIGHT_PLANAR
+static inline void sample_planar_light(const Scene* scene, LightSample* s, Place lit, Mask m, Real u1, Real u2) {
+  const Place place = planar_light_point(scene, s->light, m, u1, u2);
+  Real distance;
+  const Ray ray = ray_between(lit, place, &distance);
+  const Real cosine = -vec_dot(place.normal, ray.direction);
+  const Real by_area = distance * distance / (cosine * LIGHT_REAL(scene, s->light, area));
+  keep_surface_sample(s, ray, distance, cosine, light_probability(scene, s->light) * by_area, m);
 }
 #endif
 
 #ifdef PHLUX_LIGHT_SPHERE
 // A point of a sphere: uniform in the cone that it fills from outside, else uniform over its area.
-static inline void sample_sphere_light(const Scene* scene, LightSample* s, SurfacePoint lit, Int light, Mask m, Real u1,
-                                       Real u2) {
-#ifdef PHLUX_PLANARS
-  const Int primitive = m ? GATHER_INT(scene->lights, light, primitive) : (Int)(scene->first_sphere);
-  const SphereShape sphere = gather_sphere(scene, primitive - scene->first_sphere);
-#else
-  const Int primitive = m ? GATHER_INT(scene->lights, light, primitive) : (Int)(0);
-  const SphereShape sphere = gather_sphere(scene, primitive);
-#endif
-  const Mask front_inside = GATHER_INT(scene->primitives, primitive, region) != 0;
+static inline void sample_sphere_light(const Scene* scene, LightSample* s, Place lit, Mask m, Real u1, Real u2) {
+  const Int primitive = sphere_primitive(scene, s->light, m);
+  const SphereShape sphere = sphere_of_light(scene, primitive);
+  const Mask front_inside = PRIMITIVE_INT(scene, primitive, region) != 0;
   const Vec3 to_center = vec_sub(sphere.center, lit.position);
   const Real distance2 = vec_dot(to_center, to_center);
   const Real center_distance = sqrt(distance2);
@@ -164,103 +205,80 @@ static inline void sample_sphere_light(const Scene* scene, LightSample* s, Surfa
   const Real r = sqrt(larger(1.0f - z * z, (Real)(0.0f)));
   const Frame towards_lit = frame_about(vec_scale(-1.0f / center_distance, to_center));
   const Vec3 unit = from_frame(towards_lit, vec3(r * cos_phi, r * sin_phi, z));
-  const Vec3 target = vec_along(sphere.center, sphere.radius, unit);
-  const Vec3 normal = vec_select(front_inside, vec_scale((Real)(-1.0f), unit), unit);
-  LightSample mine = *s;
-  aim_at(&mine, lit, target, normal, ERROR_UNITS * (vec_largest(sphere.center) + sphere.radius));
-  const Real cosine = -vec_dot(normal, mine.ray.direction);
-  const Real choice = light_probability(scene, light);
-  const Real by_area = choice * mine.distance * mine.distance / (cosine * GATHER_REAL(scene->lights, light, area));
-  mine.density = in_cone ? choice * (0.5f * PHONG_INV_PI) / cone : by_area;
-  keep_surface_sample(s, mine, m, cosine > 0.0f);
+  const Place place = sphere_light_point(sphere, unit, front_inside);
+  Real distance;
+  const Ray ray = ray_between(lit, place, &distance);
+  const Real cosine = -vec_dot(place.normal, ray.direction);
+  const Real by_area = distance * distance / (cosine * LIGHT_REAL(scene, s->light, area));
+  const Real density = in_cone ? (0.5f * PHONG_INV_PI) / cone : by_area;
+  keep_surface_sample(s, ray, distance, cosine, light_probability(scene, s->light) * density, m);
 }
 #endif
 
 #if defined(PHLUX_LIGHT_POINT) || defined(PHLUX_LIGHT_SPOT)
-// A light without extent: radiance / density is intensity / distance^2 / the probability of choosing it.
-static inline void sample_point_light(const Scene* scene, LightSample* s, SurfacePoint lit, Int light, Int kind,
-                                      Mask m) {
-  const Vec3 position = GATHER_VEC3(scene->lights, light, position);
-  const Vec3 origin = step_off(lit.position, lit.normal, lit.error, vec_sub(position, lit.position));
-  const Vec3 way = vec_sub(position, origin);
-  const Real distance2 = vec_dot(way, way), distance = sqrt(distance2);
-  const Vec3 direction = vec_scale(1.0f / distance, way);
-  Real falloff = 1.0f / (distance2 * light_probability(scene, light));
+static inline void sample_point_light(const Scene* scene, LightSample* s, Place lit, Int kind, Mask m) {
+  Real distance;
+  const Ray ray = ray_to_point(lit, LIGHT_VEC3(scene, s->light, position), &distance);
+  const Real density = distance * distance * light_probability(scene, s->light);
 #ifdef PHLUX_LIGHT_SPOT
-  const Vec3 axis = GATHER_VEC3(scene->lights, light, direction);
-  const Real angle = acos(clamp(-vec_dot(axis, direction), (Real)(-1.0f), (Real)(1.0f)));
-  const Real cone =
-      clamp((GATHER_REAL(scene->lights, light, cutoff) - angle) * GATHER_REAL(scene->lights, light, inv_transition),
-            (Real)(0.0f), (Real)(1.0f));
-  falloff = kind == LIGHT_SPOT ? falloff * cone : falloff;
-#endif
-  s->ray.origin = vec_select(m, origin, s->ray.origin);
-  s->ray.direction = vec_select(m, direction, s->ray.direction);
-  s->distance = m ? distance : s->distance;
-  s->density = m ? (Real)(1.0f) : s->density;
+  const Real cosine = -vec_dot(LIGHT_VEC3(scene, s->light, direction), ray.direction);
+  const Real falloff = kind == LIGHT_SPOT ? spot_falloff(scene, s->light, cosine) : (Real)(1.0f);
   s->radiance = vec_select(m, vec_scale(falloff, s->radiance), s->radiance);
-  s->valid = s->valid | (m & (distance2 > 0.0f));
+#endif
+  s->ray.origin = vec_select(m, ray.origin, s->ray.origin);
+  s->ray.direction = vec_select(m, ray.direction, s->ray.direction);
+  s->distance = m ? distance : s->distance;
+  s->density = m ? density : s->density;
+  s->valid = s->valid | (m & (density > 0.0f));
 }
 #endif
 
 #if defined(PHLUX_LIGHT_DIRECTIONAL) || defined(PHLUX_LIGHT_CONSTANT)
-static inline void aim_to_infinity(LightSample* s, SurfacePoint lit, Vec3 direction, Mask m) {
-  s->ray.origin = vec_select(m, step_off(lit.position, lit.normal, lit.error, direction), s->ray.origin);
+static inline void aim_to_infinity(LightSample* s, Place lit, Vec3 direction, Real density, Mask m) {
+  const Vec3 origin = step_off(lit.position, lit.normal, lit.error, direction);
+  s->ray.origin = vec_select(m, origin, s->ray.origin);
   s->ray.direction = vec_select(m, direction, s->ray.direction);
   s->distance = m ? (Real)(INFINITY) : s->distance;
+  s->density = m ? density : s->density;
   s->valid = s->valid | m;
 }
 #endif
 
 // Chooses a light for each point and a direction towards it. All lanes.
-static inline LightSample light_sample(const Scene* scene, SurfacePoint lit, RandomWords words) {
-  const Int light = choose_light(scene, words.x, words.y);
-  const Real u1 = uniform_real(words.z), u2 = uniform_real(words.w);
-#ifdef PHLUX_LIGHT_KINDS
-  const Int kind = GATHER_INT(scene->lights, light, kind);
-#define LIGHT_IS(which) (kind == (which))
-#else
-#define LIGHT_IS(which) ALL_LANES
-#endif
+static inline LightSample light_sample(const Scene* scene, SurfacePoint point, RandomWords words) {
+  const Place lit = place_of(point);
   LightSample s;
+  s.light = choose_light(scene, words.x, words.y);
   s.ray.origin = lit.position;
   s.ray.direction = lit.normal;
   s.distance = (Real)(0.0f);
-  s.radiance = GATHER_VEC3(scene->lights, light, power);
+  s.radiance = LIGHT_VEC3(scene, s.light, power);
   s.density = (Real)(1.0f);
   s.hittable = NO_LANES;
   s.valid = NO_LANES;
+  const Int kind = light_kind(scene, s.light);
 #ifdef PHLUX_LIGHT_PLANAR
-  sample_planar_light(scene, &s, lit, light, LIGHT_IS(LIGHT_PLANAR), u1, u2);
+  sample_planar_light(scene, &s, lit, LIGHT_IS(kind, LIGHT_PLANAR), uniform_real(words.z), uniform_real(words.w));
 #endif
 #ifdef PHLUX_LIGHT_SPHERE
-  sample_sphere_light(scene, &s, lit, light, LIGHT_IS(LIGHT_SPHERE), u1, u2);
+  sample_sphere_light(scene, &s, lit, LIGHT_IS(kind, LIGHT_SPHERE), uniform_real(words.z), uniform_real(words.w));
 #endif
 #if defined(PHLUX_LIGHT_POINT) || defined(PHLUX_LIGHT_SPOT)
-#ifdef PHLUX_LIGHT_KINDS
-  sample_point_light(scene, &s, lit, light, kind, LIGHT_IS(LIGHT_POINT) | LIGHT_IS(LIGHT_SPOT));
-#else
-  sample_point_light(scene, &s, lit, light, GATHER_INT(scene->lights, light, kind), ALL_LANES);
-#endif
+  sample_point_light(scene, &s, lit, kind, LIGHT_IS(kind, LIGHT_POINT) | LIGHT_IS(kind, LIGHT_SPOT));
 #endif
 #ifdef PHLUX_LIGHT_DIRECTIONAL
-  {
-    const Mask m = LIGHT_IS(LIGHT_DIRECTIONAL);
-    const Vec3 against = vec_scale((Real)(-1.0f), GATHER_VEC3(scene->lights, light, direction));
-    aim_to_infinity(&s, lit, against, m);
-    s.radiance = vec_select(m, vec_scale(1.0f / light_probability(scene, light), s.radiance), s.radiance);
-  }
+  aim_to_infinity(&s, lit, vec_scale((Real)(-1.0f), LIGHT_VEC3(scene, s.light, direction)),
+                  light_probability(scene, s.light), LIGHT_IS(kind, LIGHT_DIRECTIONAL));
 #endif
 #ifdef PHLUX_LIGHT_CONSTANT
   {
-    const Mask m = LIGHT_IS(LIGHT_CONSTANT);
-    const Vec3 upward = cosine_direction(u1, u2);
-    aim_to_infinity(&s, lit, from_frame(lit.frame, upward), m);
-    s.density = m ? light_probability(scene, light) * upward.z * PHONG_INV_PI : s.density;
+    const Mask m = LIGHT_IS(kind, LIGHT_CONSTANT);
+    const Vec3 upward = cosine_direction(uniform_real(words.z), uniform_real(words.w));
+    aim_to_infinity(&s, lit, from_frame(point.frame, upward),
+                    light_probability(scene, s.light) * upward.z * PHONG_INV_PI, m);
     s.hittable = s.hittable | m;
   }
 #endif
-#undef LIGHT_IS
   return s;
 }
 

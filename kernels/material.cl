@@ -16,26 +16,25 @@ typedef struct {
 
 static inline Material material_at(const Scene* scene, Int index) {
   Material m;
-  const __global MaterialRecord* materials = scene->materials;
-  m.phong.diffuse = GATHER_VEC3(materials, index, diffuse);
+  m.phong.diffuse = MATERIAL_VEC3(scene, index, diffuse);
 #ifdef PHLUX_PHONG_LOBE
-  m.phong.specular = GATHER_VEC3(materials, index, specular);
-  m.phong.exponent = GATHER_REAL(materials, index, exponent);
-  m.phong.diffuse_max = GATHER_REAL(materials, index, diffuse_max);
-  m.phong.specular_max = GATHER_REAL(materials, index, specular_max);
-  m.phong.table_scale = GATHER_REAL(materials, index, table_scale);
-  m.phong.grazing_reflectivity = GATHER_REAL(materials, index, grazing_reflectivity);
-  m.phong.table_row = GATHER_INT(materials, index, table_row);
+  m.phong.specular = MATERIAL_VEC3(scene, index, specular);
+  m.phong.exponent = MATERIAL_REAL(scene, index, exponent);
+  m.phong.diffuse_max = MATERIAL_REAL(scene, index, diffuse_max);
+  m.phong.specular_max = MATERIAL_REAL(scene, index, specular_max);
+  m.phong.table_scale = MATERIAL_REAL(scene, index, table_scale);
+  m.phong.grazing_reflectivity = MATERIAL_REAL(scene, index, grazing_reflectivity);
+  m.phong.table_row = MATERIAL_INT(scene, index, table_row);
   m.phong.table = scene->reflectivity;
 #endif
 #ifdef PHLUX_ANISOTROPIC
-  m.is_anisotropic = (GATHER_INT(materials, index, flags) & MATERIAL_ANISOTROPIC) != 0;
+  m.is_anisotropic = (MATERIAL_INT(scene, index, flags) & MATERIAL_ANISOTROPIC) != 0;
   m.anisotropic.diffuse = m.phong.diffuse;
-  m.anisotropic.specular = GATHER_VEC3(materials, index, specular);
-  m.anisotropic.exponent_u = GATHER_REAL(materials, index, exponent);
-  m.anisotropic.exponent_v = GATHER_REAL(materials, index, exponent_v);
-  m.anisotropic.diffuse_max = GATHER_REAL(materials, index, diffuse_max);
-  m.anisotropic.specular_max = GATHER_REAL(materials, index, specular_max);
+  m.anisotropic.specular = MATERIAL_VEC3(scene, index, specular);
+  m.anisotropic.exponent_u = MATERIAL_REAL(scene, index, exponent);
+  m.anisotropic.exponent_v = MATERIAL_REAL(scene, index, exponent_v);
+  m.anisotropic.diffuse_max = MATERIAL_REAL(scene, index, diffuse_max);
+  m.anisotropic.specular_max = MATERIAL_REAL(scene, index, specular_max);
 #endif
   return m;
 }
@@ -44,7 +43,7 @@ static inline Material material_at(const Scene* scene, Int index) {
 static inline Mask reflects(const Scene* scene, Int material, Mask front) {
 #if defined(PHLUX_TWO_SIDED) || defined(PHLUX_BLACK)
   const Int side = front ? (Int)(MATERIAL_FRONT) : (Int)(MATERIAL_BACK);
-  return (GATHER_INT(scene->materials, material, flags) & side) != 0;
+  return (MATERIAL_INT(scene, material, flags) & side) != 0;
 #else
   return front;
 #endif

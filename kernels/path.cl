@@ -7,10 +7,7 @@
 #include "random.h"
 #include "surface.cl"
 #include "traverse.cl"
-
-// Purposes of random words: dimension 0 is the place in the pixel, then two for every edge.
-#define DIMENSION_REFLECTION(edges) (2 * (edges))
-#define DIMENSION_LIGHT(edges) (2 * (edges) + 1)
+#include "walk.cl"
 
 // The path that each lane is on.
 typedef struct {
@@ -55,14 +52,15 @@ static inline void add_emission(const Scene* scene, Path* path, Hit hit, Surface
   const Mask emits = m & point.front & (point.light >= 0);
   if (!any_lane(emits)) return;
   const Int light = max(point.light, (Int)(0));
-  Vec3 arriving = vec_mul(path->throughput, GATHER_VEC3(scene->lights, light, power));
+  Vec3 arriving = vec_mul(path->throughput, LIGHT_VEC3(scene, light, power));
 #if PHLUX_CONNECT == CONNECT_LIGHT
   const Mask counts = emits & (path->edges == 1);
 #else
   const Mask counts = emits;
 #endif
 #if PHLUX_CONNECT == CONNECT_MIS
-  const Real other = light_density_of_hit(scene, path->ray.origin, path->ray, hit.distance, point, light);
+  const Real cosine = -vec_dot(point.normal, path->ray.direction);
+  const Real other = light_density(scene, path->ray.origin, light, hit.distance, cosine);
   const Real weight = path->edges == 1 ? (Real)(1.0f) : path->density / (path->density + other);
   arriving = vec_scale(weight, arriving);
 #endif
@@ -71,17 +69,19 @@ static inline void add_emission(const Scene* scene, Path* path, Hit hit, Surface
 }
 
 // Adds the constant light in the lanes of m, whose rays left the scene.
-static inline void add_sky(Path* path, Mask m, float4 sky, float sky_choice) {
+static inline void add_sky(const Scene* scene, Path* path, Mask m, int sky_light) {
 #ifdef PHLUX_LIGHT_CONSTANT
-  Vec3 arriving = vec_mul(path->throughput, vec3((Real)(sky.x), (Real)(sky.y), (Real)(sky.z)));
+  const __global LightRecord* sky = scene->lights + sky_light;
+  const Vec3 radiance = vec3((Real)(sky->power[0]), (Real)(sky->power[1]), (Real)(sky->power[2]));
+  Vec3 arriving = vec_mul(path->throughput, radiance);
 #if PHLUX_CONNECT == CONNECT_LIGHT
   const Mask counts = m & (path->edges == 1);
 #else
   const Mask counts = m;
 #endif
 #if PHLUX_CONNECT == CONNECT_MIS
-  const Real weight =
-      path->edges == 1 ? (Real)(1.0f) : path->density / (path->density + sky_choice * path->sky_density);
+  const Real other = sky->probability * path->sky_density;
+  const Real weight = path->edges == 1 ? (Real)(1.0f) : path->density / (path->density + other);
   arriving = vec_scale(weight, arriving);
 #endif
   path->radiance = vec_select(counts, vec_add(path->radiance, arriving), path->radiance);
@@ -90,20 +90,17 @@ static inline void add_sky(Path* path, Mask m, float4 sky, float sky_choice) {
 
 #if PHLUX_CONNECT != CONNECT_NONE
 // Adds one light sample in the lanes of m; returns the lanes that sent a shadow ray.
-static inline Mask add_light_sample(const Scene* scene, Path* path, SurfacePoint point, Material material, Vec3 fixed,
-                                    Mask m) {
-  const RandomWords words = random_words(path->sequence, int_to_uint(DIMENSION_LIGHT(path->edges)), 0);
-  const LightSample light = light_sample(scene, point, words);
-  const Vec3 generated = to_frame(point.frame, light.ray.direction);
-  // Both normals must agree that the light is on this side: nothing shines through.
-  const Mask reaches = m & light.valid & (generated.z > 0.0f) & (vec_dot(point.normal, light.ray.direction) > 0.0f);
+static inline Mask add_light_sample(const Scene* scene, Path* path, Vertex v, Mask m) {
+  const RandomWords words = random_words(path->sequence, DIMENSION_LIGHT(path->edges), 0);
+  const LightSample light = light_sample(scene, v.point, words);
+  const Vec3 generated = to_frame(v.point.frame, light.ray.direction);
+  const Mask reaches = m & light.valid & leaves(generated, vec_dot(v.point.normal, light.ray.direction));
   if (!any_lane(reaches)) return reaches;
   const Mask lit = reaches & !scene_occluded(scene, light.ray, light.distance, reaches);
-  Vec3 arriving =
-      vec_scale(generated.z / light.density,
-                vec_mul(light.radiance, vec_mul(path->throughput, material_eval(material, fixed, generated))));
+  const Vec3 reflected = vec_mul(path->throughput, material_eval(v.material, v.fixed, generated));
+  Vec3 arriving = vec_scale(generated.z / light.density, vec_mul(light.radiance, reflected));
 #if PHLUX_CONNECT == CONNECT_MIS && defined(PHLUX_HITTABLE_LIGHTS)
-  const Real other = material_density(material, fixed, generated);
+  const Real other = material_density(v.material, v.fixed, generated);
   arriving = vec_scale(light.hittable ? light.density / (light.density + other) : (Real)(1.0f), arriving);
 #endif
   path->radiance = vec_select(lit, vec_add(path->radiance, arriving), path->radiance);
@@ -112,33 +109,31 @@ static inline Mask add_light_sample(const Scene* scene, Path* path, SurfacePoint
 #endif
 
 // Reflects the paths of m; returns those that go on: not absorbed by roulette, and above the surface.
-static inline Mask reflect(Path* path, SurfacePoint point, Material material, Vec3 fixed, int roulette_edges,
-                           float ambient, Mask m) {
-  const PhongSample sample =
-      material_sample(material, fixed, path->sequence, int_to_uint(DIMENSION_REFLECTION(path->edges)),
-                      path->edges >= roulette_edges, m);
-  const Vec3 direction = from_frame(point.frame, sample.direction);
-  const Mask goes_on = m & sample.survives & (sample.direction.z > 0.0f) & (vec_dot(point.normal, direction) > 0.0f);
+static inline Mask reflect(Path* path, Vertex v, int roulette_edges, float ambient, Mask m) {
+  const PhongSample sample = material_sample(v.material, v.fixed, path->sequence, DIMENSION_REFLECTION(path->edges),
+                                             path->edges >= roulette_edges, m);
+  const Vec3 direction = from_frame(v.point.frame, sample.direction);
+  const Mask goes_on = m & sample.survives & leaves(sample.direction, vec_dot(v.point.normal, direction));
 #ifdef PHLUX_AMBIENT
   // Light of radiance `ambient` from everywhere, reflected for certain less as sampled: 0 on average.
   const Vec3 sampled = vec_select(sample.survives, sample.weight, vec_all((Real)(0.0f)));
-  const Vec3 difference = vec_sub(phong_reflectivity(material.phong, fixed.z), sampled);
+  const Vec3 difference = vec_sub(phong_reflectivity(v.material.phong, v.fixed.z), sampled);
   const Vec3 variate = vec_scale((Real)(ambient), vec_mul(path->throughput, difference));
   path->radiance = vec_select(m, vec_add(path->radiance, variate), path->radiance);
 #endif
   path->throughput = vec_select(goes_on, vec_mul(path->throughput, sample.weight), path->throughput);
   path->density = sample.density;
   path->sky_density = sample.direction.z * PHONG_INV_PI;
-  path->ray.origin = step_off(point.position, point.normal, point.error, direction);
+  path->ray.origin = step_off(v.point.position, v.point.normal, v.point.error, direction);
   path->ray.direction = direction;
   return goes_on & (vec_max(path->throughput) > 0.0f);
 }
 
 __kernel void trace_paths(SCENE_PARAMETERS, int pixel_count, int first_pixel, int job_count, int first_sample,
-                          int block_samples, int end_sample, uint2 seed, int max_edges, int roulette_edges, float4 sky,
-                          float sky_choice, float ambient, __global float* sums, __global uint* counters) {
+                          int block_samples, uint2 seed, int max_edges, int roulette_edges, __global uint* counters,
+                          int sky_light, float ambient, __global float* sums) {
   SCENE_FROM_PARAMETERS
-  const JobList list = {pixel_count, first_pixel, job_count, first_sample, block_samples, end_sample};
+  const JobList list = {pixel_count, first_pixel, job_count, first_sample, block_samples};
   Job job = first_job(list);
   Path path = no_path(seed);
   Uint rays = (Uint)(0u), shadow_rays = (Uint)(0u);
@@ -153,19 +148,17 @@ __kernel void trace_paths(SCENE_PARAMETERS, int pixel_count, int first_pixel, in
     rays += alive ? (Uint)(1u) : (Uint)(0u);
     path.edges += alive ? (Int)(1) : (Int)(0);
     const Mask hits = alive & (hit.primitive >= 0);
-    add_sky(&path, alive & !hits, sky, sky_choice);
+    add_sky(&scene, &path, alive & !hits, sky_light);
     const SurfacePoint point = surface_point(&scene, path.ray, hit);
     add_emission(&scene, &path, hit, point, hits);
 
-    const Material material = material_at(&scene, point.material);
-    const Vec3 fixed = to_frame(point.frame, vec_scale((Real)(-1.0f), path.ray.direction));
-    const Mask reflecting =
-        hits & (path.edges < max_edges) & (fixed.z > 0.0f) & reflects(&scene, point.material, point.front);
+    const Vertex vertex = vertex_at(&scene, path.ray, point);
+    const Mask reflecting = hits & (path.edges < max_edges) & can_reflect(&scene, vertex);
 #if PHLUX_CONNECT != CONNECT_NONE
-    const Mask asked = add_light_sample(&scene, &path, point, material, fixed, reflecting);
+    const Mask asked = add_light_sample(&scene, &path, vertex, reflecting);
     shadow_rays += asked ? (Uint)(1u) : (Uint)(0u);
 #endif
-    alive = reflect(&path, point, material, fixed, roulette_edges, ambient, reflecting);
+    alive = reflect(&path, vertex, roulette_edges, ambient, reflecting);
 
     const Mask ended = working & !alive;
     if (any_lane(ended)) add_sample(list, &job, path.radiance, sums, ended);

@@ -16,6 +16,11 @@ static inline Vec3 hemisphere_direction(Real u1, Real u2) {
   return polar_direction(sqrt((1.0f - u1) * (1.0f + u1)), u1, u2);
 }
 
+// Over the whole sphere: density 1 / (4 pi).
+static inline Vec3 sphere_direction(Real u1, Real u2) {
+  return polar_direction(2.0f * sqrt(u1 * (1.0f - u1)), 1.0f - 2.0f * u1, u2);
+}
+
 // (theta, phi): density 1 / (pi^2 sin(theta)).
 static inline Vec3 theta_phi_direction(Real u1, Real u2) {
   Real cosine, sine;

@@ -62,11 +62,13 @@ typedef struct {
   int kind;       // enum LightKinds
   int primitive;  // planar, sphere: index of the primitive
   float power[3]; // radiance (area, constant), intensity (point, spot) or irradiance (directional)
-  float area;     // planar, sphere: m^2
+  float area;     // planar, sphere: m^2; directional, constant: of the disk across the scene
   float position[3];
   float direction[3];
   float cutoff, inv_transition; // spot: cutoff and 1 / (cutoff - beam width) in radians
   float probability;            // of being selected
+  float emission_density; // of a light path's first edge, the selection included: per area and projected solid angle
+                          // (planar, sphere), per solid angle (point, spot), per area (directional), per both (constant)
   float alias_threshold;
   int alias;
 } LightRecord;
@@ -77,8 +79,32 @@ typedef struct {
   float position[3];
   float forward[3], left[3], up[3]; // left and up carry the tangents of half the fields of view
   float principal_x, principal_y;
+  float film_area; // of the whole film on the plane at distance 1
   int width, height;
 } CameraRecord;
+
+// A record of a splat: arrays of one word each. The last two only where each technique is wanted by itself; the technique
+// is then s << 16 | t, its complement where the path adds to its own pixel, and the value is without its weight.
+enum RecordWords { RECORD_PIXEL = 0, RECORD_PATH, RECORD_VALUE, RECORD_WEIGHT = 5, RECORD_TECHNIQUE };
+
+// A stored vertex of a subpath, in words. A scene with neither interpolated normals nor anisotropic surfaces stores the
+// first 16 words, one with interpolated normals 19.
+enum VertexWords {
+  VERTEX_POSITION = 0,
+  VERTEX_NORMAL = 3, // shading
+  VERTEX_FIXED = 6,  // back along the subpath, in the world
+  VERTEX_THROUGHPUT = 9,
+  VERTEX_ERROR = 12,
+  VERTEX_MATERIAL = 13,
+  VERTEX_EDGE = 14, // Ratios, see weights.cl
+  VERTEX_REST = 15,
+  VERTEX_GEOMETRIC = 16, // normal
+  VERTEX_TANGENT = 19,
+  VERTEX_WORDS_MOST = 22
+};
+
+// What a batch of bidirectional paths needs for each path besides vertices: where the two subpaths' are, and radiance.
+enum { SCRATCH_WORDS_PER_PATH = 8 };
 
 // One node of the hierarchy: the boxes of CHILDREN children, then the children. A child >= 0 is a node; one < 0 is a
 // leaf: ~child = first block << 5 | (blocks - 1) << 1 | (1 where the blocks hold spheres).

@@ -21,24 +21,39 @@ typedef struct {
 #define ERROR_UNITS (16.0f * 5.9604645e-8f)
 
 #ifdef PHLUX_PLANARS
-// Word index of value 0 of a flat primitive; value k is k * SCENE_BLOCK further on (scene_data.h).
+// Where value 0 of a flat primitive is, and value k from there (scene_data.h).
+#ifdef PRIMITIVES_AT_HAND
+static inline Int planar_words(Int primitive) { return primitive; }
+static inline Real planar_value(const Scene* scene, Int words, int value) {
+  return permute_real(scene->planar_members[value], words);
+}
+#else
 static inline Int planar_words(Int primitive) {
   return primitive * PLANAR_FLOATS - (primitive & (SCENE_BLOCK - 1)) * (PLANAR_FLOATS - 1);
 }
+static inline Real planar_value(const Scene* scene, Int words, int value) {
+  return gather_real(scene->planars, words + value * SCENE_BLOCK);
+}
+#endif
 static inline Vec3 gather_planar(const Scene* scene, Int words, int value) {
-  return vec3(gather_real(scene->planars, words + value * SCENE_BLOCK),
-              gather_real(scene->planars, words + (value + 1) * SCENE_BLOCK),
-              gather_real(scene->planars, words + (value + 2) * SCENE_BLOCK));
+  return vec3(planar_value(scene, words, value), planar_value(scene, words, value + 1),
+              planar_value(scene, words, value + 2));
 }
 #endif
 
 #ifdef PHLUX_SPHERES
-static inline SphereShape gather_sphere(const Scene* scene, Int sphere) {
+static inline Real sphere_value(const Scene* scene, Int sphere, int value) {
+#ifdef PRIMITIVES_AT_HAND
+  return permute_real(scene->sphere_members[value], sphere);
+#else
   const Int words = sphere * SPHERE_FLOATS - (sphere & (SCENE_BLOCK - 1)) * (SPHERE_FLOATS - 1);
+  return gather_real(scene->spheres, words + value * SCENE_BLOCK);
+#endif
+}
+static inline SphereShape gather_sphere(const Scene* scene, Int sphere) {
   SphereShape s;
-  s.center = vec3(gather_real(scene->spheres, words), gather_real(scene->spheres, words + SCENE_BLOCK),
-                  gather_real(scene->spheres, words + 2 * SCENE_BLOCK));
-  s.radius = gather_real(scene->spheres, words + 3 * SCENE_BLOCK);
+  s.center = vec3(sphere_value(scene, sphere, 0), sphere_value(scene, sphere, 1), sphere_value(scene, sphere, 2));
+  s.radius = sphere_value(scene, sphere, SPHERE_RADIUS);
   return s;
 }
 #endif
@@ -100,7 +115,7 @@ static inline SurfacePoint surface_point(const Scene* scene, Ray ray, Hit hit) {
 #endif
     const SphereShape sphere = gather_sphere(scene, max(primitive - scene->first_sphere, (Int)(0)));
     const Vec3 unit = vec_normalize(vec_sub(seen, sphere.center));
-    const Mask inward = GATHER_INT(scene->primitives, primitive, region) != 0;
+    const Mask inward = PRIMITIVE_INT(scene, primitive, region) != 0;
     const Vec3 front = vec_select(inward, vec_scale((Real)(-1.0f), unit), unit);
     const Vec3 on_sphere = vec_along(sphere.center, sphere.radius, unit);
     const Real error = ERROR_UNITS * (vec_largest(sphere.center) + sphere.radius);
@@ -132,14 +147,45 @@ static inline SurfacePoint surface_point(const Scene* scene, Ray ray, Hit hit) {
 #else
   s.frame = frame_about(shading);
 #endif
-  s.material = GATHER_INT(scene->primitives, primitive, material);
-  s.light = GATHER_INT(scene->primitives, primitive, light);
+  s.material = PRIMITIVE_INT(scene, primitive, material);
+  s.light = PRIMITIVE_INT(scene, primitive, light);
   return s;
+}
+
+// A point of a surface for a ray to start or end at: what a SurfacePoint, a light's point and a stored vertex share.
+typedef struct {
+  Vec3 position, normal; // as SurfacePoint's
+  Real error;
+} Place;
+
+static inline Place place_of(SurfacePoint point) {
+  Place place;
+  place.position = point.position;
+  place.normal = point.normal;
+  place.error = point.error;
+  return place;
 }
 
 // Where a ray along `direction` starts, just off the surface on the side that it leaves to.
 static inline Vec3 step_off(Vec3 position, Vec3 normal, Real error, Vec3 direction) {
   return vec_along(position, times_sign(error, vec_dot(normal, direction)), normal);
+}
+
+// The ray from a surface to a point in space, and the distance before which it must be free.
+static inline Ray ray_to_point(Place from, Vec3 to, Real* distance) {
+  Ray ray;
+  ray.origin = step_off(from.position, from.normal, from.error, vec_sub(to, from.position));
+  const Vec3 way = vec_sub(to, ray.origin);
+  *distance = sqrt(vec_dot(way, way));
+  ray.direction = vec_scale((Real)(1.0f) / *distance, way);
+  return ray;
+}
+
+// The same to a point of a surface whose normal faces the start: it ends short by what the surface's crossing may be
+// wrong as seen from there.
+static inline Ray ray_between(Place from, Place to, Real* distance) {
+  const Real reach = vec_largest(vec_sub(to.position, from.position));
+  return ray_to_point(from, vec_along(to.position, to.error + ERROR_UNITS * reach, to.normal), distance);
 }
 
 #endif

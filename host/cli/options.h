@@ -19,7 +19,8 @@ struct RenderOptions {
   std::map<std::string, std::string> definitions;
 
   std::optional<std::string> integrator, strategy;
-  render::Connect connect = render::Connect::mis;
+  std::optional<render::Connect> connect;
+  std::optional<render::Weights> weights;
   std::optional<int> max_depth, rr_depth;
   std::optional<double> ambient;
 
@@ -36,6 +37,7 @@ struct RenderOptions {
   std::filesystem::path output;  ///< empty: the scene's name, .exr, in the working directory
   std::filesystem::path preview; ///< empty: the output's name, .png, beside it
   std::filesystem::path statistics;
+  std::filesystem::path contributions; ///< folder, empty: none
   bool moments = false, quiet = false, verbose = false;
 };
 

@@ -13,6 +13,7 @@
 #include "cli/progress.h"
 #include "cli/statistics.h"
 #include "errors.h"
+#include "files/contributions.h"
 #include "files/exr.h"
 #include "files/json.h"
 #include "files/output.h"
@@ -28,7 +29,15 @@ render::Settings settings_of(const RenderOptions& options, const scene::RenderDe
   render::Settings settings;
   settings.integrator = options.integrator.value_or(defaults.integrator);
   settings.strategy = options.strategy.value_or(settings.strategy);
-  settings.connect = options.connect;
+  if (options.connect && settings.integrator != "path")
+    throw UsageError("--connect is for path alone: " + settings.integrator +
+                     " has its own ways to the lights");
+  if (options.weights && settings.integrator != "bidir")
+    throw UsageError("--weights is for bidir alone: " + settings.integrator +
+                     " makes each path in one way: leave it out or use -i bidir");
+  settings.connect = options.connect.value_or(settings.connect);
+  settings.weights = options.weights.value_or(settings.weights);
+  settings.techniques = !options.contributions.empty();
   settings.ambient = options.ambient;
   settings.samples_per_pixel = options.samples_per_pixel.value_or(defaults.samples_per_pixel);
   settings.time_limit = options.time_limit;
@@ -129,6 +138,13 @@ void write(const Outputs& outputs, const files::RenderInfo& info, const film::Fi
     files::write_file(outputs.statistics, files::json_text(statistics_json(statistics, info, film)));
 }
 
+void write_techniques(const std::filesystem::path& folder, film::Film& film, const files::RenderInfo& info) {
+  files::write_contributions(folder, film, info);
+  if (const std::uint64_t left_out = film.techniques()->left_out(); left_out > 0)
+    spdlog::warn("--contributions: paths of more than {} edges are in the image alone ({} contributions)",
+                 film::most_technique_edges, left_out);
+}
+
 std::string summary(const Outputs& outputs, const film::Film& film, const render::Statistics& statistics) {
   const double seconds = statistics.seconds_render;
   std::string text = fmt::format("{}: {}x{}, {:.6g} samples per pixel, {:.3g} s", outputs.image.string(),
@@ -157,7 +173,9 @@ int render(const RenderOptions& options) {
     spdlog::warn("interrupted before the first sample: nothing is written");
     return interrupted_exit_code;
   }
-  write(outputs, info_of(options, settings, film, statistics), film, statistics, options.moments);
+  const files::RenderInfo info = info_of(options, settings, film, statistics);
+  write(outputs, info, film, statistics, options.moments);
+  if (settings.techniques) write_techniques(options.contributions, film, info);
   if (!options.quiet) fmt::print("{}\n", summary(outputs, film, statistics));
   return statistics.interrupted ? interrupted_exit_code : 0;
 }

@@ -10,36 +10,12 @@ namespace {
 
 constexpr std::size_t channel_count = 3;
 
-// Unbiased variance of the mean, from the sums S of x and Q of x^2 over n >= 2 samples: that of one sample is
-// (Q - S^2/n) / (n - 1), and of the mean 1/n of it. By Cauchy-Schwarz it is >= 0; rounding may leave it just
-// below.
-double variance_of_mean_in_units(const Pixel& pixel, std::size_t channel) {
-  const double n = static_cast<double>(pixel.samples);
-  const double mean = pixel.sum[channel] / n;
-  return std::max(0.0, (pixel.sum_of_squares[channel] / n - mean * mean) / (n - 1.0));
-}
-
-// The same / mean^2, for a mean above 0.
-double relative_variance_of_mean(const Pixel& pixel, std::size_t channel) {
-  const double mean = pixel.sum[channel] / static_cast<double>(pixel.samples);
-  return variance_of_mean_in_units(pixel, channel) / (mean * mean);
-}
-
-// Mean of f(pixel, channel) over all channels with a mean above 0 of pixels with two samples or more; 0
-// without any.
-template<class Function>
-double mean_where_not_black(std::span<const Pixel> pixels, Function f) {
-  double total = 0.0;
-  std::uint64_t count = 0;
-  for (const Pixel& pixel : pixels) {
-    if (pixel.samples < 2) continue;
-    for (std::size_t channel = 0; channel < channel_count; ++channel) {
-      if (!(pixel.sum[channel] > 0.0)) continue;
-      total += f(pixel, channel);
-      ++count;
-    }
-  }
-  return count > 0 ? total / static_cast<double>(count) : 0.0;
+// Unbiased variance of the mean of n >= 2 values from their sum and the sum of their squares: that of one
+// value is (Q - S^2/n) / (n - 1), and of the mean 1/n of it. By Cauchy-Schwarz it is >= 0; rounding may leave
+// it just below.
+double variance_of_mean_of(double sum, double sum_of_squares, double n) {
+  const double mean = sum / n;
+  return std::max(0.0, (sum_of_squares / n - mean * mean) / (n - 1.0));
 }
 
 } // namespace
@@ -59,44 +35,99 @@ void Film::add(std::size_t pixel, const BlockSum& block, std::uint32_t samples) 
   sums.samples += samples;
 }
 
+double Film::splatting_paths_per_pixel() const {
+  return static_cast<double>(splatting_paths_) / static_cast<double>(pixels_.size());
+}
+
+double Film::mean_in_units(std::size_t pixel, std::size_t channel) const {
+  const Pixel& own = pixels_[pixel];
+  double mean = own.samples > 0 ? own.sum[channel] / static_cast<double>(own.samples) : 0.0;
+  if (!splats_.empty() && splatting_paths_ > 0)
+    mean += splats_[pixel].sum[channel] / splatting_paths_per_pixel();
+  return mean;
+}
+
+// What a path brings to its own pixel counts among that pixel's samples, so the two parts are of different
+// paths and their variances add.
+double Film::variance_in_units(std::size_t pixel, std::size_t channel) const {
+  const Pixel& own = pixels_[pixel];
+  const double n = static_cast<double>(own.samples);
+  double variance =
+      own.samples >= 2 ? variance_of_mean_of(own.sum[channel], own.sum_of_squares[channel], n) : 0.0;
+  const double others = static_cast<double>(splatting_paths_) - n;
+  if (!splats_.empty() && others >= 2.0) {
+    const Splats& splats = splats_[pixel];
+    const double scale = others / splatting_paths_per_pixel();
+    variance +=
+        scale * scale * variance_of_mean_of(splats.sum[channel], splats.sum_of_squares[channel], others);
+  }
+  return variance;
+}
+
 std::array<double, 3> Film::mean(std::size_t pixel) const {
-  const Pixel& sums = pixels_[pixel];
-  if (sums.samples == 0) return {};
   std::array<double, 3> result;
   for (std::size_t channel = 0; channel < channel_count; ++channel)
-    result[channel] = unit_ * sums.sum[channel] / static_cast<double>(sums.samples);
+    result[channel] = unit_ * mean_in_units(pixel, channel);
   return result;
 }
 
 std::array<double, 3> Film::variance_of_mean(std::size_t pixel) const {
-  const Pixel& sums = pixels_[pixel];
-  if (sums.samples < 2) return {};
   std::array<double, 3> result;
   for (std::size_t channel = 0; channel < channel_count; ++channel)
-    result[channel] = unit_ * unit_ * variance_of_mean_in_units(sums, channel);
+    result[channel] = unit_ * unit_ * variance_in_units(pixel, channel);
   return result;
 }
 
+std::vector<std::array<double, 3>>
+Film::technique_image(const std::vector<std::array<double, 3>>& sums) const {
+  std::vector<std::array<double, 3>> image = sums;
+  const double factor = splatting_paths_ > 0 ? unit_ / splatting_paths_per_pixel() : 0.0;
+  for (std::array<double, 3>& pixel : image)
+    for (double& value : pixel) value *= factor;
+  return image;
+}
+
 bool Film::has_variance() const {
-  return std::ranges::all_of(pixels_, [](const Pixel& pixel) { return pixel.samples >= 2; });
+  if (std::ranges::all_of(pixels_, [](const Pixel& pixel) { return pixel.samples >= 2; })) return true;
+  const bool only_splats = std::ranges::all_of(pixels_, [](const Pixel& pixel) { return pixel.samples == 0; });
+  return only_splats && splatting_paths_per_pixel() >= 2.0;
+}
+
+// Mean of f(pixel, mean, variance of the mean) over all channels with a mean above 0; 0 without any.
+template<class Function>
+double Film::mean_where_not_black(Function f) const {
+  double total = 0.0;
+  std::uint64_t count = 0;
+  for (std::size_t pixel = 0; pixel < pixels_.size(); ++pixel) {
+    if (pixels_[pixel].samples < 2 && splatting_paths_ < 2) continue;
+    for (std::size_t channel = 0; channel < channel_count; ++channel) {
+      const double mean = mean_in_units(pixel, channel);
+      if (!(mean > 0.0)) continue;
+      total += f(pixel, mean, variance_in_units(pixel, channel));
+      ++count;
+    }
+  }
+  return count > 0 ? total / static_cast<double>(count) : 0.0;
 }
 
 double Film::relative_variance() const {
-  return mean_where_not_black(pixels_, [](const Pixel& pixel, std::size_t channel) {
-    return static_cast<double>(pixel.samples) * relative_variance_of_mean(pixel, channel);
+  return mean_where_not_black([&](std::size_t pixel, double mean, double variance) {
+    const std::uint64_t own = pixels_[pixel].samples;
+    const double samples = own > 0 ? static_cast<double>(own) : splatting_paths_per_pixel();
+    return samples * variance / (mean * mean);
   });
 }
 
 double Film::relative_standard_error() const {
   if (!has_variance()) return std::numeric_limits<double>::infinity();
-  return mean_where_not_black(pixels_, [](const Pixel& pixel, std::size_t channel) {
-    return std::sqrt(relative_variance_of_mean(pixel, channel));
-  });
+  return mean_where_not_black(
+      [](std::size_t, double mean, double variance) { return std::sqrt(variance) / mean; });
 }
 
 double Film::samples_per_pixel() const {
   std::uint64_t samples = 0;
   for (const Pixel& pixel : pixels_) samples += pixel.samples;
+  if (samples == 0) return splatting_paths_per_pixel();
   return static_cast<double>(samples) / static_cast<double>(pixels_.size());
 }
 

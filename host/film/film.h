@@ -4,8 +4,11 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
+
+#include "film/techniques.h"
 
 namespace phlux::film {
 
@@ -15,9 +18,16 @@ struct BlockSum {
   float radiance_squared[3];
 };
 
+/// Sums over the samples that began in a pixel.
 struct Pixel {
   std::array<double, 3> sum{}, sum_of_squares{};
   std::uint64_t samples = 0;
+};
+
+/// Sums over what paths that began elsewhere brought to a pixel; each square is of what one path brought.
+/// One cache line, as splats fall where they like.
+struct alignas(64) Splats {
+  std::array<double, 3> sum{}, sum_of_squares{};
 };
 
 /// Sums stay exact to about 2^-53 times the number of blocks, so that no sample count stalls them (MATH.md
@@ -42,11 +52,33 @@ public:
   /// bits.
   void add(std::size_t pixel, const BlockSum& block, std::uint32_t samples);
 
+  /// Adds what one path brought to a pixel that it did not begin in. A pixel's radiance is the mean of its
+  /// samples plus the sum of its splats / the number of splatting paths per pixel of the image.
+  void add_splat(std::size_t pixel, const std::array<double, 3>& value) {
+    Splats& sums = splats_[pixel];
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      sums.sum[channel] += value[channel];
+      sums.sum_of_squares[channel] += value[channel] * value[channel];
+    }
+  }
+  void use_splats() { splats_.resize(pixels_.size()); } ///< before the first add_splat()
+  /// Fetches what add_splat() will need soon.
+  void expect_splat(std::size_t pixel) const { __builtin_prefetch(&splats_[pixel], 1); }
+  /// Counts paths of the whole image that could have brought splats.
+  void add_splatting_paths(std::uint64_t paths) { splatting_paths_ += paths; }
+
+  /// Keeps what each technique brings by itself as well, from here on.
+  void use_techniques() { techniques_.emplace(pixels_.size()); }
+  [[nodiscard]] Techniques* techniques() { return techniques_ ? &*techniques_ : nullptr; }
+  /// One technique's image, of sums of `techniques()`: radiance per pixel.
+  [[nodiscard]] std::vector<std::array<double, 3>>
+  technique_image(const std::vector<std::array<double, 3>>& sums) const;
+
   /// Mean radiance of a pixel; 0 without samples.
   [[nodiscard]] std::array<double, 3> mean(std::size_t pixel) const;
   /// Unbiased variance of that mean, per channel; 0 with fewer than two samples. Never negative.
   [[nodiscard]] std::array<double, 3> variance_of_mean(std::size_t pixel) const;
-  /// Whether every pixel has the two samples that a variance takes.
+  /// Whether every pixel has the two samples, of its own or of splatting paths, that a variance takes.
   [[nodiscard]] bool has_variance() const;
 
   /// Mean over the pixels (and channels) of variance of one sample / mean^2, over pixels that are not black;
@@ -58,9 +90,18 @@ public:
   [[nodiscard]] double samples_per_pixel() const; ///< mean over the pixels
 
 private:
+  [[nodiscard]] double splatting_paths_per_pixel() const;
+  [[nodiscard]] double mean_in_units(std::size_t pixel, std::size_t channel) const;
+  [[nodiscard]] double variance_in_units(std::size_t pixel, std::size_t channel) const;
+  template<class Function>
+  [[nodiscard]] double mean_where_not_black(Function f) const;
+
   int width_, height_;
   double unit_ = 1.0;
   std::vector<Pixel> pixels_;
+  std::vector<Splats> splats_; ///< empty where nothing splats
+  std::uint64_t splatting_paths_ = 0;
+  std::optional<Techniques> techniques_;
 };
 
 } // namespace phlux::film

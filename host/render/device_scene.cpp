@@ -3,6 +3,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include "errors.h"
 
@@ -37,15 +38,24 @@ CameraRecord camera_record(const scene::Camera& camera, const scene::Vec3& origi
   }
   record.principal_x = static_cast<float>(camera.principal_x);
   record.principal_y = static_cast<float>(camera.principal_y);
+  record.film_area = static_cast<float>(4 * glm::length(left) * glm::length(up));
   record.width = camera.width;
   record.height = camera.height;
   return record;
 }
 
+// A table of entries of so many elements each. Kernels may load the first few_entries whole: there are as many.
 template<typename T>
-cl::Buffer upload(const device::Device& device, const std::vector<T>& table, const char* what) {
+cl::Buffer upload(const device::Device& device, const std::vector<T>& table, const char* what,
+                  std::size_t elements_per_entry = 1) {
+  if (table.empty()) return {};
+  const std::size_t least = few_entries * elements_per_entry;
+  if (table.size() < least) {
+    std::vector<T> longer = table;
+    longer.resize(least);
+    return upload(device, longer, what, elements_per_entry);
+  }
   const std::size_t bytes = table.size() * sizeof(T);
-  if (bytes == 0) return {};
   if (bytes > device.info.largest_buffer)
     throw DeviceError(
         fmt::format("{}: the scene's {} take {} MB and a buffer may have {} MB: use a device with more "
@@ -75,10 +85,6 @@ HostScene prepare(const scene::Scene& scene, Traversal traversal, int lanes) {
   host.lights = light_table(scene, host.geometry);
   host.materials = material_table(scene.materials);
   host.camera = camera_record(scene.camera, host.geometry.origin);
-  if (host.lights.constant >= 0) {
-    host.sky = *scene.constant_radiance / host.lights.unit;
-    host.sky_choice = host.lights.records[static_cast<std::size_t>(host.lights.constant)].probability;
-  }
   return host;
 }
 
@@ -91,8 +97,8 @@ DeviceScene::DeviceScene(const device::Device& device, const HostScene& scene, c
       primitives_(upload(device, scene.geometry.primitives, "primitives")),
       materials_(upload(device, scene.materials.records, "materials")),
       lights_(upload(device, scene.lights.records, "lights")),
-      planars_(upload(device, scene.geometry.planars, "triangles")),
-      spheres_(upload(device, scene.geometry.spheres, "spheres")),
+      planars_(upload(device, scene.geometry.planars, "triangles", PLANAR_FLOATS)),
+      spheres_(upload(device, scene.geometry.spheres, "spheres", SPHERE_FLOATS)),
       nodes_(upload(device, scene.geometry.nodes, "hierarchy")),
       reflectivity_(upload(device, scene.materials.reflectivity, "reflectivities")),
       corners_(upload(device, scene.geometry.corners, "triangles' corners")),

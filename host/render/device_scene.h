@@ -15,8 +15,6 @@ struct HostScene {
   LightTable lights;
   MaterialTable materials;
   CameraRecord camera{};
-  scene::Rgb sky{0.0};     ///< radiance of the constant light
-  float sky_choice = 0.0f; ///< the probability with which it is chosen
 };
 
 /// @throws SceneError when the scene has no shape with an area

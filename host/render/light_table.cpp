@@ -28,8 +28,9 @@ LightRecord record_of(LightKinds kind, const Rgb& power) {
   return record;
 }
 
-// Collects lights, the power of each in watts (averaged over the channels), and which of them are one emitter
-// of the scene: the triangles of a mesh are.
+// Collects lights (their emission_density yet without the probability of selection), the power of each in
+// watts (averaged over the channels), and which of them are one emitter of the scene: the triangles of a mesh
+// are.
 class Collector {
 public:
   static constexpr int own_group = -1;
@@ -76,6 +77,7 @@ void add_surfaces(Collector& to, const scene::Scene& scene, accel::Geometry& geo
     const double area = geometry.areas[emitting++];
     record.primitive = static_cast<int>(i);
     record.area = static_cast<float>(area);
+    record.emission_density = static_cast<float>(1 / (pi * area));
     geometry.primitives[i].light = static_cast<int>(to.table.records.size());
     to.add(record, pi * area * mean(radiance), geometry.emitters[i]);
   }
@@ -85,6 +87,7 @@ void add_points(Collector& to, const scene::Scene& scene, const Vec3& origin) {
   for (const scene::PointLight& light : scene.point_lights) {
     LightRecord record = record_of(LIGHT_POINT, light.intensity);
     set(record.position, light.position - origin);
+    record.emission_density = static_cast<float>(1 / (4 * pi));
     to.add(record, 4 * pi * mean(light.intensity));
   }
   for (const scene::SpotLight& light : scene.spot_lights) {
@@ -95,21 +98,29 @@ void add_points(Collector& to, const scene::Scene& scene, const Vec3& origin) {
     const double transition = std::max(light.cutoff_angle - light.beam_width, 1e-6);
     record.cutoff = static_cast<float>(light.cutoff_angle);
     record.inv_transition = static_cast<float>(1 / transition);
+    // 1 / (2 pi (1 - cos(cutoff))), without cancellation: the kernel draws directions from the whole cone.
+    const double half_sine = std::sin(light.cutoff_angle / 2);
+    record.emission_density = static_cast<float>(1 / (4 * pi * half_sine * half_sine));
     const double full = 2 * pi * (1 - (std::cos(light.beam_width) + std::cos(light.cutoff_angle)) / 2);
     to.add(record, full * mean(light.intensity));
   }
 }
 
 void add_distant(Collector& to, const scene::Scene& scene, double radius) {
+  const double disk = pi * radius * radius;
   for (const scene::DirectionalLight& light : scene.directional_lights) {
     LightRecord record = record_of(LIGHT_DIRECTIONAL, light.irradiance);
     set(record.direction, light.direction);
-    to.add(record, pi * radius * radius * mean(light.irradiance));
+    record.area = static_cast<float>(disk);
+    record.emission_density = static_cast<float>(1 / disk);
+    to.add(record, disk * mean(light.irradiance));
   }
   if (scene.constant_radiance) {
     to.table.constant = static_cast<int>(to.table.records.size());
-    to.add(record_of(LIGHT_CONSTANT, *scene.constant_radiance),
-           4 * pi * pi * radius * radius * mean(*scene.constant_radiance));
+    LightRecord record = record_of(LIGHT_CONSTANT, *scene.constant_radiance);
+    record.area = static_cast<float>(disk);
+    record.emission_density = static_cast<float>(1 / (4 * pi * disk));
+    to.add(record, 4 * pi * disk * mean(*scene.constant_radiance));
   }
 }
 
@@ -120,6 +131,7 @@ void make_alias_table(std::vector<LightRecord>& records, const std::vector<doubl
   std::vector<std::size_t> small, large;
   for (std::size_t i = 0; i < count; ++i) {
     records[i].probability = static_cast<float>(chances[i]);
+    records[i].emission_density *= records[i].probability;
     scaled[i] = chances[i] * static_cast<double>(count);
     (scaled[i] < 1 ? small : large).push_back(i);
     records[i].alias_threshold = 1;

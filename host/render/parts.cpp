@@ -65,13 +65,21 @@ const NamedStrategy& find_strategy(const std::string& name) {
   throw UsageError("--strategy " + name + ": there is no such strategy: " + list);
 }
 
+Integrator find_integrator(const std::string& name) {
+  if (name == "path") return Integrator::path;
+  if (name == "light") return Integrator::light;
+  if (name == "bidir") return Integrator::bidir;
+  throw UsageError("integrator " + name + ": there is no such integrator: path, light, bidir");
+}
+
 Connect possible_connect(const Settings& settings, const LightTable& lights) {
   const bool hittable = lights.has(LIGHT_PLANAR) || lights.has(LIGHT_SPHERE) || lights.has(LIGHT_CONSTANT);
-  if (settings.connect == Connect::none && !lights.records.empty() && !hittable)
+  if (settings.integrator == "path" && settings.connect == Connect::none && !lights.records.empty() && !hittable)
     throw UsageError(
         "--connect none: no path can hit the point, spot and directional lights, which are all that the "
         "scene has: use --connect light or mis");
-  return lights.records.empty() ? Connect::none : settings.connect;
+  if (settings.integrator == "light" || lights.records.empty()) return Connect::none;
+  return settings.integrator == "bidir" ? Connect::mis : settings.connect;
 }
 
 // Hit or miss draws this often for one sample of the material where it reflects least.
@@ -118,6 +126,11 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
                  const Settings& settings, int lanes) {
   Parts parts;
   parts.lanes = lanes;
+  parts.integrator = find_integrator(settings.integrator);
+  parts.weights = settings.weights;
+  parts.techniques = settings.techniques;
+  if (parts.techniques && parts.integrator == Integrator::path)
+    throw UsageError("--contributions: a path from the eye is made in one way: use -i bidir or light");
   parts.strategy = find_strategy(settings.strategy).macro;
   parts.connect = possible_connect(settings, lights);
   parts.hierarchy = !geometry.nodes.empty() || geometry.root < 0;
@@ -137,6 +150,8 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
     if (lobe && settings.strategy == "rejection") refuse_endless_rejection(*m);
   }
   parts.ambient = settings.ambient.has_value();
+  if (parts.ambient && parts.integrator != Integrator::path)
+    throw UsageError("--ambient: only paths from the eye can carry the ambient term: use -i path");
   if (parts.ambient && parts.anisotropic)
     throw UsageError(
         "--ambient: the reflectivity of anisotropicphong has no closed form to weigh the ambient term "
@@ -148,7 +163,12 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
   parts.light_spot = lights.has(LIGHT_SPOT);
   parts.light_directional = lights.has(LIGHT_DIRECTIONAL);
   parts.light_constant = lights.has(LIGHT_CONSTANT);
-  parts.light_choice = lights.records.size() > 1 && parts.connect != Connect::none;
+  const bool chooses = parts.connect != Connect::none || parts.integrator == Integrator::light;
+  parts.light_choice = lights.records.size() > 1 && chooses;
+  parts.one_light = lights.records.size() == 1;
+  parts.few_lights = lights.records.size() <= few_entries;
+  parts.few_materials = scene.materials.size() <= few_entries;
+  parts.few_primitives = geometry.primitives.size() <= few_entries && !parts.hierarchy;
   return parts;
 }
 
@@ -157,6 +177,17 @@ std::vector<std::string> Parts::names() const {
   for (const NamedPart& part : named_parts)
     if (this->*part.member) list.emplace_back(part.name);
   return list;
+}
+
+const char* Parts::file() const {
+  switch (integrator) {
+  case Integrator::light:
+    return "light.cl";
+  case Integrator::bidir:
+    return "bidir.cl";
+  default:
+    return "path.cl";
+  }
 }
 
 std::map<std::string, std::string> Parts::defines() const {
@@ -169,7 +200,20 @@ std::map<std::string, std::string> Parts::defines() const {
   if (kinds > 1) macros["PHLUX_LIGHT_KINDS"] = "1";
   if (regions > 1) macros["PHLUX_MIXED_REGIONS"] = "1";
   if (emission || light_constant) macros["PHLUX_HITTABLE_LIGHTS"] = "1";
+  if (one_light) macros["PHLUX_ONE_LIGHT"] = "1";
+  if (lanes == static_cast<int>(few_entries)) {
+    if (few_lights) macros["PHLUX_FEW_LIGHTS"] = "1";
+    if (few_materials) macros["PHLUX_FEW_MATERIALS"] = "1";
+    if (few_primitives) macros["PHLUX_FEW_PRIMITIVES"] = "1";
+  }
   if (phong_lobe) macros["PHONG_TABLE_INTERVALS"] = std::to_string(reflectivity_intervals);
+  if (techniques) macros["PHLUX_TECHNIQUES"] = "1";
+  if (integrator == Integrator::bidir) {
+    macros["PHLUX_BIDIR"] = "1";
+    macros["PHLUX_WEIGHTS"] = weights == Weights::balance ? "WEIGHTS_BALANCE"
+                              : weights == Weights::power ? "WEIGHTS_POWER"
+                                                          : "WEIGHTS_UNIFORM";
+  }
   macros["WIDTH"] = std::to_string(lanes);
   macros["PHLUX_STRATEGY"] = strategy;
   macros["PHLUX_CONNECT"] = connect == Connect::none    ? "CONNECT_NONE"

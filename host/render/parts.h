@@ -1,6 +1,7 @@
 // What a scene's kernel holds code for: the parts, each a macro of the kernels, and nothing else.
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <string>
 #include <vector>
@@ -11,7 +12,13 @@
 
 namespace phlux::render {
 
+/// Tables of no more entries are few enough to be permuted in the registers of a CPU (kernels/lanes.h).
+inline constexpr std::size_t few_entries = 16;
+
+enum class Integrator { path, light, bidir };
+
 struct Parts {
+  Integrator integrator = Integrator::path;
   int lanes = 1;
   bool hierarchy = false;
   bool planars = false, triangles = false, parallelograms = false, ellipses = false, spheres = false;
@@ -22,16 +29,22 @@ struct Parts {
        light_directional = false, light_constant = false;
   bool ambient = false;      ///< a control variate is asked for
   bool light_choice = false; ///< there is more than one light to choose from
+  bool one_light = false, few_lights = false, few_materials = false, few_primitives = false; ///< no code
   Connect connect = Connect::mis;
+  Weights weights = Weights::balance;
+  bool techniques = false; ///< contributions are recorded one by one
   std::string strategy;
 
   /// Names for people, such as "spheres" or "light_planar", in a fixed order.
   [[nodiscard]] std::vector<std::string> names() const;
+  /// The kernel file of the integrator.
+  [[nodiscard]] const char* file() const;
   /// Macros for the kernels.
   [[nodiscard]] std::map<std::string, std::string> defines() const;
 };
 
-/// @throws UsageError for a strategy, a --connect or an --ambient that cannot render this scene
+/// @throws UsageError for an integrator that there is not, and for a strategy, a --connect or an --ambient that
+/// cannot render this scene
 [[nodiscard]] Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry,
                                const LightTable& lights, const Settings& settings, int lanes);
 

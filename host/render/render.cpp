@@ -12,7 +12,7 @@
 
 #include "device/program.h"
 #include "errors.h"
-#include "render/path_launcher.h"
+#include "render/launcher.h"
 
 namespace phlux::render {
 namespace {
@@ -28,7 +28,7 @@ constexpr std::size_t launches_in_flight = 2;
 // One device, ready to render.
 struct Worker {
   Parts parts;
-  std::unique_ptr<PathLauncher> launcher;
+  std::unique_ptr<Launcher> launcher;
 };
 
 // The work that devices share: whoever takes a launch or folds one in holds the lock.
@@ -41,7 +41,7 @@ public:
                   open_ended_ ? std::nullopt : std::optional<std::int64_t>(settings.samples_per_pixel)) {}
 
   // Runs one device until the work is done or ended. Whoever folds a launch in reports.
-  void run(PathLauncher& launcher) {
+  void run(Launcher& launcher) {
     while (true) {
       while (launcher.in_flight() < launches_in_flight && take(launcher)) {
       }
@@ -64,7 +64,7 @@ public:
   [[nodiscard]] double seconds() const { return seconds_since(begin_); }
 
 private:
-  bool take(PathLauncher& launcher) {
+  bool take(Launcher& launcher) {
     const std::lock_guard lock(mutex_);
     if (ended_ || (settings_.time_limit && seconds() >= *settings_.time_limit)) return false;
     const auto launch =
@@ -105,9 +105,6 @@ private:
 };
 
 void check(const Settings& settings) {
-  if (settings.integrator != "path")
-    throw UsageError(fmt::format("integrator {}: this version traces paths from the eye only: -i path",
-                                 settings.integrator));
   if (settings.samples_per_pixel < 1)
     throw UsageError(fmt::format("{} samples per pixel: at least 1 is needed", settings.samples_per_pixel));
 }
@@ -128,7 +125,7 @@ void check_paths_end(const scene::Scene& scene, const Settings& settings) {
 void warn(const scene::Scene& scene, const Settings& settings) {
   const std::size_t lost =
       scene.point_lights.size() + scene.spot_lights.size() + scene.directional_lights.size();
-  if (settings.connect == Connect::none && lost > 0)
+  if (settings.integrator == "path" && settings.connect == Connect::none && lost > 0)
     spdlog::warn("--connect none: no path can hit a point, spot or directional light: {} of the scene's "
                  "lights are dark",
                  lost);
@@ -168,9 +165,9 @@ public:
     if (!worker.parts.phong_lobe) warn_of_plain_strategy();
     statistics.seconds_setup += seconds_since(begin);
     const device::BuiltProgram built =
-        device::build(device, files_, {"path.cl", worker.parts.defines(), {}}, events_.building_kernels);
+        device::build(device, files_, {worker.parts.file(), worker.parts.defines(), {}}, events_.building_kernels);
     statistics.kernels_from_cache = built.from_cache;
-    worker.launcher = std::make_unique<PathLauncher>(device, built.program, *host_, worker.parts, settings_);
+    worker.launcher = std::make_unique<Launcher>(device, built.program, *host_, worker.parts, settings_);
     const Clock::time_point warm_up_begin = Clock::now();
     worker.launcher->warm_up();
     statistics.seconds_build_kernels += built.seconds + seconds_since(warm_up_begin);
@@ -240,6 +237,7 @@ Statistics render(const scene::Scene& scene, const Settings& settings, film::Fil
   for (const device::Device& device : devices) workers.push_back(workshop.make(device, statistics));
   describe(statistics, devices, workers);
   film.set_unit(workshop.unit());
+  if (settings.techniques) film.use_techniques();
 
   Work work(scene.camera, settings, film, events);
   run_all(work, workers);

@@ -13,7 +13,9 @@ constexpr std::int64_t endless = std::numeric_limits<std::int32_t>::max() / 2;
 
 Schedule::Schedule(std::int64_t pixels, std::optional<std::int64_t> samples) : pixels_(pixels) {
   if (samples) {
-    start_phase({0, *samples, samples_per_block});
+    const std::int64_t rest = *samples % samples_per_block, whole = *samples - rest;
+    if (rest > 0) later_ = {{whole, *samples, static_cast<int>(rest)}};
+    start_phase({0, whole, samples_per_block});
     return;
   }
   later_ = {{samples_per_block, endless, samples_per_block}, {8, 16, 8}, {4, 8, 4}, {2, 4, 2}, {1, 2, 1}};
@@ -23,7 +25,7 @@ Schedule::Schedule(std::int64_t pixels, std::optional<std::int64_t> samples) : p
 void Schedule::start_phase(Phase phase) {
   phase_ = phase;
   const std::int64_t samples = phase.end_sample - phase.first_sample;
-  jobs_ = pixels_ * ((samples + phase.block_samples - 1) / phase.block_samples);
+  jobs_ = pixels_ * (samples / phase.block_samples);
   done_ = 0;
 }
 
@@ -40,7 +42,6 @@ std::optional<Launch> Schedule::next(const Wanted& wanted) {
   launch.jobs = std::min(wanted(jobs_ - done_, phase_.block_samples), jobs_ - done_);
   launch.block_samples = phase_.block_samples;
   launch.first_sample = phase_.first_sample + block * phase_.block_samples;
-  launch.end_sample = phase_.end_sample;
   done_ += launch.jobs;
   return launch;
 }

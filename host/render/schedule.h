@@ -14,16 +14,16 @@ namespace phlux::render {
 inline constexpr int samples_per_block = 16;
 
 /// One launch: jobs [first_job, first_job + jobs) of a phase. Job j is block j / pixels, pixel j % pixels;
-/// block b holds samples first_sample + b * block_samples onwards, ending before end_sample.
+/// block b holds samples first_sample + b * block_samples onwards.
 struct Launch {
   std::int64_t first_job = 0;
   std::int64_t jobs = 0;
-  std::int64_t first_sample = 0, end_sample = 0;
+  std::int64_t first_sample = 0;
   int block_samples = samples_per_block;
 };
 
-/// Hands out the work. With `samples` given, every pixel gets just that many, in blocks of samples_per_block.
-/// Without, it never ends, and the first blocks are short (1, 1, 2, 4, 8 samples), so that a render that is
+/// Hands out the work. With `samples` given, every pixel gets just that many, in blocks of samples_per_block
+/// and then one of what is left. Without, it never ends, and the first blocks are short (1, 1, 2, 4, 8 samples), so that a render that is
 /// stopped early has seen every pixel.
 class Schedule {
 public:

@@ -40,6 +40,6 @@ __kernel void sample_lights(SCENE_PARAMETERS, __global const Vec3* position, __g
   to.valid = s.valid ? yes : no;
   to.blocked = scene_occluded(&scene, s.ray, s.distance, s.valid) ? yes : no;
   to.light = emits ? light : (Int)(-1);
-  to.hit_density = light_density_of_hit(&scene, s.ray.origin, s.ray, hit.distance, point, light);
+  to.hit_density = light_density(&scene, s.ray.origin, light, hit.distance, -vec_dot(point.normal, s.ray.direction));
   sampled[i] = to;
 }

@@ -25,6 +25,7 @@
   MEMBER(LightRecord, cutoff)                                                                                \
   MEMBER(LightRecord, inv_transition)                                                                        \
   MEMBER(LightRecord, probability)                                                                           \
+  MEMBER(LightRecord, emission_density)                                                                      \
   MEMBER(LightRecord, alias_threshold)                                                                       \
   MEMBER(LightRecord, alias)                                                                                 \
   MEMBER(CameraRecord, position)                                                                             \
@@ -33,5 +34,6 @@
   MEMBER(CameraRecord, up)                                                                                   \
   MEMBER(CameraRecord, principal_x)                                                                          \
   MEMBER(CameraRecord, principal_y)                                                                          \
+  MEMBER(CameraRecord, film_area)                                                                            \
   MEMBER(CameraRecord, width)                                                                                \
   MEMBER(CameraRecord, height)

@@ -1,0 +1,103 @@
+#include "files/contributions.h"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+#include "errors.h"
+#include "files/exr.h"
+#include "files/png.h"
+
+namespace phlux::files {
+namespace {
+
+using film::Technique;
+using Pixels = std::vector<std::array<double, 3>>;
+constexpr const char* names[3] = {"R", "G", "B"};
+
+Image blank(int width, int height, const RenderInfo& info) {
+  Image image;
+  image.width = width;
+  image.height = height;
+  image.info = info;
+  for (const char* name : names)
+    image.channels[name].resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  return image;
+}
+
+Image image_of(const Pixels& pixels, int width, int height, const RenderInfo& info) {
+  Image image = blank(width, height, info);
+  for (std::size_t channel = 0; channel < 3; ++channel)
+    for (std::size_t pixel = 0; pixel < pixels.size(); ++pixel)
+      image.channels[names[channel]][pixel] = static_cast<float>(pixels[pixel][channel]);
+  return image;
+}
+
+// Tiles of a film, shrunk by a whole factor to about 128 pixels across, in rows by edges and columns by s.
+class Sheet {
+public:
+  Sheet(int width, int height, int most_edges, const RenderInfo& info)
+      : width_(width), factor_((std::max(width, height) + largest_tile - 1) / largest_tile),
+        tile_width_(std::max(width / factor_, 1)), tile_height_(std::max(height / factor_, 1)),
+        columns_(most_edges + 1), image_(blank(2 * columns_ * (tile_width_ + gap) + gap,
+                                               most_edges * (tile_height_ + gap) + gap, info)) {}
+
+  void put(Technique technique, const Pixels& pixels, bool weighted) {
+    const int column = technique.light_vertices + (weighted ? 0 : columns_);
+    const int left = gap + column * (tile_width_ + gap),
+              top = gap + (technique.edges() - 1) * (tile_height_ + gap);
+    for (std::size_t channel = 0; channel < 3; ++channel)
+      for (int y = 0; y < tile_height_; ++y)
+        for (int x = 0; x < tile_width_; ++x)
+          image_.channels[names[channel]][index(left + x, top + y, image_.width)] =
+              static_cast<float>(mean_of(pixels, x * factor_, y * factor_, channel));
+  }
+
+  [[nodiscard]] const Image& image() const { return image_; }
+
+private:
+  static constexpr int largest_tile = 128, gap = 4;
+
+  static std::size_t index(int x, int y, int width) {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+  }
+
+  [[nodiscard]] double mean_of(const Pixels& pixels, int left, int top, std::size_t channel) const {
+    double sum = 0;
+    for (int y = 0; y < factor_; ++y)
+      for (int x = 0; x < factor_; ++x)
+        sum += pixels[std::min(index(left + x, top + y, width_), pixels.size() - 1)][channel];
+    return sum / (factor_ * factor_);
+  }
+
+  int width_, factor_, tile_width_, tile_height_, columns_;
+  Image image_;
+};
+
+} // namespace
+
+void write_contributions(const std::filesystem::path& folder, film::Film& film, const RenderInfo& info) {
+  std::error_code failure;
+  std::filesystem::create_directories(folder, failure);
+  if (failure)
+    throw WriteError(fmt::format("{}: cannot be made: {}: name another folder", folder.string(),
+                                 failure.message()));
+  const film::Techniques& techniques = *film.techniques();
+  int most_edges = 1;
+  for (const auto& [technique, sums] : techniques.sums())
+    most_edges = std::max(most_edges, technique.edges());
+  Sheet sheet(film.width(), film.height(), most_edges, info);
+  for (const auto& [technique, sums] : techniques.sums()) {
+    const std::string name = fmt::format("s{}-t{}", technique.light_vertices, technique.eye_vertices);
+    for (const bool weighted : {true, false}) {
+      const Pixels pixels = film.technique_image(weighted ? sums.weighted : sums.unweighted);
+      write_exr(folder / (name + (weighted ? ".exr" : "-unweighted.exr")),
+                image_of(pixels, film.width(), film.height(), info));
+      sheet.put(technique, pixels, weighted);
+    }
+  }
+  write_png(folder / "contributions.png", sheet.image());
+}
+
+} // namespace phlux::files

@@ -1,0 +1,41 @@
+// What each way of making a path brings by itself: for teaching, and for finding out what is wrong.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+namespace phlux::film {
+
+/// s vertices of the path were made from the light, t from the eye.
+struct Technique {
+  int light_vertices = 0, eye_vertices = 0;
+  [[nodiscard]] int edges() const { return light_vertices + eye_vertices - 1; }
+  auto operator<=>(const Technique&) const = default;
+};
+
+/// Longer paths are not told apart: there are as many images as pairs (s, t).
+inline constexpr int most_technique_edges = 8;
+
+class Techniques {
+public:
+  /// Sums over all paths, row by row from the top.
+  struct Sums {
+    std::vector<std::array<double, 3>> weighted, unweighted;
+  };
+
+  explicit Techniques(std::size_t pixels) : pixels_(pixels) {}
+
+  /// Radiance that one path brought to a pixel; the technique's share of it is `weight`.
+  void add(Technique technique, std::size_t pixel, const std::array<double, 3>& radiance, double weight);
+  [[nodiscard]] const std::map<Technique, Sums>& sums() const { return sums_; }
+  [[nodiscard]] std::uint64_t left_out() const { return left_out_; } ///< contributions of longer paths
+
+private:
+  std::size_t pixels_;
+  std::map<Technique, Sums> sums_;
+  std::uint64_t left_out_ = 0;
+};
+
+} // namespace phlux::film

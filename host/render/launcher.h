@@ -1,0 +1,88 @@
+// One device at work: launches of bounded length, their results folded into the film.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "device/program.h"
+#include "film/film.h"
+#include "film/splat_records.h"
+#include "render/device_scene.h"
+#include "render/schedule.h"
+
+namespace phlux::render {
+
+struct Counts {
+  std::uint64_t paths = 0, rays = 0, shadow_rays = 0, nonfinite = 0;
+};
+
+class Launcher {
+public:
+  Launcher(const device::Device& device, const cl::Program& program, const HostScene& scene,
+           const Parts& parts, const Settings& settings);
+
+  /// Launches nothing, which makes the driver finish what it puts off until a kernel's first launch: PoCL
+  /// compiles most of it then.
+  void warm_up();
+
+  /// Jobs that the next launch should have to last about Settings::launch_seconds, given how many are left.
+  [[nodiscard]] std::int64_t wanted_jobs(std::int64_t left, int block_samples) const;
+  void enqueue(const Launch& launch);
+  [[nodiscard]] std::size_t in_flight() const { return flights_.size(); }
+  void wait(); ///< for the oldest launch
+  /// Folds the oldest launch into the film. @throws DeviceError when its paths do not fit the device's memory
+  void collect(film::Film& film);
+  [[nodiscard]] const Counts& counts() const { return counts_; }
+
+private:
+  // A launch's buffers, kept from one to the next: fresh memory costs more than the copies.
+  struct Buffers {
+    cl::Buffer sums, counters, records, record_counts, scratch;
+    std::size_t sums_bytes = 0, counters_bytes = 0, records_bytes = 0, record_counts_bytes = 0,
+                scratch_bytes = 0;
+  };
+  struct Flight {
+    Launch launch;
+    std::size_t items = 0, batches = 0;
+    int batch_jobs = 0, rows = 0, record_capacity = 0; // record_capacity: per batch
+    Buffers buffers;
+    cl::Event kernel_done, read;
+    std::vector<film::BlockSum> host_sums;
+    std::vector<cl_uint> host_counters;
+    std::vector<cl_int> host_record_counts;
+    float* host_records = nullptr; // mapped
+  };
+  [[nodiscard]] int batch_jobs(int block_samples) const;
+  void start(Flight& flight);
+  void plan(Flight& flight) const;
+  [[nodiscard]] std::size_t scratch_bytes_per_item(const Flight& flight) const;
+  void reserve(cl::Buffer& buffer, std::size_t& has, std::size_t bytes, const char* what) const;
+  void read_back(Flight& flight);
+  [[nodiscard]] bool overflowed(const Flight& flight);
+  void fold_sums(const Flight& flight, film::Film& film);
+  void fold_records(Flight& flight, film::Film& film);
+  void adapt(const Flight& flight);
+
+  device::Device device_;
+  DeviceScene scene_;
+  cl::Kernel kernel_;
+  cl_uint first_launch_argument_;
+  Parts parts_;
+  int lanes_;
+  int sky_light_; // index of the constant light
+  std::int64_t pixels_;
+  double launch_seconds_;
+  std::size_t units_;             // compute units
+  std::size_t first_items_;       // work-items of the first launch
+  std::size_t items_;             // work-items of a full launch
+  double paths_per_second_ = 0.0; // as measured; 0: not yet
+  double records_per_path_ = 2.0; // that there is room for
+  double rows_per_path_ = 6.0;    // of a lane: steps of a subpath that there is room for
+  std::deque<Flight> flights_;
+  std::vector<Buffers> spare_;
+  film::SplatFolder folder_;
+  Counts counts_;
+};
+
+} // namespace phlux::render

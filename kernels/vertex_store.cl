@@ -1,0 +1,109 @@
+// The vertices of a batch's subpaths in memory. The vertex that lane l reaches in step t of its walk stands in column l
+// of row t: a subpath's vertices are in consecutive rows of one column, and a row is written as it stands in registers.
+#ifndef PHLUX_VERTEX_STORE_CL
+#define PHLUX_VERTEX_STORE_CL
+
+#include "walk.cl"
+
+#ifdef PHLUX_ANISOTROPIC
+#define VERTEX_WORDS VERTEX_WORDS_MOST
+#elif defined(PHLUX_SMOOTH_NORMALS)
+#define VERTEX_WORDS VERTEX_TANGENT
+#else
+#define VERTEX_WORDS VERTEX_GEOMETRIC
+#endif
+
+typedef struct {
+  __global float* words;
+  int rows;             // that there is room for
+  __global int* first;  // per path: word 0 of its first vertex
+  __global int* length; // and how many vertices it has
+} VertexStore;
+
+// Lanes of a subpath's vertices.
+typedef struct {
+  Int first, length;
+} Trail;
+
+static inline Trail no_trail(void) {
+  Trail trail;
+  trail.first = trail.length = (Int)(0);
+  return trail;
+}
+
+#define ROW_WORDS (VERTEX_WORDS * LANES)
+
+static inline void store_vec(__global float* words, int word, Vec3 v) {
+  store_reals(words + word * LANES, v.x);
+  store_reals(words + (word + 1) * LANES, v.y);
+  store_reals(words + (word + 2) * LANES, v.z);
+}
+static inline Vec3 gather_vec(const __global float* words, int word, Int at) {
+  return vec3(gather_real(words + word * LANES, at), gather_real(words + (word + 1) * LANES, at),
+              gather_real(words + (word + 2) * LANES, at));
+}
+
+static inline void store_vertex(const VertexStore* store, int row, const Walk* walk, Vertex v) {
+  __global float* words = store->words + (size_t)row * ROW_WORDS;
+  store_vec(words, VERTEX_POSITION, v.point.position);
+  store_vec(words, VERTEX_NORMAL, v.point.frame.z);
+  store_vec(words, VERTEX_FIXED, vec_scale((Real)(-1.0f), walk->ray.direction));
+  store_vec(words, VERTEX_THROUGHPUT, walk->throughput);
+  store_reals(words + VERTEX_ERROR * LANES, v.point.error);
+  store_ints((__global int*)words + VERTEX_MATERIAL * LANES, v.point.material);
+  store_reals(words + VERTEX_EDGE * LANES, walk->ratios.edge);
+  store_reals(words + VERTEX_REST * LANES, walk->ratios.rest);
+#ifdef PHLUX_SMOOTH_NORMALS
+  store_vec(words, VERTEX_GEOMETRIC, v.point.normal);
+#endif
+#ifdef PHLUX_ANISOTROPIC
+  store_vec(words, VERTEX_TANGENT, v.point.frame.x);
+#endif
+}
+
+// A stored vertex, as far as connecting to it takes.
+typedef struct {
+  Vertex vertex;
+  Vec3 throughput;
+  Ratios ratios;
+} Joint;
+
+static inline Joint load_vertex(const Scene* scene, const VertexStore* store, Int at) {
+  const __global float* words = store->words;
+  Joint j;
+  j.vertex.point.position = gather_vec(words, VERTEX_POSITION, at);
+  const Vec3 shading = gather_vec(words, VERTEX_NORMAL, at);
+#ifdef PHLUX_ANISOTROPIC
+  j.vertex.point.frame.x = gather_vec(words, VERTEX_TANGENT, at);
+  j.vertex.point.frame.y = vec_cross(shading, j.vertex.point.frame.x);
+  j.vertex.point.frame.z = shading;
+#else
+  j.vertex.point.frame = frame_about(shading);
+#endif
+#ifdef PHLUX_SMOOTH_NORMALS
+  j.vertex.point.normal = gather_vec(words, VERTEX_GEOMETRIC, at);
+#else
+  j.vertex.point.normal = shading;
+#endif
+  j.vertex.fixed = to_frame(j.vertex.point.frame, gather_vec(words, VERTEX_FIXED, at));
+  j.vertex.point.error = gather_real(words + VERTEX_ERROR * LANES, at);
+  j.vertex.material = material_at(scene, gather_int((const __global int*)words + VERTEX_MATERIAL * LANES, at));
+  j.throughput = gather_vec(words, VERTEX_THROUGHPUT, at);
+  j.ratios.edge = gather_real(words + VERTEX_EDGE * LANES, at);
+  j.ratios.rest = gather_real(words + VERTEX_REST * LANES, at);
+  return j;
+}
+
+// Where a subpath's vertices are, once it has ended.
+static inline void store_trail(const VertexStore* store, Int path, Trail trail, Mask m) {
+  scatter_int(store->first, path, trail.first, m);
+  scatter_int(store->length, path, trail.length, m);
+}
+static inline Trail load_trail(const VertexStore* store, Int path) {
+  Trail trail;
+  trail.first = gather_int(store->first, path);
+  trail.length = gather_int(store->length, path);
+  return trail;
+}
+
+#endif
