@@ -11,7 +11,9 @@
 namespace {
 
 using phlux::render::Connect;
+using phlux::render::Integrator;
 using phlux::render::Parts;
+using phlux::render::Weights;
 
 Parts everything() {
   Parts parts;
@@ -63,6 +65,18 @@ Parts sphere_in_sky() {
   return parts;
 }
 
+Parts by(Integrator integrator, Parts parts, Weights weights = Weights::balance) {
+  parts.integrator = integrator;
+  parts.weights = weights;
+  parts.connect = integrator == Integrator::light ? Connect::none : Connect::mis;
+  return parts;
+}
+
+Parts with_techniques(Parts parts) {
+  parts.techniques = true;
+  return parts;
+}
+
 // A scene-less program that measures the sampler.
 std::map<std::string, std::string> sampler(const std::string& strategy) {
   return {{"PHLUX_STRATEGY", strategy}, {"PHLUX_PHONG_LOBE", "1"}, {"FIXED_DIRECTIONS", "16"}};
@@ -85,17 +99,24 @@ int main(int argc, char** argv) {
   }
   const std::filesystem::path folder = argv[1];
   std::filesystem::create_directories(folder);
-  const std::map<std::string, Parts> programs{{"everything", everything()},
-                                              {"everything-brute-force", everything_brute_force()},
-                                              {"diffuse-box", diffuse_box()},
-                                              {"glossy-spheres", glossy_spheres()},
-                                              {"mesh", mesh()},
-                                              {"sphere-in-sky", sphere_in_sky()}};
+  const std::map<std::string, Parts> programs{
+      {"everything", everything()},
+      {"everything-brute-force", everything_brute_force()},
+      {"diffuse-box", diffuse_box()},
+      {"glossy-spheres", glossy_spheres()},
+      {"mesh", mesh()},
+      {"sphere-in-sky", sphere_in_sky()},
+      {"everything-light", by(Integrator::light, everything())},
+      {"glossy-spheres-light", by(Integrator::light, glossy_spheres())},
+      {"sky-light", with_techniques(by(Integrator::light, sphere_in_sky()))},
+      {"everything-bidir", by(Integrator::bidir, everything())},
+      {"glossy-spheres-bidir", by(Integrator::bidir, glossy_spheres(), Weights::power)},
+      {"mesh-bidir", with_techniques(by(Integrator::bidir, mesh(), Weights::uniform))}};
   bool good = true;
   for (const int lanes : {1, 4, 8, 16}) {
     for (auto [name, parts] : programs) {
       parts.lanes = lanes;
-      good = good && write(folder, name, "path.cl", lanes, parts.defines());
+      good = good && write(folder, name, parts.file(), lanes, parts.defines());
     }
     for (const std::string strategy : {"EXACT", "REJECTION", "FOLD", "LOBE_ESTIMATE", "DISK"})
       good = good &&
