@@ -111,3 +111,31 @@ __kernel void turns(__global const Real* turns, __global Real* cosine, __global 
   cosine[i] = c;
   sine[i] = s;
 }
+
+__kernel void packs(__global const Int* chosen, __global const Real* real, __global const Int* whole,
+                    __global const Real* old, __global int* count, __global Int* rank, __global Real* packed,
+                    __global Int* packed_int, __global Vec3* packed_vec, __global Real* unpacked,
+                    __global Int* unpacked_int) {
+  const size_t i = get_global_id(0);
+  const Mask m = chosen[i] != 0;
+  count[i] = count_lanes(m);
+  rank[i] = rank_lanes(m);
+  packed[i] = pack_lanes(m, real[i]);
+  packed_int[i] = pack_int_lanes(m, whole[i]);
+  packed_vec[i] = pack_vec(m, vec3(real[i], old[i], to_real(whole[i])));
+  unpacked[i] = unpack_lanes(m, real[i], old[i]);
+  unpacked_int[i] = unpack_int_lanes(m, whole[i], real_bits(old[i]));
+}
+
+__kernel void scatter_and_add(__global int* ints, __global float* sums, __global const Int* index,
+                              __global const Int* whole, __global const Real* real, __global const Int* chosen) {
+  const size_t i = get_global_id(0);
+  scatter_int(ints, index[i], whole[i], chosen[i] != 0);
+  add_real(sums, index[i], real[i], chosen[i] != 0);
+}
+
+__kernel void stores(__global const Real* real, __global const Int* whole, __global float* reals, __global int* ints) {
+  const size_t i = get_global_id(0);
+  store_reals(reals + i * LANES, real[i]);
+  store_ints(ints + i * LANES, whole[i]);
+}

@@ -15,9 +15,13 @@ public:
   SceneProgram(Variant variant, const std::string& file, const phlux::scene::Scene& scene,
                const std::string& strategy = "exact",
                phlux::render::Traversal traversal = phlux::render::Traversal::brute_force)
-      : host_(phlux::render::prepare(scene, traversal, variant.width)),
-        parts_(parts_of(scene, host_, strategy, variant)), device_(test_device(), host_, parts_),
-        program_(&program_of(file, variant, parts_.defines())) {}
+      : SceneProgram(variant, file, scene, settings_of(strategy, traversal)) {}
+
+  SceneProgram(Variant variant, const std::string& file, const phlux::scene::Scene& scene,
+               const phlux::render::Settings& settings)
+      : host_(phlux::render::prepare(scene, settings.traversal, variant.width)),
+        parts_(phlux::render::find_parts(scene, host_.geometry, host_.lights, settings, variant.width)),
+        device_(test_device(), host_, parts_), program_(&program_of(file, variant, parts_.defines())) {}
 
   template<typename... Arguments>
   void run(const char* name, std::size_t count, const Arguments&... arguments) const {
@@ -29,11 +33,12 @@ public:
   [[nodiscard]] const phlux::render::HostScene& host() const { return host_; }
 
 private:
-  static phlux::render::Parts parts_of(const phlux::scene::Scene& scene, const phlux::render::HostScene& host,
-                                       const std::string& strategy, Variant variant) {
+  static phlux::render::Settings settings_of(const std::string& strategy,
+                                             phlux::render::Traversal traversal) {
     phlux::render::Settings settings;
     settings.strategy = strategy;
-    return phlux::render::find_parts(scene, host.geometry, host.lights, settings, variant.width);
+    settings.traversal = traversal;
+    return settings;
   }
 
   phlux::render::HostScene host_;

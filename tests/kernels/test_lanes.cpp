@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -150,6 +151,88 @@ TEST_CASE("lanes: questions and reductions across lanes") {
       for (auto i = begin; i < end; ++i) expected += whole[static_cast<std::size_t>(i)];
       REQUIRE(sum[item] == expected);
     }
+  }
+}
+
+TEST_CASE("lanes: counting, ranking, packing and unpacking the lanes of a mask") {
+  Random random(9);
+  for (const Variant v : variants) {
+    CAPTURE(v);
+    const auto width = static_cast<std::size_t>(v.width);
+    const auto chosen = random_masks(v, random);
+    const auto real = random_reals(chosen.size(), random), old = random_reals(chosen.size(), random);
+    std::vector<int> whole(chosen.size()), count(items), rank(whole.size()), packed_int(whole.size());
+    for (int& each : whole) each = static_cast<int>(random.word()) >> 8; // a float holds them
+    std::vector<float> packed(whole.size()), unpacked(whole.size());
+    std::vector<Float3> packed_vec(whole.size());
+    std::vector<int> unpacked_int(whole.size());
+    program_of("lanes.cl", v)
+        .run("packs", whole.size(), chosen, real, whole, old, table(count), out(rank), out(packed),
+             out(packed_int), out(packed_vec), out(unpacked), out(unpacked_int));
+    for (std::size_t item = 0; item < items; ++item) {
+      CAPTURE(item);
+      const std::size_t begin = item * width;
+      std::size_t before = 0;
+      for (std::size_t i = begin; i < begin + width; ++i) {
+        const std::size_t at = begin + before;
+        if (chosen[i] == 0) {
+          REQUIRE(unpacked[i] == old[i]);
+          REQUIRE(unpacked_int[i] == std::bit_cast<int>(old[i]));
+          continue;
+        }
+        REQUIRE(rank[i] == static_cast<int>(before));
+        REQUIRE(packed[at] == real[i]);
+        REQUIRE(packed_int[at] == whole[i]);
+        REQUIRE(packed_vec[at].x == real[i]);
+        REQUIRE(packed_vec[at].y == old[i]);
+        REQUIRE(packed_vec[at].z == static_cast<float>(whole[i]));
+        REQUIRE(unpacked[i] == real[at]);
+        REQUIRE(unpacked_int[i] == whole[at]);
+        ++before;
+      }
+      REQUIRE(count[item] == static_cast<int>(before));
+    }
+  }
+}
+
+TEST_CASE("lanes: scatter_int and add_real take one lane after another") {
+  Random random(10);
+  for (const Variant v : variants) {
+    CAPTURE(v);
+    constexpr int places = 5; // fewer than lanes: several of them meet
+    const auto width = static_cast<std::size_t>(v.width);
+    const auto chosen = random_masks(v, random);
+    const auto real = random_reals(chosen.size(), random);
+    std::vector<int> index(chosen.size()), whole(chosen.size());
+    for (std::size_t i = 0; i < index.size(); ++i) {
+      index[i] = static_cast<int>(i / width) * places + static_cast<int>(random.word() % places);
+      whole[i] = static_cast<int>(random.word());
+    }
+    std::vector<int> ints(items * places, -7), expected_ints = ints;
+    std::vector<float> sums(items * places, 0.5f), expected_sums = sums;
+    for (std::size_t i = 0; i < index.size(); ++i)
+      if (chosen[i] != 0) {
+        expected_ints[static_cast<std::size_t>(index[i])] = whole[i];
+        expected_sums[static_cast<std::size_t>(index[i])] += real[i];
+      }
+    program_of("lanes.cl", v)
+        .run("scatter_and_add", index.size(), table(ints), table(sums), index, whole, real, chosen);
+    CHECK(ints == expected_ints);
+    CHECK(sums == expected_sums);
+  }
+}
+
+TEST_CASE("lanes: stores write one word for each lane, in lane order") {
+  Random random(11);
+  for (const Variant v : variants) {
+    CAPTURE(v);
+    const auto real = random_reals(lanes_of(v), random);
+    std::vector<int> whole(real.size()), ints(real.size());
+    std::vector<float> reals(real.size());
+    for (int& each : whole) each = static_cast<int>(random.word());
+    program_of("lanes.cl", v).run("stores", real.size(), real, whole, table(reals), table(ints));
+    CHECK(reals == real);
+    CHECK(ints == whole);
   }
 }
 

@@ -1,19 +1,22 @@
 #!/usr/bin/env python3
-"""Puts each mistake of mutants.py into a copy of kernels/ and sees whether `phlux verify --quick` catches it.
+"""Puts each mistake of mutants.py into a copy of kernels/ and sees whether `phlux verify --quick` catches it, or, for
+light tracing and bidirectional path tracing, the tests that are named with it.
 
-    tests/mutations/run.py PHLUX [--device SPEC] [--only TEXT]
+    tests/mutations/run.py PHLUX [--tests FOLDER] [--device SPEC] [--only TEXT]
 
 Prints what caught each; exits with 1 when one survives. Takes some minutes: every mutant is compiled anew.
 """
 import argparse
 import json
+import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
 import tempfile
 
-from mutants import MUTANTS
+from mutants import INTEGRATOR_MUTANTS, MUTANTS
 
 KERNELS = pathlib.Path(__file__).resolve().parents[2] / "kernels"
 
@@ -48,15 +51,21 @@ def caught_by(phlux, options, folder):
             for check, names in failed.items()]
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("phlux", help="the program")
-    parser.add_argument("--device", help="as phlux verify's")
-    parser.add_argument("--only", default="", help="mutants whose name holds this")
-    arguments = parser.parse_args()
+def failed_tests(program, cases, device, folder):
+    """Names of the test cases that fail; that of the program where it ends before it can say."""
+    environment = dict(os.environ, PHLUX_TEST_KERNELS=str(folder / "kernels"))
+    if device:
+        environment["PHLUX_DEVICE"] = device
+    result = subprocess.run([program, cases, "--reporter", "xml"], cwd=folder, env=environment, capture_output=True, text=True)
+    if result.returncode == 0:
+        return []
+    failed = re.findall(r'<TestCase name="([^"]*)"(?:(?!</TestCase>).)*<OverallResult success="false"', result.stdout, re.S)
+    return failed or [program.name]
+
+
+def verify_mutants(arguments, survivors):
     phlux = str(pathlib.Path(arguments.phlux).resolve())
     options = ["--device", arguments.device] if arguments.device else []
-    survivors = 0
     for name, file, old, new in MUTANTS:
         if arguments.only not in name:
             continue
@@ -64,10 +73,38 @@ def main():
             folder = pathlib.Path(scratch)
             mutate(folder / "kernels", file, old, new)
             chosen = [text for strategy in strategies_of(name) for text in ("--strategy", strategy)]
-            caught = caught_by(phlux, options + chosen, folder)
-        survivors += not caught
-        print(f"{name:45} {'; '.join(caught) or 'SURVIVED'}", flush=True)
-    print(f"{survivors} survived")
+            tell(name, caught_by(phlux, options + chosen, folder), survivors)
+
+
+def integrator_mutants(arguments, survivors):
+    for name, file, old, new, (program, cases) in INTEGRATOR_MUTANTS:
+        if arguments.only not in name:
+            continue
+        with tempfile.TemporaryDirectory() as scratch:
+            folder = pathlib.Path(scratch)
+            mutate(folder / "kernels", file, old, new)
+            tests = pathlib.Path(arguments.tests).resolve() / program
+            tell(name, failed_tests(tests, cases, arguments.device, folder), survivors)
+
+
+def tell(name, caught, survivors):
+    if not caught:
+        survivors.append(name)
+    print(f"{name:60} {'; '.join(caught) or 'SURVIVED'}", flush=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("phlux", help="the program")
+    parser.add_argument("--tests", help="the folder of the test programs: mistakes of the integrators too")
+    parser.add_argument("--device", help="as phlux verify's")
+    parser.add_argument("--only", default="", help="mutants whose name holds this")
+    arguments = parser.parse_args()
+    survivors = []
+    verify_mutants(arguments, survivors)
+    if arguments.tests:
+        integrator_mutants(arguments, survivors)
+    print(f"{len(survivors)} survived")
     return 1 if survivors else 0
 
 

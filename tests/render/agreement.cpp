@@ -105,21 +105,34 @@ Estimate tiles(const Estimate& image, int side) {
   return result;
 }
 
-Agreement agreement(const Estimate& image, const Estimate& reference, double tolerance) {
+namespace {
+
+Agreement worst_of(const Estimate& image, const Estimate& reference, double tolerance, bool with_mean) {
   if (image.width != reference.width || image.height != reference.height || image.mean.empty())
     return {false, "the images differ in size or are empty"};
   Worst worst;
   for (std::size_t c = 0; c < channel_count; ++c) {
-    worst.add(mean_over_image(image, c), mean_over_image(reference, c), tolerance,
-              fmt::format("the mean of channel {}", "RGB"[c]));
+    if (with_mean)
+      worst.add(mean_over_image(image, c), mean_over_image(reference, c), tolerance,
+                fmt::format("the mean of channel {}", "RGB"[c]));
     for (std::size_t i = 0; i < image.mean.size(); ++i)
       worst.add(value(image, i, c), value(reference, i, c), tolerance,
                 fmt::format("channel {} of pixel ({}, {})", "RGB"[c],
                             i % static_cast<std::size_t>(image.width),
                             i / static_cast<std::size_t>(image.width)));
   }
-  const double level = level_of_each(false_alarm_rate, (image.mean.size() + 1) * channel_count);
+  const double level = level_of_each(false_alarm_rate, (image.mean.size() + (with_mean ? 1 : 0)) * channel_count);
   return {two_sided_p(worst.z()) >= level, fmt::format("{}; p below {:.3g} fails", worst.text(), level)};
+}
+
+} // namespace
+
+Agreement agreement(const Estimate& image, const Estimate& reference, double tolerance) {
+  return worst_of(image, reference, tolerance, true);
+}
+
+Agreement agreement_of_pixels(const Estimate& image, const Estimate& reference, double tolerance) {
+  return worst_of(image, reference, tolerance, false);
 }
 
 void check_agreement(const Estimate& image, const Estimate& reference, double tolerance) {

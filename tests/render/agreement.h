@@ -46,6 +46,10 @@ struct Agreement {
 [[nodiscard]] Agreement agreement(const Estimate& image, const Estimate& reference,
                                   double tolerance = rounding);
 
+/// The same without the tests of the image's mean.
+[[nodiscard]] Agreement agreement_of_pixels(const Estimate& image, const Estimate& reference,
+                                            double tolerance = rounding);
+
 /// CHECKs agreement(), with its message.
 void check_agreement(const Estimate& image, const Estimate& reference, double tolerance = rounding);
 

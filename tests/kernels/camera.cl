@@ -1,0 +1,26 @@
+#include "camera.cl"
+
+// What the camera sees of its own rays.
+__kernel void see_rays(SCENE_PARAMETERS, __global const Uint* pixel, __global const Real* u, __global const Real* v,
+                       __global Vec3* direction, __global Int* seen, __global Int* seen_pixel, __global Real* density,
+                       __global Real* density_alone) {
+  SCENE_FROM_PARAMETERS
+  const size_t i = get_global_id(0);
+  const Ray ray = camera_ray(&scene, pixel[i], u[i], v[i]);
+  const FilmPoint point = camera_sees(&scene, ray.direction);
+  direction[i] = ray.direction;
+  seen[i] = point.seen ? (Int)(1) : (Int)(0);
+  seen_pixel[i] = point.pixel;
+  density[i] = point.density;
+  density_alone[i] = film_density(&scene, ray.direction);
+}
+
+__kernel void see_directions(SCENE_PARAMETERS, __global const Vec3* direction, __global Int* seen,
+                             __global Int* seen_pixel, __global Real* density) {
+  SCENE_FROM_PARAMETERS
+  const size_t i = get_global_id(0);
+  const FilmPoint point = camera_sees(&scene, direction[i]);
+  seen[i] = point.seen ? (Int)(1) : (Int)(0);
+  seen_pixel[i] = point.pixel;
+  density[i] = point.density;
+}

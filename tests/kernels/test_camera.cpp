@@ -1,0 +1,168 @@
+// The camera: its rays, and which pixel sees a direction and how densely.
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "directions.h"
+#include "scene_test.h"
+
+using namespace device_test;
+using glm::dvec3;
+using phlux::scene::Camera;
+using phlux::scene::Scene;
+
+namespace {
+
+struct Film {
+  int width, height;
+  double tan_half_fov_x, principal_x, principal_y;
+};
+constexpr Film films[] = {{1, 1, 0.5, 0, 0},        {16, 16, 1, 0, 0},   {37, 11, 2.5, 0.3, -0.2},
+                          {3, 300, 0.01, -0.7, 0.1}, {640, 480, 0.4, 0, 1.5}};
+
+Scene scene_of(const Film& film) {
+  Scene scene;
+  scene.materials.push_back({});
+  scene.spheres.push_back({});
+  Camera& camera = scene.camera;
+  camera.forward = glm::normalize(dvec3(1, -2, 0.5));
+  camera.left = glm::normalize(glm::cross(dvec3(0, 1, 0), camera.forward));
+  camera.up = glm::cross(camera.forward, camera.left);
+  camera.position = {3, 4, -5};
+  camera.width = film.width;
+  camera.height = film.height;
+  camera.tan_half_fov_x = film.tan_half_fov_x;
+  camera.principal_x = film.principal_x;
+  camera.principal_y = film.principal_y;
+  return scene;
+}
+
+SceneProgram program_for(Variant v, const Scene& scene) {
+  phlux::render::Settings settings;
+  settings.integrator = "bidir"; // which knows the film's density alone
+  settings.traversal = phlux::render::Traversal::brute_force;
+  Scene lit = scene;
+  lit.constant_radiance = dvec3(1);
+  return {v, "camera.cl", lit, settings};
+}
+
+// The direction through a place on the film, in [0, 1]^2 where it is on it.
+dvec3 through(const Camera& camera, double x, double y) {
+  const double across = camera.tan_half_fov_x, aspect = static_cast<double>(camera.height) / camera.width;
+  return glm::normalize(camera.forward + (1 - 2 * (x + camera.principal_x)) * across * camera.left +
+                        (1 - 2 * (y + camera.principal_y)) * across * aspect * camera.up);
+}
+
+double film_area(const Camera& camera) {
+  const double across = 2 * camera.tan_half_fov_x;
+  return across * across * camera.height / camera.width;
+}
+
+struct Seen {
+  std::vector<int> seen, pixel;
+  std::vector<float> density;
+  explicit Seen(std::size_t count) : seen(count), pixel(count), density(count) {}
+};
+
+Seen see(const SceneProgram& program, const std::vector<dvec3>& directions) {
+  std::vector<Float3> given;
+  for (const dvec3& d : directions) given.push_back(to_float(d));
+  Seen s(given.size());
+  program.run("see_directions", given.size(), given, out(s.seen), out(s.pixel), out(s.density));
+  return s;
+}
+
+} // namespace
+
+TEST_CASE("camera: each pixel sees its own rays, up to its borders") {
+  for (const Variant v : variants)
+    for (const Film& film : films) {
+      CAPTURE(v, film.width, film.height);
+      const Scene scene = scene_of(film);
+      const SceneProgram program = program_for(v, scene);
+      const auto pixels = static_cast<std::size_t>(film.width) * static_cast<std::size_t>(film.height);
+      Random random(81);
+      std::vector<std::uint32_t> pixel;
+      std::vector<float> us, vs;
+      // A place on the film is known to some units of float's last place: less than this part of a pixel.
+      const float margin = 4e-6f * static_cast<float>(std::max(film.width, film.height));
+      for (std::size_t i = 0; i < pixels; i += pixels > 5000 || thinned(pixels) < pixels ? 61 : 1)
+        for (int place = 0; place < 5; ++place) {
+          pixel.push_back(static_cast<std::uint32_t>(i));
+          const auto coordinate = [&](int border) {
+            return place == 4 ? static_cast<float>(random.uniform(margin, 1 - margin))
+                              : border == 0 ? margin : 1 - margin;
+          };
+          us.push_back(coordinate(place & 1));
+          vs.push_back(coordinate(place >> 1));
+        }
+      const std::size_t count = pixel.size();
+      std::vector<Float3> direction(count);
+      std::vector<int> seen(count), seen_pixel(count);
+      std::vector<float> density(count), density_alone(count);
+      program.run("see_rays", count, pixel, us, vs, out(direction), out(seen), out(seen_pixel), out(density),
+                  out(density_alone));
+      for (std::size_t i = 0; i < count; ++i) {
+        CAPTURE(i, pixel[i], us[i], vs[i]);
+        const int column = static_cast<int>(pixel[i]) % film.width, row = static_cast<int>(pixel[i]) / film.width;
+        const double x = (column + double(us[i])) / film.width, y = (row + double(vs[i])) / film.height;
+        const dvec3 right = through(scene.camera, x, y);
+        REQUIRE(glm::length(to_double(direction[i]) - right) < 1e-6);
+        REQUIRE(seen[i] == 1);
+        REQUIRE(seen_pixel[i] == static_cast<int>(pixel[i]));
+        const double cosine = glm::dot(right, scene.camera.forward);
+        REQUIRE(density[i] * film_area(scene.camera) * cosine * cosine * cosine == Approx(1).epsilon(1e-5));
+        REQUIRE(density_alone[i] == Approx(density[i]).epsilon(1e-6));
+      }
+    }
+}
+
+TEST_CASE("camera: what is beyond the film's borders, or behind, is not seen") {
+  for (const Variant v : variants)
+    for (const Film& film : films) {
+      CAPTURE(v, film.width, film.height);
+      const Scene scene = scene_of(film);
+      const SceneProgram program = program_for(v, scene);
+      // Half a pixel beyond: a cast to whole numbers would count it to the first column or row.
+      const double beyond_x = 0.5 / film.width, beyond_y = 0.5 / film.height;
+      std::vector<dvec3> directions;
+      for (const double along : {0.01, 0.3, 0.99}) {
+        for (const double x : {-beyond_x, 1 + beyond_x}) directions.push_back(through(scene.camera, x, along));
+        for (const double y : {-beyond_y, 1 + beyond_y}) directions.push_back(through(scene.camera, along, y));
+        directions.push_back(-through(scene.camera, along, 0.4)); // which the film's plane maps to itself
+      }
+      directions.push_back(-scene.camera.forward);
+      const Seen s = see(program, directions);
+      CHECK(s.seen == std::vector<int>(directions.size(), 0));
+      for (const int pixel : s.pixel) CHECK((pixel >= 0 && pixel < film.width * film.height)); // to be read from
+    }
+}
+
+TEST_CASE("camera: over all directions the density is 1, and as much for every pixel") {
+  for (const Film& film : {films[1], films[2], films[3]}) {
+    CAPTURE(film.width, film.height);
+    const Scene scene = scene_of(film);
+    const SceneProgram program = program_for(variants[3], scene);
+    // Midpoints of a lattice on a plane before the eye, wider than the film, whose solid angles are known.
+    const int columns = 12 * film.width, rows = 12 * film.height;
+    std::vector<dvec3> directions;
+    std::vector<double> solid_angles;
+    const double step_x = 1.5 / columns, step_y = 1.5 / rows;
+    for (int i = 0; i < columns * rows; ++i) {
+      const double x = -0.25 + (i % columns + 0.5) * step_x, y = -0.25 + (i / columns + 0.5) * step_y;
+      directions.push_back(through(scene.camera, x, y));
+      const double cosine = glm::dot(directions.back(), scene.camera.forward);
+      solid_angles.push_back(film_area(scene.camera) * step_x * step_y * cosine * cosine * cosine);
+    }
+    const Seen s = see(program, directions);
+    std::vector<double> of_pixel(static_cast<std::size_t>(film.width * film.height), 0.0);
+    for (std::size_t i = 0; i < directions.size(); ++i)
+      if (s.seen[i] != 0) of_pixel[static_cast<std::size_t>(s.pixel[i])] += s.density[i] * solid_angles[i];
+    double total = 0;
+    for (const double part : of_pixel) {
+      total += part;
+      REQUIRE(part * static_cast<double>(of_pixel.size()) == Approx(1).epsilon(1e-4));
+    }
+    CHECK(total == Approx(1).epsilon(1e-4));
+  }
+}

@@ -1,0 +1,134 @@
+// Weights of bidirectional paths: they sum to 1 over the ways to make a path, and are what its densities say.
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "device_test.h"
+#include "directions.h"
+
+using namespace device_test;
+
+namespace {
+
+constexpr std::size_t most_edges = 8;
+
+struct GivenPath {
+  float forward[most_edges + 1], backward[most_edges + 1], cosine_before[most_edges + 1],
+      cosine_after[most_edges + 1];
+  float distance2[most_edges];
+  float film, chosen, emission;
+  int hittable;
+};
+struct TechniqueWeights {
+  float of[most_edges + 1];
+};
+
+const char* const heuristics[] = {"WEIGHTS_BALANCE", "WEIGHTS_POWER", "WEIGHTS_UNIFORM"};
+
+// Densities are spread over `octaves` to either side of 1.
+GivenPath random_path(Random& random, double octaves, bool hittable) {
+  const auto density = [&] { return static_cast<float>(std::exp2(random.uniform(-octaves, octaves))); };
+  const auto cosine = [&] { return static_cast<float>(random.uniform(0.01, 1)); };
+  GivenPath path{};
+  for (std::size_t i = 0; i <= most_edges; ++i) {
+    path.forward[i] = density();
+    path.backward[i] = density();
+    path.cosine_before[i] = cosine();
+    path.cosine_after[i] = cosine();
+  }
+  for (float& distance2 : path.distance2) distance2 = density();
+  path.film = density();
+  path.chosen = density();
+  path.emission = density();
+  path.hittable = hittable;
+  return path;
+}
+
+// The density, per area of every vertex but the eye, with which the technique of s light vertices makes a path: the
+// product of what each of its vertices is drawn with (Veach 1997, 10.2.1). Logarithms, as products leave double.
+double log_density(const GivenPath& p, std::size_t edges, std::size_t s) {
+  double sum = 0;
+  const auto times = [&](double factor) { sum += std::log(factor); };
+  const auto to_area = [&](double cosine, std::size_t edge) { return cosine / p.distance2[edge]; };
+  for (std::size_t i = s; i < edges; ++i) { // drawn from the eye's side, where the last edge's is the film's
+    const double density = i + 1 == edges ? p.film : p.backward[i + 1];
+    times(density * to_area(p.cosine_after[i], i));
+  }
+  if (s == 1) times(p.chosen * to_area(p.cosine_after[0], 0));
+  if (s >= 2) {
+    // The first two together: per area and projected solid angle, which is cos cos / d^2 per area of both.
+    times(static_cast<double>(p.emission) * p.cosine_after[0] * to_area(p.cosine_before[1], 0));
+    for (std::size_t i = 2; i < s; ++i) times(p.forward[i - 1] * to_area(p.cosine_before[i], i - 1));
+  }
+  return sum;
+}
+
+// Of every technique, from scratch.
+std::vector<double> weights_of(const GivenPath& path, std::size_t edges, std::size_t heuristic) {
+  std::vector<double> logs;
+  for (std::size_t s = 0; s <= edges; ++s)
+    logs.push_back(s == 0 && path.hittable == 0 ? -INFINITY : log_density(path, edges, s));
+  const double power = heuristic == 0 ? 1 : 2, largest = *std::max_element(logs.begin(), logs.end());
+  std::vector<double> weights;
+  double sum = 0;
+  for (const double log : logs) {
+    weights.push_back(heuristic == 2 ? (std::isinf(log) ? 0.0 : 1.0) : std::exp(power * (log - largest)));
+    sum += weights.back();
+  }
+  for (double& weight : weights) weight /= sum;
+  return weights;
+}
+
+std::vector<TechniqueWeights> weigh(Variant v, std::size_t heuristic, const std::vector<GivenPath>& paths,
+                                    std::size_t edges) {
+  std::vector<TechniqueWeights> weights(paths.size());
+  program_of("weights.cl", v, {{"PHLUX_WEIGHTS", heuristics[heuristic]}})
+      .run("weigh", paths.size(), paths, static_cast<int>(edges), out(weights));
+  return weights;
+}
+
+} // namespace
+
+TEST_CASE("weights: over all techniques they sum to 1, and each is what the densities say") {
+  for (const Variant v : variants)
+    for (std::size_t heuristic = 0; heuristic < 3; ++heuristic)
+      for (const bool hittable : {true, false}) {
+        Random random(111);
+        std::vector<GivenPath> paths;
+        for (std::size_t i = 0; i < thinned(1000); ++i) paths.push_back(random_path(random, 3, hittable));
+        for (std::size_t edges = hittable ? 1 : 2; edges <= most_edges; ++edges) {
+          CAPTURE(v, heuristics[heuristic], hittable, edges);
+          const auto weights = weigh(v, heuristic, paths, edges);
+          double worst_sum = 0, worst_weight = 0;
+          for (std::size_t i = 0; i < paths.size(); ++i) {
+            const auto right = weights_of(paths[i], edges, heuristic);
+            double sum = 0;
+            for (std::size_t s = 0; s <= edges; ++s) {
+              const double weight = weights[i].of[s];
+              sum += weight;
+              worst_weight = std::max(worst_weight, std::isfinite(weight) ? std::abs(weight - right[s]) : INFINITY);
+            }
+            worst_sum = std::max(worst_sum, std::abs(sum - 1));
+          }
+          CHECK(worst_sum <= 1e-5);
+          CHECK(worst_weight <= 1e-5);
+        }
+      }
+}
+
+// Lobes of a million and edges of millimetres in a scene of kilometres: ratios leave float, weights do not.
+TEST_CASE("weights: extreme densities give weights from 0 to 1, and none that is not a number") {
+  for (const Variant v : variants)
+    for (std::size_t heuristic = 0; heuristic < 3; ++heuristic) {
+      Random random(112);
+      std::vector<GivenPath> paths;
+      for (std::size_t i = 0; i < thinned(1000); ++i) paths.push_back(random_path(random, 40, i % 2 == 0));
+      for (std::size_t edges = 2; edges <= most_edges; ++edges) {
+        CAPTURE(v, heuristics[heuristic], edges);
+        int wrong = 0;
+        for (const TechniqueWeights& weights : weigh(v, heuristic, paths, edges))
+          for (std::size_t s = 0; s <= edges; ++s) wrong += !(weights.of[s] >= 0 && weights.of[s] <= 1);
+        CHECK(wrong == 0);
+      }
+    }
+}

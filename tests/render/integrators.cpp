@@ -1,0 +1,91 @@
+#include "render/integrators.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <boost/math/distributions/students_t.hpp>
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+namespace phlux::test {
+namespace {
+
+// Two-sided p of Welch's test of two means, with his number of degrees of freedom (Welch 1947).
+double welch_p(double a, double variance_a, double b, double variance_b, int renders) {
+  const double variance = variance_a + variance_b, difference = std::abs(a - b);
+  if (difference <= rounding * std::max(std::abs(a), std::abs(b))) return 1;
+  if (variance <= 0) return 0;
+  const double freedom = (renders - 1) * variance * variance / (variance_a * variance_a + variance_b * variance_b);
+  const boost::math::students_t distribution(std::max(freedom, 1.0));
+  return 2 * boost::math::cdf(boost::math::complement(distribution, difference / std::sqrt(variance)));
+}
+
+} // namespace
+
+std::string name_of(const Method& method) {
+  if (method.integrator != "bidir") return method.integrator;
+  return method.weights == render::Weights::balance ? "bidir, balance"
+         : method.weights == render::Weights::power ? "bidir, power"
+                                                    : "bidir, uniform";
+}
+
+Repeated repeated(const scene::Scene& scene, const Method& method, render::Settings with, int renders) {
+  with.integrator = method.integrator;
+  with.weights = method.weights;
+  const std::uint64_t first_seed = with.seed;
+  std::vector<Channels> means;
+  Repeated result;
+  result.renders = renders;
+  for (int i = 0; i < renders; ++i) {
+    with.seed = first_seed + static_cast<std::uint64_t>(i);
+    const Render one = render_of(scene, with);
+    CHECK(one.statistics.nonfinite == 0);
+    const Estimate image = estimate_of(one.film);
+    if (i == 0) result.image = closed_form(image.width, image.height, std::vector<Channels>(image.mean.size()));
+    Channels mean{};
+    for (std::size_t pixel = 0; pixel < image.mean.size(); ++pixel)
+      for (std::size_t c = 0; c < mean.size(); ++c) {
+        result.image.mean[pixel][c] += image.mean[pixel][c] / renders;
+        result.image.variance[pixel][c] += image.variance[pixel][c] / renders / renders;
+        mean[c] += image.mean[pixel][c] / static_cast<double>(image.mean.size());
+      }
+    means.push_back(mean);
+  }
+  result.mean = closed_form(1, 1, {Channels{}});
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (const Channels& mean : means) result.mean.mean[0][c] += mean[c] / renders;
+    for (const Channels& mean : means)
+      result.mean.variance[0][c] +=
+          std::pow(mean[c] - result.mean.mean[0][c], 2) / (static_cast<double>(renders) * (renders - 1));
+  }
+  return result;
+}
+
+void check_methods(const Repeated& image, const Repeated& reference, int side, double tolerance) {
+  const Agreement pixels =
+      agreement_of_pixels(tiles(image.image, side), tiles(reference.image, side), tolerance);
+  INFO(pixels.message);
+  CHECK(pixels.agrees);
+  const double level = -std::expm1(std::log1p(-false_alarm_rate) / 3);
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double a = image.mean.mean[0][c], b = reference.mean.mean[0][c];
+    const double p = welch_p(a, image.mean.variance[0][c], b, reference.mean.variance[0][c], image.renders);
+    INFO(fmt::format("the mean of channel {}: {:.6g} +- {:.2g} where {:.6g} +- {:.2g} is expected, p {:.3g}",
+                     "RGB"[c], a, std::sqrt(image.mean.variance[0][c]), b,
+                     std::sqrt(reference.mean.variance[0][c]), p));
+    CHECK(p >= level);
+  }
+}
+
+void check_against_path(const scene::Scene& scene, const std::vector<Method>& methods,
+                        const render::Settings& with, int side) {
+  const Repeated reference = repeated(scene, path, with);
+  render::Settings other = with;
+  for (const Method& method : methods) {
+    INFO(name_of(method));
+    other.seed += 1000;
+    check_methods(repeated(scene, method, other), reference, side);
+  }
+}
+
+} // namespace phlux::test
