@@ -8,19 +8,15 @@
 #include <fmt/format.h>
 
 namespace phlux::test {
-namespace {
-
-// Two-sided p of Welch's test of two means, with his number of degrees of freedom (Welch 1947).
 double welch_p(double a, double variance_a, double b, double variance_b, int renders) {
   const double variance = variance_a + variance_b, difference = std::abs(a - b);
   if (difference <= rounding * std::max(std::abs(a), std::abs(b))) return 1;
   if (variance <= 0) return 0;
-  const double freedom = (renders - 1) * variance * variance / (variance_a * variance_a + variance_b * variance_b);
+  const double freedom =
+      (renders - 1) * variance * variance / (variance_a * variance_a + variance_b * variance_b);
   const boost::math::students_t distribution(std::max(freedom, 1.0));
   return 2 * boost::math::cdf(boost::math::complement(distribution, difference / std::sqrt(variance)));
 }
-
-} // namespace
 
 std::string name_of(const Method& method) {
   if (method.integrator != "bidir") return method.integrator;
@@ -41,7 +37,8 @@ Repeated repeated(const scene::Scene& scene, const Method& method, render::Setti
     const Render one = render_of(scene, with);
     CHECK(one.statistics.nonfinite == 0);
     const Estimate image = estimate_of(one.film);
-    if (i == 0) result.image = closed_form(image.width, image.height, std::vector<Channels>(image.mean.size()));
+    if (i == 0)
+      result.image = closed_form(image.width, image.height, std::vector<Channels>(image.mean.size()));
     Channels mean{};
     for (std::size_t pixel = 0; pixel < image.mean.size(); ++pixel)
       for (std::size_t c = 0; c < mean.size(); ++c) {

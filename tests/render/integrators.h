@@ -29,9 +29,13 @@ struct Repeated {
 [[nodiscard]] Repeated repeated(const scene::Scene& scene, const Method& method, render::Settings with,
                                 int renders = 16);
 
-/// The z-tests of agreement() for tiles of `side` x `side` pixels and, instead of its test of the image's mean,
-/// Welch's t-test of the means of the renders. A false alarm of either has the chance false_alarm_rate.
-void check_methods(const Repeated& image, const Repeated& reference, int side = 1, double tolerance = rounding);
+/// Two-sided p of Welch's test (1947) of two means of `renders` values each; 1 where they differ by rounding.
+[[nodiscard]] double welch_p(double a, double variance_a, double b, double variance_b, int renders);
+
+/// The z-tests of agreement() for tiles of `side` x `side` pixels and, instead of its test of the image's
+/// mean, Welch's t-test of the means of the renders. A false alarm of either has the chance false_alarm_rate.
+void check_methods(const Repeated& image, const Repeated& reference, int side = 1,
+                   double tolerance = rounding);
 
 /// Renders by all of `methods` with their own seeds and compares them with path tracing.
 void check_against_path(const scene::Scene& scene, const std::vector<Method>& methods,
