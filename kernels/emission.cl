@@ -4,6 +4,7 @@
 #ifndef PHLUX_EMISSION_CL
 #define PHLUX_EMISSION_CL
 
+#define PHLUX_LIGHTS_EMIT
 #include "lights.cl"
 
 typedef struct {
@@ -90,8 +91,8 @@ static inline Emission emission_sample(const Scene* scene, RandomWords choice, R
   }
 #endif
 #ifdef PHLUX_LIGHT_DIRECTIONAL
-  emit_from_infinity(scene, &e, LIGHT_VEC3(scene, e.light, direction), uniform_real(choice.z),
-                     uniform_real(choice.w), LIGHT_IS(kind, LIGHT_DIRECTIONAL));
+  emit_from_infinity(scene, &e, LIGHT_VEC3(scene, e.light, direction), uniform_real(choice.z), uniform_real(choice.w),
+                     LIGHT_IS(kind, LIGHT_DIRECTIONAL));
 #endif
 #ifdef PHLUX_LIGHT_CONSTANT
   e.sky = LIGHT_IS(kind, LIGHT_CONSTANT);

@@ -16,6 +16,8 @@
 
 // ---- The light and the point of it
 
+#if PHLUX_CONNECT != CONNECT_NONE || defined(PHLUX_LIGHTS_EMIT)
+
 // The light for one random word (the other decides between the two lights of the cell), by the alias method.
 static inline Int choose_light(const Scene* scene, Uint cell_word, Uint alias_word) {
 #ifdef PHLUX_LIGHT_CHOICE
@@ -114,9 +116,11 @@ static inline Place sphere_light_point(SphereShape sphere, Vec3 unit, Mask front
 // How much of its intensity a spot light sends at an angle of the given cosine to its axis.
 static inline Real spot_falloff(const Scene* scene, Int light, Real cosine) {
   const Real angle = acos(clamp(cosine, (Real)(-1.0f), (Real)(1.0f)));
-  return clamp((LIGHT_REAL(scene, light, cutoff) - angle) * LIGHT_REAL(scene, light, inv_transition),
-               (Real)(0.0f), (Real)(1.0f));
+  return clamp((LIGHT_REAL(scene, light, cutoff) - angle) * LIGHT_REAL(scene, light, inv_transition), (Real)(0.0f),
+               (Real)(1.0f));
 }
+#endif
+
 #endif
 
 // ---- Light samples
@@ -152,8 +156,7 @@ static inline Real light_density(const Scene* scene, Vec3 lit, Int light, Real d
   const SphereShape sphere = sphere_of_light(scene, primitive);
   const Vec3 to_center = vec_sub(sphere.center, lit);
   const Real distance2 = vec_dot(to_center, to_center);
-  const Mask outside =
-      (distance2 > sphere.radius * sphere.radius) & (PRIMITIVE_INT(scene, primitive, region) == 0);
+  const Mask outside = (distance2 > sphere.radius * sphere.radius) & (PRIMITIVE_INT(scene, primitive, region) == 0);
   const Real cone = choice * (0.5f * PHONG_INV_PI) / one_minus_cone_cosine(sphere, distance2);
   density = (is_sphere & outside) ? cone : density;
 #endif

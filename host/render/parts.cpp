@@ -74,7 +74,8 @@ Integrator find_integrator(const std::string& name) {
 
 Connect possible_connect(const Settings& settings, const LightTable& lights) {
   const bool hittable = lights.has(LIGHT_PLANAR) || lights.has(LIGHT_SPHERE) || lights.has(LIGHT_CONSTANT);
-  if (settings.integrator == "path" && settings.connect == Connect::none && !lights.records.empty() && !hittable)
+  if (settings.integrator == "path" && settings.connect == Connect::none && !lights.records.empty() &&
+      !hittable)
     throw UsageError(
         "--connect none: no path can hit the point, spot and directional lights, which are all that the "
         "scene has: use --connect light or mis");
@@ -131,6 +132,10 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
   parts.techniques = settings.techniques;
   if (parts.techniques && parts.integrator == Integrator::path)
     throw UsageError("--contributions: a path from the eye is made in one way: use -i bidir or light");
+  if (lights.records.empty()) { // the image is black, which is best left to the one that chooses no light
+    parts.integrator = Integrator::path;
+    parts.techniques = false;
+  }
   parts.strategy = find_strategy(settings.strategy).macro;
   parts.connect = possible_connect(settings, lights);
   parts.hierarchy = !geometry.nodes.empty() || geometry.root < 0;

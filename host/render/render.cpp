@@ -163,6 +163,7 @@ public:
     Worker worker;
     worker.parts = find_parts(scene_, host_->geometry, host_->lights, settings_, lanes);
     if (!worker.parts.phong_lobe) warn_of_plain_strategy();
+    warn_of_darkness();
     statistics.seconds_setup += seconds_since(begin);
     const device::BuiltProgram built =
         device::build(device, files_, {worker.parts.file(), worker.parts.defines(), {}}, events_.building_kernels);
@@ -175,6 +176,12 @@ public:
   }
 
 private:
+  void warn_of_darkness() const {
+    const auto shines = [](const LightRecord& light) { return light.probability > 0; };
+    if (std::ranges::none_of(host_->lights.records, shines))
+      spdlog::warn("no light of the scene has any power: the image will be black");
+  }
+
   void warn_of_plain_strategy() const {
     for (const char* name : {"uniform", "theta-phi", "disk", "rejection"})
       if (settings_.strategy == name)

@@ -160,7 +160,8 @@ TEST_CASE("Films of samples and splats scatter as their variances say") {
       said += film.variance_of_mean(0)[0] / films;
     }
     const double scatter = variance_of_mean(means) * films;
-    // The variance of nearly normal means is known to sqrt(2 / films) = 2.2%: 5 standard errors, a chance of 6e-7.
+    // The variance of nearly normal means is known to sqrt(2 / films) = 2.2%: 5 standard errors, a chance of
+    // 6e-7.
     CHECK(scatter / said == Approx(1).epsilon(0.11));
   }
 }
@@ -191,7 +192,8 @@ TEST_CASE("Records of one path at one pixel are one splat") {
   film.add_splatting_paths(8); // 2 a pixel
   Records records;
   records.capacity = 16;
-  records.list = {{1, 0, {1, 2, 3}}, {2, 0, {5, 5, 5}}, {1, 1, {4, 4, 4}}, {1, 0, {2, 3, 4}}, {1, 0, {3, 4, 5}}};
+  records.list = {
+      {1, 0, {1, 2, 3}}, {2, 0, {5, 5, 5}}, {1, 1, {4, 4, 4}}, {1, 0, {2, 3, 4}}, {1, 0, {3, 4, 5}}};
   SplatFolder folder;
   fold(folder, records, 2, film);
   CHECK(film.mean(1)[0] == (6 + 4) / 2.0);
@@ -235,14 +237,16 @@ TEST_CASE("Random records fold as a table of paths and pixels does") {
       std::map<std::pair<int, int>, Rgb> sums; // of multiples of 1/8: exact in float
       for (std::size_t i = 0; i < count; ++i) {
         Records::Record record{static_cast<int>(random() % static_cast<unsigned>(pixels)),
-                               static_cast<int>(random() % paths), {}};
+                               static_cast<int>(random() % paths),
+                               {}};
         for (std::size_t c = 0; c < 3; ++c) {
           record.value[c] = static_cast<float>(random() % 64) / 8;
           sums[{record.path, record.pixel}][c] += static_cast<double>(record.value[c]);
         }
         records.list.push_back(record);
       }
-      for (const auto& [place, value] : sums) reference.add_splat(static_cast<std::size_t>(place.second), value);
+      for (const auto& [place, value] : sums)
+        reference.add_splat(static_cast<std::size_t>(place.second), value);
       fold(folder, records, paths, film);
       film.add_splatting_paths(static_cast<std::uint64_t>(100 * pixels));
       reference.add_splatting_paths(static_cast<std::uint64_t>(100 * pixels));

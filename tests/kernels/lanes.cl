@@ -86,7 +86,7 @@ typedef struct {
 
 __kernel void masks(__global const Real* a, __global const Real* b, __global Selections* selections) {
   const size_t i = get_global_id(0);
-  const Mask less = a[i] < b[i], positive = a[i] > 0.0f;
+  const Mask less = a[i]<b[i], positive = a[i]> 0.0f;
   const Int yes = (Int)(1), no = (Int)(0);
   Selections s;
   s.both = (less & positive) ? yes : no;
@@ -131,11 +131,25 @@ __kernel void scatter_and_add(__global int* ints, __global float* sums, __global
                               __global const Int* whole, __global const Real* real, __global const Int* chosen) {
   const size_t i = get_global_id(0);
   scatter_int(ints, index[i], whole[i], chosen[i] != 0);
-  add_real(sums, index[i], real[i], chosen[i] != 0);
+  add_vec(sums, index[i], vec3(real[i], 2.0f * real[i], -real[i]), chosen[i] != 0);
 }
 
 __kernel void stores(__global const Real* real, __global const Int* whole, __global float* reals, __global int* ints) {
   const size_t i = get_global_id(0);
   store_reals(reals + i * LANES, real[i]);
   store_ints(ints + i * LANES, whole[i]);
+}
+
+// A table of LANES rows of three words, entries looked up in it by lane: by gathers where registers are not permuted.
+__kernel void permutes(__global Row* rows, __global const Int* index, __global Real* b, __global Int* c) {
+  const size_t i = get_global_id(0);
+#ifdef LANES_PERMUTE
+  float members[3][LANES];
+  load_members(rows, 3, members);
+  b[i] = PERMUTE_REAL(members, rows, index[i], b);
+  c[i] = PERMUTE_INT(members, rows, index[i], c);
+#else
+  b[i] = GATHER_REAL(rows, index[i], b);
+  c[i] = GATHER_INT(rows, index[i], c);
+#endif
 }

@@ -31,8 +31,8 @@ std::map<std::pair<int, int>, int> take_all(const Program& program, Variant v, c
     const int first_pixel = first % sizes.pixels;
     const int first_block_sample = first_sample + first / sizes.pixels * sizes.block_samples;
     program.run("take_batches", static_cast<std::size_t>(batches * v.width), sizes.pixels, first_pixel, count,
-                first_block_sample, sizes.block_samples, sizes.batch_jobs, words, 64, table(pixels), table(samples),
-                table(taken));
+                first_block_sample, sizes.block_samples, sizes.batch_jobs, words, 64, table(pixels),
+                table(samples), table(taken));
     for (std::size_t i = 0; i < paths; ++i) {
       REQUIRE(taken[i] == 1);
       times[{pixels[i], samples[i] - first_sample}] += 1;
@@ -49,8 +49,8 @@ TEST_CASE("batches: every sample of every pixel is taken once") {
     const Program& program = program_of("batch.cl", v);
     for (const Sizes& sizes :
          {Sizes{1, 64, 16, 4, 4}, Sizes{1, 40, 1, 7, 21}, Sizes{2, 96, 16, 9, 9}, Sizes{3, 30, 5, 64, 64},
-          Sizes{5, 7, 1, 4, 12}, Sizes{17, 48, 16, 8, 24}, Sizes{100, 4, 2, 64, 128}, Sizes{257, 3, 3, 16, 48},
-          Sizes{1000, 16, 16, 64, 256}}) {
+          Sizes{5, 7, 1, 4, 12}, Sizes{17, 48, 16, 8, 24}, Sizes{100, 4, 2, 64, 128},
+          Sizes{257, 3, 3, 16, 48}, Sizes{1000, 16, 16, 64, 256}}) {
       CAPTURE(sizes.pixels, sizes.samples, sizes.block_samples, sizes.batch_jobs, sizes.launch_jobs);
       const auto times = take_all(program, v, sizes);
       CHECK(times.size() == static_cast<std::size_t>(sizes.pixels * sizes.samples));

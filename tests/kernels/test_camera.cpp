@@ -17,8 +17,11 @@ struct Film {
   int width, height;
   double tan_half_fov_x, principal_x, principal_y;
 };
-constexpr Film films[] = {{1, 1, 0.5, 0, 0},        {16, 16, 1, 0, 0},   {37, 11, 2.5, 0.3, -0.2},
-                          {3, 300, 0.01, -0.7, 0.1}, {640, 480, 0.4, 0, 1.5}};
+constexpr Film films[] = {{1, 1, 0.5, 0, 0},
+                          {16, 16, 1, 0, 0},
+                          {37, 11, 2.5, 0.3, -0.2},
+                          {3, 300, 0.01, -0.7, 0.1},
+                          {640, 480, 0.4, 0, 1.5}};
 
 Scene scene_of(const Film& film) {
   Scene scene;
@@ -86,12 +89,13 @@ TEST_CASE("camera: each pixel sees its own rays, up to its borders") {
       std::vector<float> us, vs;
       // A place on the film is known to some units of float's last place: less than this part of a pixel.
       const float margin = 4e-6f * static_cast<float>(std::max(film.width, film.height));
-      for (std::size_t i = 0; i < pixels; i += pixels > 5000 || thinned(pixels) < pixels ? 61 : 1)
+      for (std::size_t i = 0; i<pixels; i += pixels> 5000 || thinned(pixels) < pixels ? 61 : 1)
         for (int place = 0; place < 5; ++place) {
           pixel.push_back(static_cast<std::uint32_t>(i));
           const auto coordinate = [&](int border) {
-            return place == 4 ? static_cast<float>(random.uniform(margin, 1 - margin))
-                              : border == 0 ? margin : 1 - margin;
+            return place == 4    ? static_cast<float>(random.uniform(margin, 1 - margin))
+                   : border == 0 ? margin
+                                 : 1 - margin;
           };
           us.push_back(coordinate(place & 1));
           vs.push_back(coordinate(place >> 1));
@@ -104,7 +108,8 @@ TEST_CASE("camera: each pixel sees its own rays, up to its borders") {
                   out(density_alone));
       for (std::size_t i = 0; i < count; ++i) {
         CAPTURE(i, pixel[i], us[i], vs[i]);
-        const int column = static_cast<int>(pixel[i]) % film.width, row = static_cast<int>(pixel[i]) / film.width;
+        const int column = static_cast<int>(pixel[i]) % film.width,
+                  row = static_cast<int>(pixel[i]) / film.width;
         const double x = (column + double(us[i])) / film.width, y = (row + double(vs[i])) / film.height;
         const dvec3 right = through(scene.camera, x, y);
         REQUIRE(glm::length(to_double(direction[i]) - right) < 1e-6);
@@ -127,14 +132,17 @@ TEST_CASE("camera: what is beyond the film's borders, or behind, is not seen") {
       const double beyond_x = 0.5 / film.width, beyond_y = 0.5 / film.height;
       std::vector<dvec3> directions;
       for (const double along : {0.01, 0.3, 0.99}) {
-        for (const double x : {-beyond_x, 1 + beyond_x}) directions.push_back(through(scene.camera, x, along));
-        for (const double y : {-beyond_y, 1 + beyond_y}) directions.push_back(through(scene.camera, along, y));
+        for (const double x : {-beyond_x, 1 + beyond_x})
+          directions.push_back(through(scene.camera, x, along));
+        for (const double y : {-beyond_y, 1 + beyond_y})
+          directions.push_back(through(scene.camera, along, y));
         directions.push_back(-through(scene.camera, along, 0.4)); // which the film's plane maps to itself
       }
       directions.push_back(-scene.camera.forward);
       const Seen s = see(program, directions);
       CHECK(s.seen == std::vector<int>(directions.size(), 0));
-      for (const int pixel : s.pixel) CHECK((pixel >= 0 && pixel < film.width * film.height)); // to be read from
+      for (const int pixel : s.pixel)
+        CHECK((pixel >= 0 && pixel < film.width * film.height)); // to be read from
     }
 }
 

@@ -54,8 +54,8 @@ double triangle_area(const std::vector<dvec3>& points, int a, int b, int c) {
   return glm::length(glm::cross(at(b) - at(a), at(c) - at(a))) / 2;
 }
 
-// Solid angle that an intensity which falls off linearly in the angle is worth: the mean of those within each angle
-// from the beam to the cutoff.
+// Solid angle that an intensity which falls off linearly in the angle is worth: the mean of those within each
+// angle from the beam to the cutoff.
 double spot_solid_angle() {
   return 2 * pi * (1 - (std::sin(cutoff) - std::sin(beam)) / (cutoff - beam));
 }
@@ -88,25 +88,39 @@ const std::vector<Kind>& kinds() {
          });
        },
        pi * 3 *
-           (triangle_area(corners, 0, 1, 2) + triangle_area(corners, 0, 3, 1) + triangle_area(corners, 1, 3, 2))},
+           (triangle_area(corners, 0, 1, 2) + triangle_area(corners, 0, 3, 1) +
+            triangle_area(corners, 1, 3, 2))},
       {"sphere",
        [](Scene& scene) {
-         add_surface_light(scene,
-                           [&](const auto& surface) { scene.spheres.push_back({center, radius, false, surface}); });
+         add_surface_light(scene, [&](const auto& surface) {
+           scene.spheres.push_back({center, radius, false, surface});
+         });
        },
        pi * 3 * 4 * pi * radius * radius},
       {"inside of a sphere",
        [](Scene& scene) {
-         add_surface_light(scene,
-                           [&](const auto& surface) { scene.spheres.push_back({center, radius, true, surface}); });
+         add_surface_light(scene, [&](const auto& surface) {
+           scene.spheres.push_back({center, radius, true, surface});
+         });
        },
        pi * 3 * 4 * pi * radius * radius},
-      {"point", [](Scene& scene) { scene.point_lights.push_back({center, radiance}); }, 4 * pi * 3},
-      {"spot", [](Scene& scene) { scene.spot_lights.push_back({center, axis, radiance, cutoff, beam}); },
+      {"point",
+       [](Scene& scene) {
+         scene.point_lights.push_back({center, radiance});
+       },
+       4 * pi * 3},
+      {"spot",
+       [](Scene& scene) {
+         scene.spot_lights.push_back({center, axis, radiance, cutoff, beam});
+       },
        3 * spot_solid_angle()},
-      {"directional", [](Scene& scene) { scene.directional_lights.push_back({axis, radiance}); },
+      {"directional",
+       [](Scene& scene) {
+         scene.directional_lights.push_back({axis, radiance});
+       },
        3 * disk_across(floor_alone())},
-      {"constant", [](Scene& scene) { scene.constant_radiance = radiance; }, 4 * pi * 3 * disk_across(floor_alone())},
+      {"constant", [](Scene& scene) { scene.constant_radiance = radiance; },
+       4 * pi * 3 * disk_across(floor_alone())},
   };
   return list;
 }

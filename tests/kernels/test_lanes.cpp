@@ -195,7 +195,7 @@ TEST_CASE("lanes: counting, ranking, packing and unpacking the lanes of a mask")
   }
 }
 
-TEST_CASE("lanes: scatter_int and add_real take one lane after another") {
+TEST_CASE("lanes: scatter_int and add_vec take one lane after another") {
   Random random(10);
   for (const Variant v : variants) {
     CAPTURE(v);
@@ -209,16 +209,41 @@ TEST_CASE("lanes: scatter_int and add_real take one lane after another") {
       whole[i] = static_cast<int>(random.word());
     }
     std::vector<int> ints(items * places, -7), expected_ints = ints;
-    std::vector<float> sums(items * places, 0.5f), expected_sums = sums;
+    std::vector<float> sums(4 * items * places, 0.5f), expected_sums = sums;
     for (std::size_t i = 0; i < index.size(); ++i)
       if (chosen[i] != 0) {
         expected_ints[static_cast<std::size_t>(index[i])] = whole[i];
-        expected_sums[static_cast<std::size_t>(index[i])] += real[i];
+        const auto at = 4 * static_cast<std::size_t>(index[i]);
+        expected_sums[at] += real[i];
+        expected_sums[at + 1] += 2 * real[i];
+        expected_sums[at + 2] -= real[i];
       }
     program_of("lanes.cl", v)
         .run("scatter_and_add", index.size(), table(ints), table(sums), index, whole, real, chosen);
     CHECK(ints == expected_ints);
     CHECK(sums == expected_sums);
+  }
+}
+
+TEST_CASE("lanes: a small table can be looked up in registers") {
+  struct Row {
+    int a;
+    float b;
+    int c;
+  };
+  Random random(12);
+  for (const Variant v : variants) {
+    CAPTURE(v);
+    std::vector<Row> rows;
+    for (int i = 0; i < v.width; ++i) rows.push_back({-1, static_cast<float>(i) + 0.25f, i * 7 - 20});
+    std::vector<int> index(lanes_of(v)), c(index.size());
+    std::vector<float> b(index.size());
+    for (int& i : index) i = static_cast<int>(random.word() % static_cast<unsigned>(v.width));
+    program_of("lanes.cl", v).run("permutes", index.size(), table(rows), index, out(b), out(c));
+    for (std::size_t i = 0; i < index.size(); ++i) {
+      REQUIRE(b[i] == rows[static_cast<std::size_t>(index[i])].b);
+      REQUIRE(c[i] == rows[static_cast<std::size_t>(index[i])].c);
+    }
   }
 }
 

@@ -69,7 +69,7 @@ MUTANTS = [
 ]
 
 # Mistakes of light tracing and bidirectional path tracing, with the program and the test cases that are to see them.
-INTEGRATORS = ("test_render", "several emitters*")
+INTEGRATORS = ("test_render", "[mutations]")
 CAMERA, EMISSION, WEIGHTS, BATCHES = (("test_kernels", name + ":*") for name in ("camera", "emission", "weights", "batches"))
 
 INTEGRATOR_MUTANTS = [
@@ -128,7 +128,7 @@ INTEGRATOR_MUTANTS = [
     ("disk across the scene drawn by its radius", "emission.cl", "disk_radius * sqrt(u1)", "disk_radius * u1", EMISSION),
     ("spot's fall-off left out", "emission.cl", "e.radiance = vec_scale(falloff, e.radiance);", "", EMISSION),
     ("spot's cone twice as wide", "emission.cl", "(0.5f * PHONG_INV_PI) * light_probability", "PHONG_INV_PI * light_probability", EMISSION),
-    ("lights in turn for lights by power", "lights.cl", "return keep ? cell : GATHER_INT(scene->lights, cell, alias);", "return cell;", EMISSION),
+    ("lights in turn for lights by power", "lights.cl", "return keep ? cell : LIGHT_INT(scene, cell, alias);", "return cell;", EMISSION),
     ("a path taken twice", "batch.cl", "batch->next = min(batch->next + count_lanes(idle), batch->path_count);",
      "batch->next = min(batch->next + max(count_lanes(idle) - 1, 1), batch->path_count);", BATCHES),
     ("a quotient of floats without the half", "batch.cl", "(to_real(a) + 0.5f) / (float)b", "to_real(a) * (1.0f / (float)b)", BATCHES),

@@ -28,7 +28,8 @@ scene::Material brushed_metal() {
 // A ball of eight triangles with the ball's normals.
 scene::Mesh smooth_ball(const Vec3& center, double radius, int material) {
   scene::Mesh mesh;
-  for (const Vec3& p : {Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 1, 0), Vec3(0, -1, 0), Vec3(0, 0, 1), Vec3(0, 0, -1)}) {
+  for (const Vec3& p :
+       {Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 1, 0), Vec3(0, -1, 0), Vec3(0, 0, 1), Vec3(0, 0, -1)}) {
     mesh.positions.push_back(center + radius * p);
     mesh.normals.emplace_back(p);
   }
@@ -53,16 +54,19 @@ void add_shapes(scene::Scene& scene) {
 
 // Each emitter's own colour, so that one that took another's place would show.
 void add_lights(scene::Scene& scene) {
-  scene.area_emitters = {{Rgb(9, 6, 3)}, {Rgb(8, 9, 2)}, {Rgb(6, 8, 10)}, {Rgb(5, 3, 4)}, {Rgb(0.5, 0.7, 0.6)},
-                         {Rgb(7, 7, 7)}};
-  scene.patches.push_back({scene::Patch::Region::parallelogram, {0.5, 2.6, 0.3}, {0.4, 0, 0}, {0, 0, 0.3},
+  scene.area_emitters = {{Rgb(9, 6, 3)}, {Rgb(8, 9, 2)},       {Rgb(6, 8, 10)},
+                         {Rgb(5, 3, 4)}, {Rgb(0.5, 0.7, 0.6)}, {Rgb(7, 7, 7)}};
+  scene.patches.push_back({scene::Patch::Region::parallelogram,
+                           {0.5, 2.6, 0.3},
+                           {0.4, 0, 0},
+                           {0, 0, 0.3},
                            {black, of_rectangle}});
   scene.meshes.push_back({{{-1.5, 2.3, 0.2}, {-1, 2.5, 0.4}, {-1.2, 2.4, -0.3}, {-1.9, 2.5, 0.7}},
                           {},
                           {{0, 2, 1}, {0, 1, 3}},
                           {black, of_mesh}});
-  scene.patches.push_back({scene::Patch::Region::ellipse, {1.5, 2.4, 0.4}, {0.3, 0.1, 0}, {0, 0, 0.4},
-                           {black, of_disk}});
+  scene.patches.push_back(
+      {scene::Patch::Region::ellipse, {1.5, 2.5, 0.4}, {0.3, 0.1, 0}, {0, 0, 0.4}, {black, of_disk}});
   scene.spheres.push_back({{-0.3, 2.5, 1.2}, 0.3, false, {black, of_sphere}});
   scene.point_lights = {{{0.2, 2.2, -0.3}, Rgb(3, 2, 4)}};
   scene.spot_lights = {{{1, 2.5, 1}, glm::normalize(Vec3(-0.5, -2.5, -0.9)), Rgb(9, 7, 8), 0.7, 0.4}};
@@ -70,15 +74,15 @@ void add_lights(scene::Scene& scene) {
   scene.constant_radiance = Rgb(0.4, 0.5, 0.7);
   // The camera sees its back, which reflects; its front lights what stands behind it.
   const Vec3 across = glm::normalize(Vec3(1, 0, -0.3));
-  scene.patches.push_back(square({0.7, 1.6, 1.2}, across, glm::normalize(Vec3(0, -1, 0.4)), 0.25, {both_sides, of_flipped}));
+  scene.patches.push_back(
+      square({0.7, 1.6, 1.2}, across, glm::normalize(Vec3(0, -1, 0.4)), 0.25, {both_sides, of_flipped}));
 }
 
 } // namespace
 
 const std::vector<std::string>& emitter_kinds() {
-  static const std::vector<std::string> kinds = {"rectangle", "mesh", "disk",        "sphere",
-                                                 "inside",    "flipped", "point",    "spot",
-                                                 "directional", "constant"};
+  static const std::vector<std::string> kinds = {"rectangle", "mesh",  "disk", "sphere",      "inside",
+                                                 "flipped",   "point", "spot", "directional", "constant"};
   return kinds;
 }
 

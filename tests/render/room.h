@@ -1,5 +1,5 @@
-// A scene that holds every kind of shape, material and light, in which any of the lights can be on. The kernels of all
-// its variants are the same.
+// A scene that holds every kind of shape, material and light, in which any of the lights can be on. The
+// kernels of all its variants are the same.
 #pragma once
 
 #include <string>

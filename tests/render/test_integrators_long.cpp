@@ -1,4 +1,5 @@
-// The long version of test_integrators.cpp, which prints a table: test_render "[long]". Takes some tens of minutes.
+// The long version of test_integrators.cpp, which prints a table: test_render "[long]". Takes some tens of
+// minutes.
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -12,7 +13,8 @@ using namespace phlux::test;
 
 namespace {
 
-constexpr double largest_difference = 0.002; // of the mean over the image, three standard errors of it as well
+constexpr double largest_difference =
+    0.002; // of the mean over the image, three standard errors of it as well
 constexpr int renders = 32;
 
 double mean_of(const Repeated& image) {
@@ -25,16 +27,18 @@ double error_of(const Repeated& image) {
   return (std::sqrt(variance[0]) + std::sqrt(variance[1]) + std::sqrt(variance[2])) / 3;
 }
 
-// With as many samples as bring three standard errors of the mean below 0.14%, so that those of a difference of two are
-// below 0.2%; no more than `most`.
+// With as many samples as bring three standard errors of the mean below 0.14%, so that those of a difference
+// of two are below 0.2%; no more than `most`.
 Repeated precise(const scene::Scene& scene, const Method& method, std::uint64_t seed, int most) {
   render::Settings with = settings(32);
   with.seed = seed;
   Repeated image = repeated(scene, method, with, renders);
-  while (3 * error_of(image) > largest_difference / std::sqrt(2) * mean_of(image) && with.samples_per_pixel < most) {
-    const double wanted = std::pow(3 * error_of(image) / (largest_difference / std::sqrt(2) * mean_of(image)), 2);
-    with.samples_per_pixel =
-        static_cast<int>(std::min(with.samples_per_pixel * std::max(1.5, 1.2 * wanted), static_cast<double>(most)));
+  while (3 * error_of(image) > largest_difference / std::sqrt(2) * mean_of(image) &&
+         with.samples_per_pixel < most) {
+    const double wanted =
+        std::pow(3 * error_of(image) / (largest_difference / std::sqrt(2) * mean_of(image)), 2);
+    with.samples_per_pixel = static_cast<int>(
+        std::min(with.samples_per_pixel * std::max(1.5, 1.2 * wanted), static_cast<double>(most)));
     with.seed += 10'000;
     image = repeated(scene, method, with, renders);
   }
@@ -52,8 +56,9 @@ void compare(const std::string& name, const scene::Scene& scene, const std::vect
     const Repeated image = precise(scene, method, seed += 1'000'000, most);
     const double error = std::hypot(error_of(image), error_of(reference));
     const double difference = mean_of(image) - mean_of(reference);
-    fmt::print("{:32} {:15} {:10.6f} {:8.4f}%  difference {:8.4f}%  z {:6.2f}\n", "", name_of(method), mean_of(image),
-               100 * error_of(image) / mean_of(image), 100 * difference / mean_of(reference), difference / error);
+    fmt::print("{:32} {:15} {:10.6f} {:8.4f}%  difference {:8.4f}%  z {:6.2f}\n", "", name_of(method),
+               mean_of(image), 100 * error_of(image) / mean_of(image), 100 * difference / mean_of(reference),
+               difference / error);
     std::fflush(stdout);
     check_methods(image, reference, 2);
     CHECK(std::abs(difference) <= std::max(largest_difference * mean_of(reference), 3 * error));

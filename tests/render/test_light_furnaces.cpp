@@ -35,8 +35,8 @@ Estimate sphere_reference(const scene::Scene& scene, const scene::Material& mate
       scene.camera,
       [&](const Vec3& direction) {
         const double along = 4 * direction.z, cosine = std::sqrt(along * along - 15);
-        const Rgb rho =
-            sky * (material.diffuse + material.specular * render::lobe_reflectivity(material.exponent_u, cosine));
+        const Rgb rho = sky * (material.diffuse +
+                               material.specular * render::lobe_reflectivity(material.exponent_u, cosine));
         return Channels{rho.r, rho.g, rho.b};
       },
       8);
@@ -87,7 +87,8 @@ TEST_CASE("furnace sphere by light and bidir, for exponents as far as each conve
   for (const double exponent : {0.0, 10.0, 50.0}) check_sphere(bidir_power, exponent, "exact", 2048);
 }
 
-// Densities of both directions enter bidir's weights: those of the exact sampler differ, those of others may not.
+// Densities of both directions enter bidir's weights: those of the exact sampler differ, those of others may
+// not.
 TEST_CASE("furnace sphere by bidir: strategies of every family") {
   for (const char* strategy : {"cosine", "lobe-ks", "lobe-estimate", "mixture", "fold"})
     check_sphere(bidir, 20, strategy, 2048);

@@ -67,8 +67,8 @@ TEST_CASE("light and bidir: the number of PoCL's threads does not change a bit")
   const TemporaryFolder folder;
   for (const Method& method : both) {
     CAPTURE(name_of(method));
-    const std::string render = "render '" PHLUX_SOURCE_DIR "/scenes/cornell-box.xml' -i " + method.integrator +
-                               " --size 24x24 -n 20 -q -o ";
+    const std::string render = "render '" PHLUX_SOURCE_DIR "/scenes/cornell-box.xml' -i " +
+                               method.integrator + " --size 24x24 -n 20 -q -o ";
     REQUIRE(run(folder, "POCL_MAX_PTHREAD_COUNT=1", render + "one.exr") == 0);
     REQUIRE(run(folder, "POCL_MAX_PTHREAD_COUNT=3", render + "three.exr") == 0);
     REQUIRE(run(folder, "", "compare one.exr three.exr --json") == 0);
@@ -91,7 +91,8 @@ TEST_CASE("light and bidir: 1, 4, 8 and 16 lanes render the same image") {
   }
 }
 
-// Room for splats and vertices is guessed before the first launch, and grows when a launch has had too little.
+// Room for splats and vertices is guessed before the first launch, and grows when a launch has had too
+// little.
 TEST_CASE("paths of a hundred edges and their splats all count") {
   constexpr double albedo = 0.98;
   const scene::Scene scene = bright_box(albedo, 6);
@@ -132,8 +133,8 @@ TEST_CASE("films of light and bidir scatter as their variances say") {
       ++pixels;
     }
     CHECK(pixels > 200);
-    // A normal pixel's ratio has the variance 2 / 23, 256 of them a mean with standard error 0.02; skewed ones
-    // somewhat more.
+    // A normal pixel's ratio has the variance 2 / 23, 256 of them a mean with standard error 0.02; skewed
+    // ones somewhat more.
     CHECK(ratio / pixels == Approx(1).margin(0.12));
   }
 }
