@@ -53,12 +53,15 @@ TEST_CASE("lights of any brightness give the same image, bit for bit, in their u
   scene.spot_lights = {{{0, 0.5, 0.2}, {0, -1, 0}, Rgb(2), 0.5, 0.4}};
   scene.directional_lights = {{glm::normalize(Vec3(1, -3, -1)), Rgb(0.25)}};
   scene.constant_radiance = Rgb(0.125);
-  for (const std::optional<double> ambient : {std::optional<double>(), std::optional(0.5)}) {
+  for (const auto& [integrator, ambient] :
+       {std::pair("path", std::optional<double>()), std::pair("path", std::optional(0.5)),
+        std::pair("light", std::optional<double>()), std::pair("bidir", std::optional<double>())}) {
     render::Settings with = settings(64);
+    with.integrator = integrator;
     with.ambient = ambient;
     const Render reference = render_of(scene, with);
     for (const double factor : {0x1p-90, 0x1p90}) { // squares that float32 does not hold
-      CAPTURE(factor, ambient.has_value());
+      CAPTURE(factor, integrator, ambient.has_value());
       scene::Scene lit = scene;
       for (scene::AreaEmitter& light : lit.area_emitters) light.radiance *= factor;
       for (scene::PointLight& light : lit.point_lights) light.intensity *= factor;
