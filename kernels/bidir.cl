@@ -117,9 +117,10 @@ static inline Mask leave_eye(const Bidir* b, Batch* batch, Walk* walk) {
   const Mask starting = take_paths(batch, &walk->path, ALL_LANES);
   find_path(b->list, batch, walk->path, &walk->sequence);
   const RandomWords words = random_words(walk->sequence, (Uint)(0), 0);
+  const Vec3 forward = camera_vector(b->scene->camera->forward);
   walk->ray = camera_ray(b->scene, walk->sequence.pixel, uniform_real(words.x), uniform_real(words.y));
   walk->throughput = vec_all((Real)(1.0f));
-  walk->ratios = ratios_from_eye(film_density(b->scene, walk->ray.direction));
+  walk->ratios = ratios_from_eye(film_density(b->scene, vec_dot(walk->ray.direction, forward)));
   return starting;
 }
 
@@ -170,7 +171,7 @@ static inline void add_light_sample(Bidir* b, const Walk* walk, Vertex v, Mask m
                              material_density(v.material, v.fixed, generated),
                              material_density(v.material, generated, v.fixed), cosine, light.hittable);
   add_if_free(scene, &b->queue, &b->output, light.ray, light.distance,
-              to_own_pixel(walk, value, weight, TECHNIQUE(1, walk->edges + 1)), reaches & (vec_max(value) > 0.0f));
+              to_own_pixel(walk, value, weight, TECHNIQUE(1, walk->edges + 1)), reaches & brings_light(value));
 }
 
 // Walks the batch's eye subpaths, adding the lights that they hit and sample. Returns whether there was room for their
@@ -281,7 +282,7 @@ static inline void connect(Bidir* b, const Pair* pair, Joint eye, Joint light, M
   add_if_free(b->scene, &b->queue, &b->output, ray, distance,
               to_own_pixel(&pair->path, value, weight_of_connection(light_side, eye_side),
                            TECHNIQUE(pair->light_index + 2, pair->eye_index + 2)),
-              faces & (vec_max(value) > 0.0f));
+              faces & brings_light(value));
 }
 
 static inline void connect_subpaths(Bidir* b, Batch batch) {

@@ -26,11 +26,16 @@ static inline Ray camera_ray(const Scene* scene, Uint pixel, Real u, Real v) {
   return ray;
 }
 
+// The density of camera_ray over the whole film, per solid angle at the eye: 1 / (film area x cos^3).
+static inline Real film_density(const Scene* scene, Real cosine) {
+  return 1.0f / (scene->camera->film_area * cosine * cosine * cosine);
+}
+
 // How the camera sees the direction `from_eye` (unit).
 typedef struct {
   Mask seen;    // in front of the camera and on the film
   Int pixel;    // which pixel it is in
-  Real density; // of camera_ray over the whole film, per solid angle at the eye: 1 / (film area x cos^3)
+  Real density; // film_density there
 } FilmPoint;
 
 static inline FilmPoint camera_sees(const Scene* scene, Vec3 from_eye) {
@@ -46,7 +51,7 @@ static inline FilmPoint camera_sees(const Scene* scene, Vec3 from_eye) {
   point.seen = (cosine > 0.0f) & (column >= 0.0f) & (column < width) & (row >= 0.0f) & (row < height);
   const Int first = (Int)(0);
   point.pixel = (point.seen ? to_int(row) : first) * camera->width + (point.seen ? to_int(column) : first);
-  point.density = 1.0f / (camera->film_area * cosine * cosine * cosine);
+  point.density = film_density(scene, cosine);
   return point;
 }
 
@@ -57,12 +62,5 @@ static inline FilmPoint select_film(Mask m, FilmPoint yes, FilmPoint no) {
   point.density = m ? yes.density : no.density;
   return point;
 }
-
-#ifdef PHLUX_BIDIR
-static inline Real film_density(const Scene* scene, Vec3 from_eye) {
-  const Real cosine = vec_dot(from_eye, camera_vector(scene->camera->forward));
-  return 1.0f / (scene->camera->film_area * cosine * cosine * cosine);
-}
-#endif
 
 #endif

@@ -1,5 +1,5 @@
 // What light paths and bidirectional paths bring to the film. A bidirectional path adds to its own pixel at once; what
-// it sends to others is recorded. Each work-item writes its records in order and the host sums them in order: the same
+// it sends to others is recorded. The records of a batch are written in order and the host sums them in order: the same
 // seed gives the same image, without atomics.
 #ifndef PHLUX_CONTRIBUTIONS_CL
 #define PHLUX_CONTRIBUTIONS_CL
@@ -17,7 +17,7 @@ typedef struct {
 } Contribution;
 
 typedef struct {
-  __global float* records; // RECORD_WORDS arrays of `capacity` words each
+  __global float* records; // arrays of `capacity` words each, see RecordWords
   int capacity;
   int count; // records so far, those beyond the capacity included: the host then makes more room and tries again
   Uint nonfinite;
@@ -25,6 +25,9 @@ typedef struct {
   __global float* radiance; // four words for each path: what it brought to its own pixel
 #endif
 } Output;
+
+// Whether a contribution is worth a shadow ray: not black. One that is not a number is, so that it gets counted.
+static inline Mask brings_light(Vec3 value) { return !(vec_sum(value) <= 0.0f); }
 
 static inline void append_record(Output* output, Contribution c, Mask m) {
   if (output->count + LANES <= output->capacity) {
@@ -46,7 +49,7 @@ static inline void append_record(Output* output, Contribution c, Mask m) {
 
 static inline void add_contribution(Output* output, Contribution c, Mask m) {
   const Vec3 weighted = vec_scale(c.weight, c.value);
-  const Real total = weighted.x + weighted.y + weighted.z;
+  const Real total = vec_sum(weighted);
   const Mask finite = total - total == 0.0f;
   output->nonfinite += (m & !finite) ? (Uint)(1u) : (Uint)(0u);
   const Mask counts = m & finite;

@@ -44,7 +44,7 @@ typedef LANE_JOIN(int, WIDTH) Mask;
 // AVX-512 has single instructions for what the portable forms below spell out; LANES_PORTABLE tests those forms.
 #if WIDTH == 16 && defined(__AVX512F__) && !defined(LANES_PORTABLE) && defined(__has_builtin)
 #if __has_builtin(__builtin_ia32_gathersiv16sf) && __has_builtin(__builtin_ia32_cmpd512_mask) &&                       \
-    __has_builtin(__builtin_ia32_compresssf512_mask) && __has_builtin(__builtin_ia32_expandsf512_mask) && \
+    __has_builtin(__builtin_ia32_compresssf512_mask) && __has_builtin(__builtin_ia32_expandsf512_mask) &&              \
     __has_builtin(__builtin_ia32_permvarsf512)
 #define LANES_AVX512
 typedef float LaneNativeFloats __attribute__((vector_size(64)));
@@ -330,8 +330,8 @@ static inline Int rank_lanes(Mask m) {
 // Moves the lanes of m to the front, in lane order; the others may hold anything.
 static inline Real pack_lanes(Mask m, Real v) {
 #ifdef LANES_AVX512
-  return LANE_REALS(__builtin_ia32_compresssf512_mask(LANE_NATIVE_FLOATS(v), LANE_NATIVE_FLOATS((Real)(0.0f)),
-                                                      (ushort)lane_bits(m)));
+  return LANE_REALS(
+      __builtin_ia32_compresssf512_mask(LANE_NATIVE_FLOATS(v), LANE_NATIVE_FLOATS((Real)(0.0f)), (ushort)lane_bits(m)));
 #elif WIDTH == 1
   return v;
 #else
@@ -413,6 +413,7 @@ static inline Vec3 vec_select(Mask m, Vec3 yes, Vec3 no) {
 static inline Vec3 pack_vec(Mask m, Vec3 v) { return vec3(pack_lanes(m, v.x), pack_lanes(m, v.y), pack_lanes(m, v.z)); }
 static inline Vec3 vec_normalize(Vec3 a) { return vec_scale((Real)(1.0f) / sqrt(vec_dot(a, a)), a); }
 static inline Real vec_max(Vec3 a) { return larger(a.x, larger(a.y, a.z)); }
+static inline Real vec_sum(Vec3 a) { return a.x + a.y + a.z; }
 static inline Real vec_mean(Vec3 a) { return (a.x + a.y + a.z) * (1.0f / 3.0f); }
 static inline Real vec_largest(Vec3 a) { return larger(fabs(a.x), larger(fabs(a.y), fabs(a.z))); }
 

@@ -1,5 +1,5 @@
-// What a launch is to do (host/render/schedule.h): jobs, each one pixel and one block of its samples. Jobs count pixel by
-// pixel, then block by block.
+// What a launch is to do (host/render/schedule.h): jobs, each one pixel and one block of its samples. Jobs count pixel
+// by pixel, then block by block.
 #ifndef PHLUX_LAUNCH_H
 #define PHLUX_LAUNCH_H
 

@@ -1,5 +1,5 @@
 // Light tracing (Dutre, Lafortune and Willems 1993): from the lights, reflecting at every surface; the eye is connected
-// to every vertex, the light's own point included.
+// to every vertex, and to the light's own point where it can be seen.
 #include "light_walk.cl"
 
 __kernel void trace_light(SCENE_PARAMETERS, int pixel_count, int first_pixel, int job_count, int first_sample,

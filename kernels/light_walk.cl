@@ -115,8 +115,7 @@ static inline void show_vertex(const Scene* scene, const Walk* walk, Vertex v, S
   Real distance;
   const Ray ray = ray_to_point(place_of(v.point), camera_vector(scene->camera->position), &distance);
   add_if_free(scene, queue, output, ray, distance,
-              splat(walk, view.film.pixel, value, weight, TECHNIQUE(walk->edges + 1, 1)),
-              seen & (vec_max(value) > 0.0f));
+              splat(walk, view.film.pixel, value, weight, TECHNIQUE(walk->edges + 1, 1)), seen & brings_light(value));
 }
 
 #endif

@@ -1,5 +1,6 @@
-// Light that `phlux bench sampling` lets arrive; the host integrates the same (bench/radiance.h). Each kind is scaled so
-// that its integral over the hemisphere is 2 pi, as that of radiance 1 is, where no part of it lies below the horizon.
+// Light that `phlux bench sampling` lets arrive; the host integrates the same (bench/radiance.h). Each kind is scaled
+// so that its integral over the hemisphere is 2 pi, as that of radiance 1 is, where no part of it lies below the
+// horizon.
 #ifndef PHLUX_SAMPLING_RADIANCE_H
 #define PHLUX_SAMPLING_RADIANCE_H
 

@@ -63,17 +63,14 @@ typedef struct {
 
 // The member of an entry of a table, in every lane.
 #ifdef MATERIALS_AT_HAND
-#define MATERIAL_REAL(scene, index, member)                                                                            \
-  PERMUTE_REAL((scene)->material_members, (scene)->materials, index, member)
-#define MATERIAL_INT(scene, index, member)                                                                             \
-  PERMUTE_INT((scene)->material_members, (scene)->materials, index, member)
+#define MATERIAL_REAL(scene, index, member) PERMUTE_REAL((scene)->material_members, (scene)->materials, index, member)
+#define MATERIAL_INT(scene, index, member) PERMUTE_INT((scene)->material_members, (scene)->materials, index, member)
 #else
 #define MATERIAL_REAL(scene, index, member) GATHER_REAL((scene)->materials, index, member)
 #define MATERIAL_INT(scene, index, member) GATHER_INT((scene)->materials, index, member)
 #endif
 #ifdef PRIMITIVES_AT_HAND
-#define PRIMITIVE_INT(scene, index, member)                                                                            \
-  PERMUTE_INT((scene)->primitive_members, (scene)->primitives, index, member)
+#define PRIMITIVE_INT(scene, index, member) PERMUTE_INT((scene)->primitive_members, (scene)->primitives, index, member)
 #else
 #define PRIMITIVE_INT(scene, index, member) GATHER_INT((scene)->primitives, index, member)
 #endif
@@ -180,7 +177,7 @@ typedef struct {
   scene.materials = materials;                                                                                         \
   scene.lights = lights;                                                                                               \
   scene.light_count = light_count;                                                                                     \
-  SCENE_PLANAR_SET SCENE_SPHERE_SET SCENE_BVH_SET SCENE_LOBE_SET SCENE_NORMAL_SET                                      \
-  SCENE_MATERIALS_LOAD SCENE_LIGHTS_LOAD SCENE_PRIMITIVES_LOAD SCENE_PLANARS_LOAD SCENE_SPHERES_LOAD
+  SCENE_PLANAR_SET SCENE_SPHERE_SET SCENE_BVH_SET SCENE_LOBE_SET SCENE_NORMAL_SET SCENE_MATERIALS_LOAD                 \
+      SCENE_LIGHTS_LOAD SCENE_PRIMITIVES_LOAD SCENE_PLANARS_LOAD SCENE_SPHERES_LOAD
 
 #endif

@@ -67,8 +67,9 @@ typedef struct {
   float direction[3];
   float cutoff, inv_transition; // spot: cutoff and 1 / (cutoff - beam width) in radians
   float probability;            // of being selected
-  float emission_density; // of a light path's first edge, the selection included: per area and projected solid angle
-                          // (planar, sphere), per solid angle (point, spot), per area (directional), per both (constant)
+  float
+      emission_density; // of a light path's first edge, the selection included: per area and projected solid angle
+                        // (planar, sphere), per solid angle (point, spot), per area (directional), per both (constant)
   float alias_threshold;
   int alias;
 } LightRecord;
@@ -83,8 +84,9 @@ typedef struct {
   int width, height;
 } CameraRecord;
 
-// A record of a splat: arrays of one word each. The last two only where each technique is wanted by itself; the technique
-// is then s << 16 | t, its complement where the path adds to its own pixel, and the value is without its weight.
+// A record of a splat: arrays of one word each. The last two only where each technique is wanted by itself; the
+// technique is then s << 16 | t, its complement where the path adds to its own pixel, and the value is without its
+// weight.
 enum RecordWords { RECORD_PIXEL = 0, RECORD_PATH, RECORD_VALUE, RECORD_WEIGHT = 5, RECORD_TECHNIQUE };
 
 // A stored vertex of a subpath, in words. A scene with neither interpolated normals nor anisotropic surfaces stores the

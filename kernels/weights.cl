@@ -4,7 +4,8 @@
 // p), where p is the density of the technique at hand and h is the heuristic: the ratio (balance), its square (power),
 // or 1 if the technique can make the path at all (uniform). h(a b) = h(a) h(b), so the sum can be built edge by edge.
 //
-// Roulette is left out of the densities: it is the same for a path whichever way it is made but for the ends.
+// Roulette is left out of the densities, which costs variance and no bias: a path that is made from one end has been
+// through more of it than one that is joined in the middle, and gets somewhat more weight than is best.
 // Densities of directions are per solid angle.
 #ifndef PHLUX_WEIGHTS_CL
 #define PHLUX_WEIGHTS_CL
@@ -15,6 +16,8 @@
 #define WEIGHTS_POWER 1
 #define WEIGHTS_UNIFORM 2
 
+// Ratios that float could not square and multiply on are cut off. What they divide is then below 1e-15 of the rest,
+// unless a scene is larger than 1e5 or smaller than 1e-6 and lengths enter to the fourth power (WEIGHTS_POWER).
 #define LARGEST_RATIO 1e30f
 
 static inline Real heuristic(Real ratio) {
@@ -70,6 +73,11 @@ static inline Ratios ratios_from_light(Real chosen, Real emission, Real cosine, 
   return r;
 }
 
+// The techniques that make more of the subpath from the other side, where `backward` is the density of its way on.
+static inline Real rest_of(Ratios r, Real backward) {
+  return smaller(r.edge + heuristic(backward) * r.rest, (Real)(LARGEST_RATIO));
+}
+
 // ---- Weights. `eye` and `light` are the ratios at the vertices that are joined.
 
 // The eye subpath hit a light that a light sample (or, on the first edge, a connection of the eye to it) finds with
@@ -83,7 +91,7 @@ static inline Real weight_of_hit(Ratios not_arrived, Real chosen, Real emission)
 static inline Real weight_of_light_sample(Ratios eye, Real chosen, Real emission, Real forward, Real backward,
                                           Real cosine, Mask hittable) {
   const Real by_hit = hittable ? heuristic(forward / chosen) : (Real)(0.0f);
-  const Real by_light_path = heuristic(emission * cosine / chosen) * (eye.edge + heuristic(backward) * eye.rest);
+  const Real by_light_path = heuristic(emission * cosine / chosen) * rest_of(eye, backward);
   return 1.0f / (1.0f + by_hit + by_light_path);
 }
 
@@ -93,13 +101,13 @@ static inline Real weight_of_seen_light(Real film, Real chosen) { return 1.0f / 
 
 // The eye sees a vertex of a light subpath `distance2` away, at an angle of `cosine` to its normal.
 static inline Real weight_of_seen_vertex(Ratios light, Real film, Real backward, Real distance2, Real cosine) {
-  return 1.0f / (1.0f + heuristic(film * cosine / distance2) * (light.edge + heuristic(backward) * light.rest));
+  return 1.0f / (1.0f + heuristic(film * cosine / distance2) * rest_of(light, backward));
 }
 
 // One side of a connection: the techniques that make the vertex with these ratios, and those before it, from the other
 // side, where `towards` is the density of the direction to it; `backward`: of the way on, coming from there.
 static inline Real connection_side(Ratios r, Real towards, Real backward, Real distance2, Real cosine) {
-  return heuristic(towards * cosine / distance2) * (r.edge + heuristic(backward) * r.rest);
+  return heuristic(towards * cosine / distance2) * rest_of(r, backward);
 }
 static inline Real weight_of_connection(Real light_side, Real eye_side) {
   return 1.0f / (1.0f + light_side + eye_side);

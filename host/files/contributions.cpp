@@ -81,8 +81,8 @@ void write_contributions(const std::filesystem::path& folder, film::Film& film, 
   std::error_code failure;
   std::filesystem::create_directories(folder, failure);
   if (failure)
-    throw WriteError(fmt::format("{}: cannot be made: {}: name another folder", folder.string(),
-                                 failure.message()));
+    throw WriteError(
+        fmt::format("{}: cannot be made: {}: name another folder", folder.string(), failure.message()));
   const film::Techniques& techniques = *film.techniques();
   int most_edges = 1;
   for (const auto& [technique, sums] : techniques.sums())

@@ -47,6 +47,10 @@ double Film::mean_in_units(std::size_t pixel, std::size_t channel) const {
   return mean;
 }
 
+// The mean of a film whose paths splat and begin in pixels is right once every pixel has the same number of
+// samples; until then what paths bring to their own pixels by splats is off by up to one part in as many as
+// the image has pixels.
+//
 // What a path brings to its own pixel counts among that pixel's samples, so the two parts are of different
 // paths and their variances add.
 double Film::variance_in_units(std::size_t pixel, std::size_t channel) const {
@@ -89,7 +93,8 @@ Film::technique_image(const std::vector<std::array<double, 3>>& sums) const {
 
 bool Film::has_variance() const {
   if (std::ranges::all_of(pixels_, [](const Pixel& pixel) { return pixel.samples >= 2; })) return true;
-  const bool only_splats = std::ranges::all_of(pixels_, [](const Pixel& pixel) { return pixel.samples == 0; });
+  const bool only_splats =
+      std::ranges::all_of(pixels_, [](const Pixel& pixel) { return pixel.samples == 0; });
   return only_splats && splatting_paths_per_pixel() >= 2.0;
 }
 

@@ -44,8 +44,8 @@ CameraRecord camera_record(const scene::Camera& camera, const scene::Vec3& origi
   return record;
 }
 
-// A table of entries of so many elements each. Kernels may load the first few_entries whole: there are as many, though
-// the table be empty.
+// A table of entries of so many elements each. Kernels may load the first few_entries whole: there are as
+// many, though the table be empty.
 template<typename T>
 cl::Buffer upload(const device::Device& device, const std::vector<T>& table, const char* what,
                   std::size_t elements_per_entry = 1) {

@@ -73,6 +73,13 @@ Launcher::Launcher(const device::Device& device, const cl::Program& program, con
     kernel_.setArg(index + 2, static_cast<float>(settings.ambient.value_or(0.0) / scene.lights.unit));
 }
 
+Launcher::~Launcher() {
+  try {
+    device_.queue.finish();
+  } catch (const cl::Error&) { // a device that has failed writes no more
+  }
+}
+
 int Launcher::batch_jobs(int block_samples) const {
   return lanes_ * least_lane_jobs(lanes_, block_samples);
 }
@@ -86,8 +93,8 @@ std::int64_t Launcher::wanted_jobs(std::int64_t left, int block_samples) const {
   // The kernel counts jobs, and words of their sums, in int; a launch's records must fit a buffer.
   std::int64_t largest = std::numeric_limits<cl_int>::max() / 8;
   if (parts_.integrator != Integrator::path) {
-    const double bytes_per_job = (records_per_path_ + 1) * block_samples *
-                                 static_cast<double>(record_words(parts_) * sizeof(float));
+    const double bytes_per_job =
+        (records_per_path_ + 1) * block_samples * static_cast<double>(record_words(parts_) * sizeof(float));
     largest = std::min(largest, static_cast<std::int64_t>(static_cast<double>(device_.info.largest_buffer) /
                                                           (4 * bytes_per_job)));
   }
@@ -104,7 +111,7 @@ void Launcher::warm_up() {
 }
 
 void Launcher::enqueue(const Launch& launch) {
-  Flight flight;
+  Flight& flight = flights_.emplace_back();
   flight.launch = launch;
   if (!spare_.empty()) {
     flight.buffers = std::move(spare_.back());
@@ -112,7 +119,6 @@ void Launcher::enqueue(const Launch& launch) {
   }
   start(flight);
   read_back(flight);
-  flights_.push_back(std::move(flight));
 }
 
 // See divide_scratch in kernels/bidir.cl.
@@ -141,7 +147,9 @@ void Launcher::plan(Flight& flight) const {
     flight.rows = static_cast<int>(std::ceil(rows_per_path_ * lane_paths));
     flight.record_capacity = static_cast<int>(std::ceil(records_per_path_ * lane_paths)) * lanes_ + lanes_;
     if (parts_.integrator == Integrator::bidir) {
-      const std::size_t fit = device_.info.largest_buffer / 2 / scratch_bytes_per_item(flight);
+      // Two launches are in flight, and other tables want room.
+      const std::size_t room = std::min(device_.info.largest_buffer / 2, device_.info.global_memory / 8);
+      const std::size_t fit = room / scratch_bytes_per_item(flight);
       flight.items = std::clamp(flight.items, std::size_t{1}, std::max(fit / local * local, local));
     }
   }
@@ -156,7 +164,16 @@ void Launcher::reserve(cl::Buffer& buffer, std::size_t& has, std::size_t bytes, 
         fmt::format("{}: the {} of a launch take {} MB and a buffer may have {} MB: shorten the paths "
                     "(--max-depth, --rr-depth)",
                     device_.info.name, what, bytes >> 20, device_.info.largest_buffer >> 20));
-  buffer = cl::Buffer(device_.context, CL_MEM_READ_WRITE, bytes);
+  buffer = {}; // before there is another: memory may be short
+  has = 0;
+  try {
+    buffer = cl::Buffer(device_.context, CL_MEM_READ_WRITE, bytes);
+  } catch (const cl::Error& error) {
+    throw DeviceError(
+        fmt::format("{}: no room for the {} of a launch ({} MB): {}: shorten the paths (--max-depth, "
+                    "--rr-depth)",
+                    device_.info.name, what, bytes >> 20, device::error_name(error.err())));
+  }
   has = bytes;
 }
 
@@ -179,7 +196,8 @@ void Launcher::start(Flight& flight) {
   set(to.counters);
   if (batches) {
     const auto capacity = static_cast<std::size_t>(flight.record_capacity);
-    reserve(to.records, to.records_bytes, flight.batches * capacity * record_words(parts_) * sizeof(float), "splats");
+    reserve(to.records, to.records_bytes, flight.batches * capacity * record_words(parts_) * sizeof(float),
+            "splats");
     reserve(to.record_counts, to.record_counts_bytes, flight.batches * sizeof(cl_int), "counts of splats");
     set(static_cast<cl_int>(flight.batch_jobs));
     set(static_cast<cl_int>(record_words(parts_)));
@@ -220,8 +238,20 @@ void Launcher::read_back(Flight& flight) {
   device_.queue.flush();
 }
 
-void Launcher::wait() {
-  flights_.front().read.wait();
+void Launcher::settle() {
+  Flight& flight = flights_.front();
+  flight.read.wait();
+  while (overflowed(flight)) {
+    unmap(flight);
+    start(flight);
+    read_back(flight);
+    flight.read.wait();
+  }
+}
+
+void Launcher::unmap(Flight& flight) {
+  if (flight.host_records) device_.queue.enqueueUnmapMemObject(flight.buffers.records, flight.host_records);
+  flight.host_records = nullptr;
 }
 
 // Whether some batch had more vertices or splats than there was room for; makes more room for the next try.
@@ -234,7 +264,10 @@ bool Launcher::overflowed(const Flight& flight) {
     const double paths = static_cast<double>(flight.batch_jobs) * flight.launch.block_samples;
     records_per_path_ = std::max(records_per_path_, 1.25 * most / paths);
   }
-  if (vertices) rows_per_path_ *= 2;
+  if (vertices) {
+    const double lane_paths = static_cast<double>(flight.batch_jobs) * flight.launch.block_samples / lanes_;
+    rows_per_path_ = std::max(rows_per_path_, 2 * flight.rows / lane_paths);
+  }
   return splats || vertices;
 }
 
@@ -261,20 +294,8 @@ void Launcher::fold_records(Flight& flight, film::Film& film) {
 }
 
 void Launcher::collect(film::Film& film) {
-  wait();
   Flight flight = std::move(flights_.front());
   flights_.pop_front();
-  const auto unmap = [&] {
-    if (flight.host_records)
-      device_.queue.enqueueUnmapMemObject(flight.buffers.records, flight.host_records);
-    flight.host_records = nullptr;
-  };
-  while (overflowed(flight)) {
-    unmap();
-    start(flight);
-    read_back(flight);
-    flight.read.wait();
-  }
   fold_sums(flight, film);
   const std::uint64_t paths = static_cast<std::uint64_t>(flight.launch.jobs) *
                               static_cast<std::uint64_t>(flight.launch.block_samples);
@@ -283,7 +304,7 @@ void Launcher::collect(film::Film& film) {
     fold_records(flight, film);
     film.add_splatting_paths(paths);
   }
-  unmap();
+  unmap(flight);
   counts_.paths += paths;
   for (std::size_t item = 0; item < flight.items; ++item) {
     counts_.rays += flight.host_counters[item * 3];

@@ -21,6 +21,9 @@ class Launcher {
 public:
   Launcher(const device::Device& device, const cl::Program& program, const HostScene& scene,
            const Parts& parts, const Settings& settings);
+  ~Launcher(); ///< waits for what is in flight, which writes into memory of this object
+  Launcher(const Launcher&) = delete;
+  Launcher& operator=(const Launcher&) = delete;
 
   /// Launches nothing, which makes the driver finish what it puts off until a kernel's first launch: PoCL
   /// compiles most of it then.
@@ -30,8 +33,10 @@ public:
   [[nodiscard]] std::int64_t wanted_jobs(std::int64_t left, int block_samples) const;
   void enqueue(const Launch& launch);
   [[nodiscard]] std::size_t in_flight() const { return flights_.size(); }
-  void wait(); ///< for the oldest launch
-  /// Folds the oldest launch into the film. @throws DeviceError when its paths do not fit the device's memory
+  /// Waits for the oldest launch, and repeats it as often as it lacked room. @throws DeviceError when its
+  /// paths do not fit the device's memory
+  void settle();
+  /// Folds the oldest launch, settled, into the film.
   void collect(film::Film& film);
   [[nodiscard]] const Counts& counts() const { return counts_; }
 
@@ -60,6 +65,7 @@ private:
   void reserve(cl::Buffer& buffer, std::size_t& has, std::size_t bytes, const char* what) const;
   void read_back(Flight& flight);
   [[nodiscard]] bool overflowed(const Flight& flight);
+  void unmap(Flight& flight);
   void fold_sums(const Flight& flight, film::Film& film);
   void fold_records(Flight& flight, film::Film& film);
   void adapt(const Flight& flight);

@@ -132,6 +132,9 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
   parts.techniques = settings.techniques;
   if (parts.techniques && parts.integrator == Integrator::path)
     throw UsageError("--contributions: a path from the eye is made in one way: use -i bidir or light");
+  parts.ambient = settings.ambient.has_value();
+  if (parts.ambient && parts.integrator != Integrator::path)
+    throw UsageError("--ambient: only paths from the eye can carry the ambient term: use -i path");
   if (lights.records.empty()) { // the image is black, which is best left to the one that chooses no light
     parts.integrator = Integrator::path;
     parts.techniques = false;
@@ -154,9 +157,6 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
     parts.phong_lobe |= lobe;
     if (lobe && settings.strategy == "rejection") refuse_endless_rejection(*m);
   }
-  parts.ambient = settings.ambient.has_value();
-  if (parts.ambient && parts.integrator != Integrator::path)
-    throw UsageError("--ambient: only paths from the eye can carry the ambient term: use -i path");
   if (parts.ambient && parts.anisotropic)
     throw UsageError(
         "--ambient: the reflectivity of anisotropicphong has no closed form to weigh the ambient term "

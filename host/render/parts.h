@@ -43,8 +43,8 @@ struct Parts {
   [[nodiscard]] std::map<std::string, std::string> defines() const;
 };
 
-/// @throws UsageError for an integrator that there is not, and for a strategy, a --connect or an --ambient that
-/// cannot render this scene
+/// @throws UsageError for an integrator that there is not, and for a strategy, a --connect or an --ambient
+/// that cannot render this scene
 [[nodiscard]] Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry,
                                const LightTable& lights, const Settings& settings, int lanes);
 

@@ -46,7 +46,7 @@ public:
       while (launcher.in_flight() < launches_in_flight && take(launcher)) {
       }
       if (launcher.in_flight() == 0) return;
-      launcher.wait();
+      launcher.settle();
       const std::lock_guard lock(mutex_);
       const std::uint64_t before = launcher.counts().paths;
       launcher.collect(film_);
@@ -164,9 +164,10 @@ public:
     worker.parts = find_parts(scene_, host_->geometry, host_->lights, settings_, lanes);
     if (!worker.parts.phong_lobe) warn_of_plain_strategy();
     warn_of_darkness();
+    warn_of_size();
     statistics.seconds_setup += seconds_since(begin);
-    const device::BuiltProgram built =
-        device::build(device, files_, {worker.parts.file(), worker.parts.defines(), {}}, events_.building_kernels);
+    const device::BuiltProgram built = device::build(
+        device, files_, {worker.parts.file(), worker.parts.defines(), {}}, events_.building_kernels);
     statistics.kernels_from_cache = built.from_cache;
     worker.launcher = std::make_unique<Launcher>(device, built.program, *host_, worker.parts, settings_);
     const Clock::time_point warm_up_begin = Clock::now();
@@ -180,6 +181,18 @@ private:
     const auto shines = [](const LightRecord& light) { return light.probability > 0; };
     if (std::ranges::none_of(host_->lights.records, shines))
       spdlog::warn("no light of the scene has any power: the image will be black");
+  }
+
+  // Squares of ratios of areas leave float's range: beyond these sizes the weights no longer add up to 1.
+  void warn_of_size() const {
+    constexpr double smallest = 1e-6, largest = 1e5;
+    const double radius = host_->geometry.radius;
+    if (settings_.integrator == "bidir" && settings_.weights == Weights::power &&
+        (radius < smallest || radius > largest))
+      spdlog::warn(
+          "--weights power: the scene's radius is {:.1g}, and the weights are right between {:g} and "
+          "{:g}: use --weights balance",
+          radius, smallest, largest);
   }
 
   void warn_of_plain_strategy() const {

@@ -23,8 +23,8 @@ struct Launch {
 };
 
 /// Hands out the work. With `samples` given, every pixel gets just that many, in blocks of samples_per_block
-/// and then one of what is left. Without, it never ends, and the first blocks are short (1, 1, 2, 4, 8 samples), so that a render that is
-/// stopped early has seen every pixel.
+/// and then one of what is left. Without, it never ends, and the first blocks are short (1, 1, 2, 4, 8
+/// samples), so that a render that is stopped early has seen every pixel.
 class Schedule {
 public:
   Schedule(std::int64_t pixels, std::optional<std::int64_t> samples);
