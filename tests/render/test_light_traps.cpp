@@ -135,6 +135,7 @@ TEST_CASE("an emitter seen from behind is black, and lights what it faces alone"
     turned.patches[1].edge_u = -turned.patches[1].edge_u;
     const Estimate other = image_of(turned, with(method, 64));
     CHECK(other.mean.front()[0] > 0);
+    CHECK(is_black(render_of(turned, with(method, 64, 1)).film));
   }
 }
 
