@@ -70,6 +70,7 @@ MUTANTS = [
 
 # Mistakes of light tracing and bidirectional path tracing, with the program and the test cases that are to see them.
 INTEGRATORS = ("test_render", "[mutations]")
+SMOOTH, GLOSSY = ("test_render", "a ball of eight*"), ("test_render", "a closed room of glossy*")
 CAMERA, EMISSION, WEIGHTS, BATCHES = (("test_kernels", name + ":*") for name in ("camera", "emission", "weights", "batches"))
 
 INTEGRATOR_MUTANTS = [
@@ -90,24 +91,24 @@ INTEGRATOR_MUTANTS = [
      ("test_render", "an emitter seen from behind*")),
     ("light's point without pi", "light_walk.cl", "Real chosen = PHONG_PI * e.density", "Real chosen = e.density", INTEGRATORS),
     ("sky seen with half its density", "light_walk.cl", "chosen = e.sky ? (0.25f * PHONG_INV_PI)", "chosen = e.sky ? (0.5f * PHONG_INV_PI)", INTEGRATORS),
-    ("light subpaths without the adjoint factor", "walk.cl", "if (adjoint) throughput", "if (adjoint > 1) throughput", INTEGRATORS),
+    ("light subpaths without the adjoint factor", "walk.cl", "if (adjoint) throughput", "if (adjoint > 1) throughput", SMOOTH),
     ("adjoint factor of splats and connections missing", "walk.cl",
-     "return v.fixed.z * geometric_cosine / vec_dot(v.point.normal, from_frame(v.point.frame, v.fixed));", "return generated.z;", INTEGRATORS),
+     "return v.fixed.z * geometric_cosine / vec_dot(v.point.normal, from_frame(v.point.frame, v.fixed));", "return generated.z;", SMOOTH),
     ("reverse density without swapped arguments (walk)", "walk.cl", "material_density(v.material, sample.direction, v.fixed)",
-     "material_density(v.material, v.fixed, sample.direction)", INTEGRATORS),
+     "material_density(v.material, v.fixed, sample.direction)", GLOSSY),
     ("reverse density without swapped arguments (splat)", "light_walk.cl", "material_density(v.material, generated, v.fixed)",
-     "material_density(v.material, v.fixed, generated)", INTEGRATORS),
+     "material_density(v.material, v.fixed, generated)", GLOSSY),
     ("reverse density without swapped arguments (light sample)", "bidir.cl", "material_density(v.material, generated, v.fixed), cosine",
-     "material_density(v.material, v.fixed, generated), cosine", INTEGRATORS),
+     "material_density(v.material, v.fixed, generated), cosine", GLOSSY),
     ("reverse density without swapped arguments (connection)", "bidir.cl", "material_density(at_light, to_eye, light_fixed)",
-     "material_density(at_light, light_fixed, to_eye)", INTEGRATORS),
+     "material_density(at_light, light_fixed, to_eye)", GLOSSY),
     ("connection without 1 / distance^2", "bidir.cl", "adjoint_cosine(light.vertex, to_eye, light_cosine) / distance2, reflected)",
      "adjoint_cosine(light.vertex, to_eye, light_cosine), reflected)", INTEGRATORS),
     ("connection without a cosine", "bidir.cl", "vec_scale(to_light.z * adjoint_cosine", "vec_scale(adjoint_cosine", INTEGRATORS),
     ("connections make paths that are too long", "bidir.cl", "b->limits.edges - 2 - pair->eye_index", "b->limits.edges - 1 - pair->eye_index",
-     ("test_render", "each path length*")),
+     ("test_render", "furnace box by light and bidir: every*")),
     ("connections leave the longest paths out", "bidir.cl", "b->limits.edges - 2 - pair->eye_index", "b->limits.edges - 3 - pair->eye_index",
-     ("test_render", "each path length*")),
+     ("test_render", "furnace box by light and bidir: every*")),
     ("wrong density of the sky as it is hit", "bidir.cl", "const Real sampled = sky->probability * walk->sky_density;",
      "const Real sampled = sky->probability * PHONG_INV_PI;", INTEGRATORS),
     ("wrong density of the sky as a path's start", "bidir.cl", "choice * v.fixed.z * PHONG_INV_PI", "choice * PHONG_INV_PI", INTEGRATORS),

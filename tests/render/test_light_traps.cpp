@@ -139,6 +139,30 @@ TEST_CASE("an emitter seen from behind is black, and lights what it faces alone"
   }
 }
 
+// Light is reflected by the adjoint of f cos where normals are interpolated (Veach 1997, 5.3). The lamp
+// lights the ball alone, and the ball the floor.
+TEST_CASE("a ball of eight triangles with a ball's normals, and the floor in its light") {
+  scene::Scene scene = plane_under(diffuse({0.8, 0.7, 0.6}), 12, 12);
+  scene::Mesh ball;
+  for (const Vec3& p :
+       {Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 1, 0), Vec3(0, -1, 0), Vec3(0, 0, 1), Vec3(0, 0, -1)}) {
+    ball.positions.push_back(p + Vec3(0, 0, 1.3));
+    ball.normals.emplace_back(p);
+  }
+  ball.triangles = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+  scene.meshes = {ball};
+  scene.spot_lights = {{{3, 0.4, 1.3}, glm::normalize(Vec3(-1, -0.1, 0)), Rgb(90, 80, 70), 0.2, 0.15}};
+  scene.camera = look_at({2.5, 3, 3.5}, {0.4, 0, 0.7}, 40, 12, 12);
+  check_against_path(scene, {light, bidir}, settings(256), 2);
+}
+
+// Every edge of its paths is between glossy surfaces, whose densities in both directions enter the weights.
+TEST_CASE("a closed room of glossy walls: bidir agrees with path by every way to weigh that converges") {
+  scene::Scene scene = shipped("furnace-box", 8, 8);
+  for (scene::Material& material : scene.materials) material = phong({0.1, 0.2, 0.0}, {0.6, 0.4, 0.7}, 10);
+  check_against_path(scene, {bidir, bidir_power}, settings(128));
+}
+
 TEST_CASE("a spot light in closed form: its beam, its fall-off, and dark beyond") {
   scene::Scene scene = plane_under(diffuse({0.8, 0.5, 0.2}), 8, 8);
   const Vec3 position(0.1, -0.3, 1.5), axis = glm::normalize(Vec3(0.1, 0.2, -1)), eye = scene.camera.position;
