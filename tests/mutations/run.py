@@ -57,6 +57,8 @@ def failed_tests(program, cases, device, folder):
     if device:
         environment["PHLUX_DEVICE"] = device
     result = subprocess.run([program, cases, "--reporter", "xml"], cwd=folder, env=environment, capture_output=True, text=True)
+    if "<TestCase" not in result.stdout:
+        raise SystemExit(f"{program.name} has no test case {cases}: {result.stderr}")
     if result.returncode == 0:
         return []
     failed = re.findall(r'<TestCase name="([^"]*)"(?:(?!</TestCase>).)*<OverallResult success="false"', result.stdout, re.S)
