@@ -61,11 +61,12 @@ Look look_at(const Snapshot& snapshot, const Reference& reference) {
 // The renders of one method, as they come.
 struct Renders {
   std::vector<ImageEstimate> last, one_sample;
-  std::vector<double> seconds_per_sample;
+  std::vector<double> seconds_per_sample, processor_seconds_per_sample;
   std::vector<Look> looks; // at all renders; time `doublings` is a render's end
 
   void add(TimedRender render, const Reference& reference) {
     seconds_per_sample.push_back(render.seconds_per_sample());
+    processor_seconds_per_sample.push_back(render.processor_seconds_per_sample);
     for (const Snapshot& snapshot : render.on_the_way) looks.push_back(look_at(snapshot, reference));
     looks.push_back(look_at(render.last, reference));
     last.push_back(std::move(render.last.image));
@@ -139,6 +140,7 @@ MethodResult result_of(const Method& method, const Renders& renders, const Refer
   result.top_share = top_share(renders.one_sample, reference.radiance);
   result.mean = image_mean(renders.last);
   result.seconds_per_sample = median(renders.seconds_per_sample);
+  result.processor_seconds_per_sample = median(renders.processor_seconds_per_sample);
   const auto [least, most] = std::ranges::minmax(renders.seconds_per_sample);
   result.seconds_per_sample_least = least, result.seconds_per_sample_most = most;
   result.convergence = convergence_of(renders);

@@ -54,6 +54,7 @@ struct MethodResult {
   Figure mean{};              ///< of the image
   double mean_bias_sigma = 0; ///< (mean - reference's) / standard error of the difference
   double seconds_per_sample = 0, seconds_per_sample_least = 0, seconds_per_sample_most = 0;
+  double processor_seconds_per_sample = 0;     ///< of all threads; the median
   std::vector<ConvergencePoint> convergence{}; ///< the last one is of the whole renders
   int rounds = 0;
   ImageEstimate first_image{}; ///< of the first round, for looking at

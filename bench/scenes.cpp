@@ -52,6 +52,7 @@ const std::vector<std::string> columns = {"scene",
                                           "variance_measured_standard_error",
                                           "seconds_per_sample_least",
                                           "seconds_per_sample_most",
+                                          "processor_seconds_per_sample",
                                           "mean",
                                           "mean_standard_error",
                                           "mean_bias_sigma",
@@ -163,6 +164,7 @@ std::vector<std::string> row_of(const Run& run, const SceneRun& scene, const Ref
   figure(result.variance.standard_error);
   figure(result.seconds_per_sample_least);
   figure(result.seconds_per_sample_most);
+  figure(result.processor_seconds_per_sample);
   figure(result.mean.value);
   figure(result.mean.standard_error);
   figure(result.mean_bias_sigma);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <sys/resource.h>
+
 #include <spdlog/spdlog.h>
 
 namespace phlux::bench {
@@ -28,6 +30,15 @@ bool all_pixels(const film::Film& film, const std::function<bool(double)>& have)
     return have(film.samples_per_pixel());
   return std::ranges::all_of(
       film.pixels(), [&](const film::Pixel& pixel) { return have(static_cast<double>(pixel.samples)); });
+}
+
+double processor_seconds() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
 bool every_pixel_has_one(const film::Film& film) {
@@ -62,8 +73,14 @@ TimedRender render_for(const scene::Scene& scene, render::Settings settings, dou
   settings.launch_seconds = std::min(usual_launch_seconds, times.empty() ? seconds / 8 : times.front() / 2);
   std::size_t next = 0;
   bool stopped = false;
+  std::optional<std::uint64_t> first_paths;
+  double first_processor_seconds = 0;
   render::Events events;
   events.progress = [&](const render::Progress& progress) {
+    if (!first_paths) { // setting up is over
+      first_paths = progress.paths;
+      first_processor_seconds = processor_seconds();
+    }
     if (!result.one_sample && progress.samples_done == 1.0 && every_pixel_has_one(film))
       result.one_sample = estimate_of(film);
     if (next < times.size() && progress.seconds >= times[next]) {
@@ -79,6 +96,8 @@ TimedRender render_for(const scene::Scene& scene, render::Settings settings, dou
   if (!every_pixel_has_some(film)) return render_once(scene, settings, times.size());
   result.last = {estimate_of(film), result.statistics.seconds_render, times.size()};
   result.paths = static_cast<double>(result.statistics.paths);
+  if (const double paths = result.paths - static_cast<double>(first_paths.value_or(0)); paths > 0)
+    result.processor_seconds_per_sample = (processor_seconds() - first_processor_seconds) / paths;
   return result;
 }
 

@@ -25,6 +25,8 @@ struct TimedRender {
   std::optional<ImageEstimate> one_sample; ///< when every pixel had one sample and none had two
   Snapshot last;
   double paths = 0;
+  double processor_seconds_per_sample =
+      0; ///< of this process, all threads: what other programs do is not in it
   render::Statistics statistics;
 
   [[nodiscard]] double seconds_per_sample() const { return last.seconds / paths; }
