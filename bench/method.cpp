@@ -15,13 +15,6 @@ auto index_of(const Names& names, const std::string& name) {
   return std::ranges::find(names, name) - names.begin();
 }
 
-// Versions without bidir have no weights to set.
-template<class Settings>
-void set_weights(Settings& settings, const std::string& name) {
-  if constexpr (requires { settings.weights; })
-    settings.weights = static_cast<decltype(settings.weights)>(index_of(weights, name));
-}
-
 } // namespace
 
 std::string Method::name() const {
@@ -46,7 +39,8 @@ render::Settings settings_of(const Method& method, const scene::RenderDefaults& 
   settings.strategy = method.strategy;
   if (method.integrator == "path")
     settings.connect = static_cast<render::Connect>(index_of(connects, method.variant));
-  if (method.integrator == "bidir") set_weights(settings, method.variant);
+  if (method.integrator == "bidir")
+    settings.weights = static_cast<render::Weights>(index_of(weights, method.variant));
   settings.max_depth = defaults.max_depth;
   settings.rr_depth = defaults.rr_depth;
   return settings;

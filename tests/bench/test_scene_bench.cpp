@@ -177,4 +177,5 @@ TEST_CASE("Every integrator and variant with every strategy is a method") {
   CHECK(settings_of(methods[1], {}).connect == render::Connect::light);
   CHECK(settings_of(methods[9], {}).strategy == "fold");
   CHECK(settings_of(methods[3], {}).integrator == "light");
+  CHECK(settings_of(methods[5], {}).weights == render::Weights::power);
 }
