@@ -1,6 +1,7 @@
 #include "bench/scene_bench.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <numeric>
@@ -73,6 +74,24 @@ struct Renders {
     one_sample.push_back(std::move(*render.one_sample));
   }
 };
+
+// Means over 9x9 pixels. An image's own large samples would make their pixels count for little.
+Reference smoothed(const Reference& image, const scene::Camera& camera) {
+  constexpr int reach = 4;
+  Reference result(image.size());
+  for (int y = 0; y < camera.height; ++y)
+    for (int x = 0; x < camera.width; ++x) {
+      std::array<double, 3> sum{};
+      int pixels = 0;
+      for (int j = std::max(0, y - reach); j <= std::min(camera.height - 1, y + reach); ++j)
+        for (int i = std::max(0, x - reach); i <= std::min(camera.width - 1, x + reach); ++i, ++pixels)
+          for (std::size_t channel = 0; channel < 3; ++channel)
+            sum[channel] += image[3 * static_cast<std::size_t>(j * camera.width + i) + channel];
+      for (std::size_t channel = 0; channel < 3; ++channel)
+        result[3 * static_cast<std::size_t>(y * camera.width + x) + channel] = sum[channel] / pixels;
+    }
+  return result;
+}
 
 // Of the doubling times, those that half of the renders have an image of.
 std::vector<ConvergencePoint> convergence_of(const Renders& renders) {
@@ -217,7 +236,7 @@ void SceneBench::try_methods(const std::vector<Method>& methods) {
 }
 
 // Which one converges best, in two steps: by the variance in absolute terms, then relative to that one's
-// image.
+// image, smoothed.
 void SceneBench::rate_trials() {
   const auto rate = [&](const Reference& reference) {
     for (Trial& trial : trials_) {
@@ -229,7 +248,7 @@ void SceneBench::rate_trials() {
   const auto first = std::ranges::find(trials_, "", &Trial::refusal);
   if (first == trials_.end()) return;
   rate(Reference(first->images.front().radiance.size(), 1.0));
-  if (const Trial* best = best_trial()) rate(pooled(best->images).radiance);
+  if (const Trial* best = best_trial()) rate(smoothed(pooled(best->images).radiance, scene_.camera));
 }
 
 const Trial* SceneBench::best_trial() const {

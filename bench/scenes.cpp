@@ -395,7 +395,7 @@ void finish(const Run& run, const Measured& measured) {
   // Where nothing was measured, what is there says how it was.
   if (measured.scenes > 0 || !std::filesystem::exists(run.options.folder / "scenes.provenance.json")) {
     const std::string kernels =
-        run.options.build_ahead
+        measured.programs > 0
             ? fmt::format("{} programs of {} scenes and methods were not in the cache; all were built before "
                           "anything was timed",
                           measured.programs_built, measured.programs)

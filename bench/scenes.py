@@ -375,6 +375,7 @@ def main():
     scenes, points = {}, {}
     for row in rows:
         scenes.setdefault(row.scene, []).append(Method(row, strategies))
+    scenes = dict(sorted(scenes.items()))
     for methods in scenes.values():
         methods.sort(key=lambda method: (method.strategy_number, method.variant_number))
     for row in style.read(folder, "scenes-convergence.csv"):
