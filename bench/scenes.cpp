@@ -371,17 +371,20 @@ struct Measured {
 
 void measure_all(const Run& run, const std::vector<SceneRun>& scenes, Tables& tables, Measured& measured) {
   StatusLine status;
+  std::vector<std::vector<Method>> methods_of;
+  for (const SceneRun& scene : scenes) methods_of.push_back(missing(run, scene, tables));
   for (std::size_t i = 0; i < scenes.size(); ++i) {
-    const std::vector<Method> methods = missing(run, scenes[i], tables);
+    const std::vector<Method>& methods = methods_of[i];
     if (methods.empty()) {
       fmt::print("{}: measured already\n", scenes[i].name);
       continue;
     }
     const Clock::time_point begin = Clock::now();
+    const auto later = std::count_if(methods_of.begin() + static_cast<std::ptrdiff_t>(i) + 1,
+                                     methods_of.end(), [](const auto& those) { return !those.empty(); });
     const SceneResults results = measure(run, scenes[i], methods, tables, [&](const std::string& what) {
       const double spent = std::chrono::duration<double>(Clock::now() - begin).count();
-      const double left =
-          std::max(0.0, run.seconds - spent) + run.seconds * static_cast<double>(scenes.size() - i - 1);
+      const double left = std::max(0.0, run.seconds - spent) + run.seconds * static_cast<double>(later);
       status.show(fmt::format("scene {} of {}, {}: {}  {} left", i + 1, scenes.size(), scenes[i].name, what,
                               clock_text(left)));
     });
