@@ -163,7 +163,8 @@ std::string shipped(const std::string& name) {
 // bench scenes on small images, a second for each scene.
 std::vector<std::string> scenes_command(const std::vector<std::string>& names,
                                         const std::vector<std::string>& more = {}) {
-  std::vector<std::string> arguments = {"bench", "scenes", "--side", "8", "--seconds", "1", "--out", "out"};
+  std::vector<std::string> arguments = {"bench",     "scenes", "--quick", "--side", "8",
+                                        "--seconds", "1",      "--out",   "out"};
   for (const std::string& name : names)
     arguments.insert(arguments.end(), {"--scene", std::filesystem::exists(name) ? name : shipped(name)});
   arguments.insert(arguments.end(), more.begin(), more.end());
@@ -198,8 +199,7 @@ bool drawn(const Outcome& outcome) {
 
 TEST_CASE("phlux bench scenes writes the contract's columns, a row for each method, charts and a report") {
   const TemporaryFolder folder;
-  const Outcome outcome =
-      run({scenes_command({"furnace-sphere", "point-light"}, {"--quick"}), folder.path(), {}, {}});
+  const Outcome outcome = run({scenes_command({"furnace-sphere", "point-light"}), folder.path(), {}, {}});
   CAPTURE(outcome.err, outcome.out);
   const auto lines = lines_of(TemporaryFolder::read(folder / "out/scenes.csv"));
   REQUIRE(lines.size() == 1 + 2 * 5);
@@ -262,7 +262,7 @@ TEST_CASE("phlux bench scenes goes on where it was interrupted") {
   };
   (void)run({scenes_command({"furnace-sphere"}), folder.path(), {}, {}});
   const auto first = rows_of("furnace-sphere");
-  REQUIRE(first.size() == 7);
+  REQUIRE(first.size() == 5);
 
   const auto both = scenes_command({"furnace-sphere", "cornell-box"});
   const Outcome stopped = run({both, folder.path(), {}, std::chrono::milliseconds(700)});
@@ -275,12 +275,12 @@ TEST_CASE("phlux bench scenes goes on where it was interrupted") {
   CHECK_THAT(whole.out, Catch::Contains("furnace-sphere: measured already"));
   CHECK(rows_of("furnace-sphere") == first);
   const auto second = rows_of("cornell-box");
-  CHECK(second.size() == 7);
+  CHECK(second.size() == 5);
   if (drawn(whole)) CHECK(whole.exit_code == 0);
 
   // Another seed is another measurement; the other scene's rows stay.
   (void)run({scenes_command({"furnace-sphere"}, {"--seed", "2"}), folder.path(), {}, {}});
-  CHECK(rows_of("furnace-sphere").size() == 7);
+  CHECK(rows_of("furnace-sphere").size() == 5);
   CHECK(rows_of("furnace-sphere") != first);
   CHECK(rows_of("cornell-box") == second);
 }
@@ -294,7 +294,7 @@ TEST_CASE("phlux bench scenes measures a strategy that is added beside what is t
              {},
              {}});
   const auto after = lines_of(TemporaryFolder::read(folder / "out/scenes.csv"));
-  CHECK(after.size() == 1 + 14);
+  CHECK(after.size() == 1 + 10);
   for (const std::string& line : before)
     if (line.find("refused") == std::string::npos) CHECK(std::ranges::count(after, line) == 1);
 }
