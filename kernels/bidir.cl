@@ -101,10 +101,10 @@ static inline int walk_light_subpaths(Bidir* b, Batch batch) {
 
 // ---- Eye subpaths
 
-static inline Contribution to_own_pixel(const Walk* walk, Vec3 value, Real weight, Int technique) {
+static inline Contribution to_own_pixel(Int path, Uint pixel, Vec3 value, Real weight, Int technique) {
   Contribution c;
-  c.path = walk->path;
-  c.pixel = uint_to_int(walk->sequence.pixel);
+  c.path = path;
+  c.pixel = uint_to_int(pixel);
   c.own = ALL_LANES;
   c.value = value;
   c.weight = weight;
@@ -137,7 +137,8 @@ static inline void add_hit_light(Bidir* b, const Walk* walk, SurfacePoint point,
   const Real sampled = light_density(scene, walk->ray.origin, light, distance, cosine);
   const Real weight = weight_of_hit(walk->ratios, walk->edges == 1 ? seen : sampled, emission);
   const Vec3 value = vec_mul(walk->throughput, LIGHT_VEC3(scene, light, power));
-  add_contribution(&b->output, to_own_pixel(walk, value, weight, TECHNIQUE(0, walk->edges + 1)), emits);
+  add_contribution(&b->output,
+                   to_own_pixel(walk->path, walk->sequence.pixel, value, weight, TECHNIQUE(0, walk->edges + 1)), emits);
 #endif
 }
 
@@ -151,7 +152,8 @@ static inline void add_sky(Bidir* b, const Walk* walk, Mask m) {
   const Real weight = weight_of_hit(walk->ratios, walk->edges == 1 ? seen : sampled, (Real)(sky->emission_density));
   const Vec3 radiance = vec3((Real)(sky->power[0]), (Real)(sky->power[1]), (Real)(sky->power[2]));
   const Vec3 value = vec_mul(walk->throughput, radiance);
-  add_contribution(&b->output, to_own_pixel(walk, value, weight, TECHNIQUE(0, walk->edges + 1)), m);
+  add_contribution(&b->output,
+                   to_own_pixel(walk->path, walk->sequence.pixel, value, weight, TECHNIQUE(0, walk->edges + 1)), m);
 #endif
 }
 
@@ -171,7 +173,8 @@ static inline void add_light_sample(Bidir* b, const Walk* walk, Vertex v, Mask m
                              material_density(v.material, v.fixed, generated),
                              material_density(v.material, generated, v.fixed), cosine, light.hittable);
   add_if_free(scene, &b->queue, &b->output, light.ray, light.distance,
-              to_own_pixel(walk, value, weight, TECHNIQUE(1, walk->edges + 1)), reaches & brings_light(value));
+              to_own_pixel(walk->path, walk->sequence.pixel, value, weight, TECHNIQUE(1, walk->edges + 1)),
+              reaches & brings_light(value));
 }
 
 // Walks the batch's eye subpaths, adding the lights that they hit and sample. Returns whether there was room for their
@@ -216,7 +219,8 @@ static inline int walk_eye_subpaths(Bidir* b, Batch batch) {
 
 // Each lane's pair of vertices: those after the first of their subpaths, counted from 0.
 typedef struct {
-  Walk path; // its number and pixel
+  Int path;
+  Uint pixel;
   Trail light, eye;
   Int light_index, eye_index;
   Int light_count; // of vertices that the eye's can be joined to without making too long a path
@@ -229,13 +233,12 @@ static inline Int joinable(const Bidir* b, const Pair* pair) {
 // Gives the lanes that are not `pairing` paths that have pairs; returns the lanes that are then.
 static inline Mask take_pairs(const Bidir* b, Batch* batch, Pair* pair, Mask pairing) {
   while (!all_lanes(pairing)) {
-    Walk* path = &pair->path;
-    const Mask starting = take_paths(batch, &path->path, !pairing);
+    const Mask starting = take_paths(batch, &pair->path, !pairing);
     if (!any_lane(starting)) break;
-    RandomSequence sequence = path->sequence;
-    find_path(b->list, batch, path->path, &sequence);
-    path->sequence.pixel = starting ? sequence.pixel : path->sequence.pixel;
-    const Trail light = load_trail(&b->light, path->path), eye = load_trail(&b->eye, path->path);
+    RandomSequence sequence;
+    find_path(b->list, batch, pair->path, &sequence);
+    pair->pixel = starting ? sequence.pixel : pair->pixel;
+    const Trail light = load_trail(&b->light, pair->path), eye = load_trail(&b->eye, pair->path);
     pair->light.first = starting ? light.first : pair->light.first;
     pair->light.length = starting ? light.length : pair->light.length;
     pair->eye.first = starting ? eye.first : pair->eye.first;
@@ -280,14 +283,15 @@ static inline void connect(Bidir* b, const Pair* pair, Joint eye, Joint light, M
   const Real eye_side = connection_side(eye.ratios, material_density(at_light, light_fixed, to_eye),
                                         material_density(at_eye, to_light, eye_fixed), distance2, eye_cosine);
   add_if_free(b->scene, &b->queue, &b->output, ray, distance,
-              to_own_pixel(&pair->path, value, weight_of_connection(light_side, eye_side),
+              to_own_pixel(pair->path, pair->pixel, value, weight_of_connection(light_side, eye_side),
                            TECHNIQUE(pair->light_index + 2, pair->eye_index + 2)),
               faces & brings_light(value));
 }
 
 static inline void connect_subpaths(Bidir* b, Batch batch) {
   Pair pair;
-  pair.path = no_walk(b->seed);
+  pair.path = (Int)(0);
+  pair.pixel = (Uint)(0u);
   pair.light.first = pair.light.length = pair.eye.first = pair.eye.length = (Int)(0);
   pair.light_index = pair.eye_index = pair.light_count = (Int)(0);
   Mask pairing = NO_LANES;
