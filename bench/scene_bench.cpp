@@ -17,7 +17,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int trial_renders = 6; // fewer do not tell who has rare large samples
 constexpr std::uint64_t first_trial_seed = 1'000'000;
 constexpr double trial_share = 1.0 / 400; // of the scene's time, for one render of a trial
 constexpr double reference_share = 0.15;  // of what trials left
@@ -202,7 +201,7 @@ Trial SceneBench::try_method(const Method& method, double seconds) const try {
   Trial trial{.method = method};
   render::Settings settings = settings_for(method);
   double paths = 0, rendering = 0;
-  for (int i = 0; i < trial_renders; ++i) {
+  for (int i = 0; i < settings_.trial_renders; ++i) {
     settings.seed = settings_.seed + first_trial_seed + static_cast<std::uint64_t>(i);
     TimedRender render = render_for(scene_, settings, seconds, {}, settings_.interrupted);
     paths += render.paths;

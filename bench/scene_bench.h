@@ -22,7 +22,8 @@ struct SceneBenchSettings {
   double seconds = 120;  ///< for all of the scene; building kernels counts
   int least_rounds = 10; ///< seeds of each method: fewer than most_rounds only where time is short
   int most_rounds = 10;
-  std::function<bool()> interrupted;                   ///< may be empty
+  int trial_renders = 6;             ///< of each method; fewer do not tell who has rare large samples
+  std::function<bool()> interrupted; ///< may be empty
   std::function<void(const std::string& what)> report; ///< may be empty; called often
 };
 

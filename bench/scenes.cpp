@@ -95,7 +95,8 @@ struct Run { // what all scenes share
   device::DeviceInfo device;
   int lanes = 0;
   std::vector<Method> methods;
-  double seconds = 0; // a scene
+  double seconds = 0;      // a scene
+  double seconds_left = 0; // a scene, of what building kernels left
 };
 
 struct SceneRun {
@@ -277,8 +278,9 @@ SceneResults measure(const Run& run, const SceneRun& scene, const std::vector<Me
   settings.lanes = run.options.lanes;
   settings.kernel_dir = run.options.kernel_dir;
   settings.seed = run.options.seed;
-  settings.seconds = run.seconds;
+  settings.seconds = run.seconds_left;
   settings.least_rounds = run.options.quick ? 5 : 10;
+  settings.trial_renders = run.options.quick ? 3 : 6;
   settings.interrupted = run.options.interrupted;
   settings.report = report;
   SceneBench bench(scene.scene, settings);
@@ -314,6 +316,14 @@ double seconds_for_each(const ScenesOptions& options, std::size_t scenes) {
   const double total = options.quick ? quick_total : default_total;
   return options.seconds.value_or(
       std::min(options.quick ? quick_seconds : default_seconds, total / static_cast<double>(scenes)));
+}
+
+// Asked for a time, scenes get it; else building kernels is a part of what all may take.
+double seconds_left_for_each(const ScenesOptions& options, double seconds, double building,
+                             std::size_t scenes) {
+  if (options.seconds) return seconds;
+  const double total = options.quick ? quick_total : default_total;
+  return std::clamp((total - building) / static_cast<double>(scenes), seconds / 4, seconds);
 }
 
 std::string command_of(const ScenesOptions& options) {
@@ -384,7 +394,8 @@ void measure_all(const Run& run, const std::vector<SceneRun>& scenes, Tables& ta
                                      methods_of.end(), [](const auto& those) { return !those.empty(); });
     const SceneResults results = measure(run, scenes[i], methods, tables, [&](const std::string& what) {
       const double spent = std::chrono::duration<double>(Clock::now() - begin).count();
-      const double left = std::max(0.0, run.seconds - spent) + run.seconds * static_cast<double>(later);
+      const double left =
+          std::max(0.0, run.seconds_left - spent) + run.seconds_left * static_cast<double>(later);
       status.show(fmt::format("scene {} of {}, {}: {}  {} left", i + 1, scenes.size(), scenes[i].name, what,
                               clock_text(left)));
     });
@@ -441,6 +452,7 @@ bool measure_scenes(const ScenesOptions& options) {
   make_folder(options.folder);
   Tables tables(options.folder);
   Measured measured;
+  const Clock::time_point begin = Clock::now();
   const std::vector<Method> methods = all_methods(options.strategies, options.quick);
   if (options.build_ahead && tables.results.rows().empty()) {
     tables.write();
@@ -450,8 +462,10 @@ bool measure_scenes(const ScenesOptions& options) {
     measured.programs_built = build_kernels(options, files, methods);
   }
   const device::Device device = device::open_devices(options.devices).front();
-  const Run run{options, device.info, options.lanes != 0 ? options.lanes : device.info.lanes, methods,
-                seconds_for_each(options, files.size())};
+  const double seconds = seconds_for_each(options, files.size());
+  const double building = std::chrono::duration<double>(Clock::now() - begin).count();
+  const Run run{options, device.info, options.lanes != 0 ? options.lanes : device.info.lanes,
+                methods, seconds,     seconds_left_for_each(options, seconds, building, files.size())};
   std::vector<SceneRun> scenes;
   for (const auto& file : files) scenes.push_back(load(file, run));
   try {
