@@ -121,9 +121,11 @@ TEST_CASE("every shipped scene: light and bidir agree with path") {
 }
 
 // Path tracing finds the caustic once in tens of thousands of paths: its means are not normal. Light tracing
-// and bidirectional path tracing reach it by different ways.
+// and bidirectional path tracing reach it by different ways; the reflector itself is out of view, as light
+// tracing's connections of its lobe to the eye are as rare.
 TEST_CASE("the caustic: light and bidir agree with each other") {
-  const scene::Scene scene = shipped("caustic", 16, 16);
+  scene::Scene scene = shipped("caustic", 16, 16);
+  scene.camera = look_at({0, 1, 3.9}, {-0.45, 0.7, 0}, 20, 16, 16);
   render::Settings with = settings(256);
   const Repeated reference = repeated(scene, light, with);
   with.seed = 1000;
