@@ -176,6 +176,10 @@ bool LightTable::has(LightKinds kind) const {
   return std::any_of(records.begin(), records.end(), [&](const LightRecord& r) { return r.kind == kind; });
 }
 
+bool LightTable::shines() const {
+  return std::any_of(records.begin(), records.end(), [](const LightRecord& r) { return r.probability > 0; });
+}
+
 LightTable light_table(const scene::Scene& scene, accel::Geometry& geometry) {
   Collector collector;
   add_surfaces(collector, scene, geometry);

@@ -14,6 +14,7 @@ struct LightTable {
   int constant = -1; ///< index of the constant light
   double unit = 1.0; ///< the radiance that stands as 1 in the records, a power of two
   [[nodiscard]] bool has(LightKinds kind) const;
+  [[nodiscard]] bool shines() const; ///< some light has power
 };
 
 /// One record per emitting primitive and per light without surface, chosen half in proportion to the power

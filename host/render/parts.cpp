@@ -79,7 +79,7 @@ Connect possible_connect(const Settings& settings, const LightTable& lights) {
     throw UsageError(
         "--connect none: no path can hit the point, spot and directional lights, which are all that the "
         "scene has: use --connect light or mis");
-  if (settings.integrator == "light" || lights.records.empty()) return Connect::none;
+  if (settings.integrator == "light" || !lights.shines()) return Connect::none;
   return settings.integrator == "bidir" ? Connect::mis : settings.connect;
 }
 
@@ -135,7 +135,7 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
   parts.ambient = settings.ambient.has_value();
   if (parts.ambient && parts.integrator != Integrator::path)
     throw UsageError("--ambient: only paths from the eye can carry the ambient term: use -i path");
-  if (lights.records.empty()) { // the image is black, which is best left to the one that chooses no light
+  if (!lights.shines()) { // the image is black, which is best left to the one that chooses no light
     parts.integrator = Integrator::path;
     parts.techniques = false;
   }

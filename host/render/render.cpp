@@ -178,9 +178,7 @@ public:
 
 private:
   void warn_of_darkness() const {
-    const auto shines = [](const LightRecord& light) { return light.probability > 0; };
-    if (std::ranges::none_of(host_->lights.records, shines))
-      spdlog::warn("no light of the scene has any power: the image will be black");
+    if (!host_->lights.shines()) spdlog::warn("no light of the scene has any power: the image will be black");
   }
 
   // Squares of ratios of areas leave float's range: beyond these sizes the weights no longer add up to 1.

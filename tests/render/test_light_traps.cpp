@@ -207,7 +207,7 @@ TEST_CASE("no light, lights without power, nothing in view: black, and no crash"
   scene::Scene absorbs = looks_away; // the light
   absorbs.camera = dark.camera;
   absorbs.materials[0] = diffuse(Rgb(0.0));
-  for (const Method& method : splatting)
+  for (const Method& method : {path, light, bidir, bidir_power, bidir_uniform})
     for (const scene::Scene* scene : {&dark, &unpowered, &looks_away, &absorbs}) {
       CAPTURE(name_of(method), scene->camera.position.z, scene->point_lights.size());
       const Render black = render_of(*scene, with(method, 8));
