@@ -18,10 +18,10 @@ __kernel void take_batches(int pixel_count, int first_pixel, int job_count, int 
     find_path(list, &batch, path, &sequence);
     scatter_int(pixels, first_path + path, uint_to_int(sequence.pixel), taken);
     scatter_int(samples, first_path + path, uint_to_int(sequence.sample), taken);
-    const Int so_far = gather_int(times, taken ? first_path + path : (Int)(0));
+    const Int so_far = gather_int(times, taken ? first_path + path : (Int)(first_path));
     scatter_int(times, first_path + path, so_far + 1, taken);
     // Lanes that took none keep theirs.
     const Mask lost = (!taken) & (path != before);
-    if (any_lane(lost)) times[0] = -1000;
+    if (any_lane(lost)) times[first_path] = -1000;
   }
 }

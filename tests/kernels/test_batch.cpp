@@ -31,7 +31,7 @@ std::map<std::pair<int, int>, int> take_all(const Program& program, Variant v, c
     const int first_pixel = first % sizes.pixels;
     const int first_block_sample = first_sample + first / sizes.pixels * sizes.block_samples;
     program.run("take_batches", static_cast<std::size_t>(batches * v.width), sizes.pixels, first_pixel, count,
-                first_block_sample, sizes.block_samples, sizes.batch_jobs, words, 64, table(pixels),
+                first_block_sample, sizes.block_samples, sizes.batch_jobs, table(words), 64, table(pixels),
                 table(samples), table(taken));
     for (std::size_t i = 0; i < paths; ++i) {
       REQUIRE(taken[i] == 1);
