@@ -319,7 +319,6 @@ TEST_CASE("phlux bench: bad input is one line and its exit code") {
       {{"scenes", "--scene", "none.xml"}, 3, "none.xml"},
       {{"scenes", "--scene", "broken.xml"}, 3, "broken.xml"},
       {{"scenes", "--scene", "a/scene.xml", "--scene", "b/scene.xml"}, 2, "has the name of a/scene.xml"},
-      {{"scenes"}, 2, "name some with --scene FILE.xml"},
       {{"scenes", "--seconds", "0"}, 2, "--seconds 0"},
       {{"scenes", "--side", "0"}, 2, "--side 0"},
       {{"scenes", "--out", "/proc/phlux", "--scene", shipped("furnace-box")}, 5, "/proc/phlux"},
