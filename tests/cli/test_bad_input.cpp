@@ -99,17 +99,6 @@ TEST_CASE("Kernels that do not build are one line and exit code 4") {
   check_rejected(folder, {"render", "scene.xml", "--kernel-dir", "kernels"}, 4);
 }
 
-TEST_CASE("Integrators that do not exist yet say so, whoever asks for them") {
-  const TemporaryFolder folder;
-  folder.write("scene.xml", good_scene);
-  std::string ptracer = good_scene;
-  ptracer.replace(ptracer.find("\"path\""), 6, "\"ptracer\"");
-  folder.write("ptracer.xml", ptracer);
-  check_rejected(folder, {"render", "scene.xml", "-i", "light"}, 2);
-  check_rejected(folder, {"render", "scene.xml", "-i", "bidir"}, 2);
-  check_rejected(folder, {"render", "ptracer.xml"}, 2);
-}
-
 TEST_CASE("An empty scene is an error that names the file, exit code 3, no file") {
   const TemporaryFolder folder;
   folder.write("scene.xml", scene_with(light));

@@ -107,6 +107,22 @@ TEST_CASE("Statistics have the contract's keys with values of the right kind") {
   CHECK(place.json("again.json")["kernel_cache"] == "hit");
 }
 
+TEST_CASE("The scene says which integrator, unless -i does") {
+  const Workplace place;
+  const auto integrator_of = [&](const std::string& plugin, std::vector<std::string> options) {
+    std::string scene = good_scene;
+    scene.replace(scene.find("\"path\""), 6, '"' + plugin + '"');
+    place.write("scene.xml", scene);
+    options.insert(options.end(), {"--stats", "stats.json"});
+    place.render(options);
+    return place.json("stats.json")["integrator"];
+  };
+  CHECK(integrator_of("ptracer", {}) == "light");
+  CHECK(integrator_of("bdpt", {}) == "bidir");
+  CHECK(integrator_of("bdpt", {"-i", "path"}) == "path");
+  CHECK(integrator_of("path", {"-i", "light"}) == "light");
+}
+
 TEST_CASE("Every width and traversal renders, and --stats says which") {
   const Workplace place;
   for (const char* width : {"1", "4", "8", "16"})
