@@ -1,4 +1,5 @@
-// Errors that end a command, by the exit code that they stand for. Every other exception is a defect of phlux.
+// Errors that end a command, by the exit code that they stand for. Every other exception is a defect of
+// phlux.
 #pragma once
 
 #include <stdexcept>
@@ -6,7 +7,8 @@
 
 namespace phlux {
 
-/// what() is the one line that the user reads: "FILE:LINE: what is wrong: what would be right" where a file is to blame.
+/// what() is the one line that the user reads: "FILE:LINE: what is wrong: what would be right" where a file
+/// is to blame.
 class Error : public std::runtime_error {
 public:
   Error(int exit_code, const std::string& line) : std::runtime_error(line), exit_code_(exit_code) {}

@@ -17,6 +17,14 @@ typedef struct {
   uint rays;
 } Bidir;
 
+// Starts lanes of `idle` on subpaths that wait, whose vertices stand from `row` on; returns those lanes.
+static inline Mask begin_trails(Starts* starts, Walk* walk, Trail* trail, int row, Mask idle) {
+  const Mask starting = take_starts(starts, walk, idle);
+  trail->first = starting ? row * ROW_WORDS + LANE_NUMBERS : trail->first;
+  trail->length = starting ? (Int)(0) : trail->length;
+  return starting;
+}
+
 // ---- Light subpaths
 
 // The density with which a light sample at the vertex would have found the point that the light subpath set out from,
@@ -75,10 +83,7 @@ static inline int walk_light_subpaths(Bidir* b, Batch batch) {
       put_starts(&starts, &next, shines);
       store_trail(&b->light, next.path, no_trail(), started & !shines);
     }
-    const Mask starting = take_starts(&starts, &walk, idle);
-    alive |= starting;
-    trail.first = starting ? row * ROW_WORDS + LANE_NUMBERS : trail.first;
-    trail.length = starting ? (Int)(0) : trail.length;
+    alive |= begin_trails(&starts, &walk, &trail, row, idle);
     if (!any_lane(alive)) return 1;
     if (row == b->light.rows) return 0;
 
@@ -117,7 +122,7 @@ static inline Mask leave_eye(const Bidir* b, Batch* batch, Walk* walk) {
   const Mask starting = take_paths(batch, &walk->path, ALL_LANES);
   find_path(b->list, batch, walk->path, &walk->sequence);
   const RandomWords words = random_words(walk->sequence, (Uint)(0), 0);
-  const Vec3 forward = camera_vector(b->scene->camera->forward);
+  const Vec3 forward = broadcast_vec(b->scene->camera->forward);
   walk->ray = camera_ray(b->scene, walk->sequence.pixel, uniform_real(words.x), uniform_real(words.y));
   walk->throughput = vec_all((Real)(1.0f));
   walk->ratios = ratios_from_eye(film_density(b->scene, vec_dot(walk->ray.direction, forward)));
@@ -150,8 +155,7 @@ static inline void add_sky(Bidir* b, const Walk* walk, Mask m) {
   const Real seen = (Real)(0.25f * PHONG_INV_PI * sky->probability);
   const Real sampled = sky->probability * walk->sky_density;
   const Real weight = weight_of_hit(walk->ratios, walk->edges == 1 ? seen : sampled, (Real)(sky->emission_density));
-  const Vec3 radiance = vec3((Real)(sky->power[0]), (Real)(sky->power[1]), (Real)(sky->power[2]));
-  const Vec3 value = vec_mul(walk->throughput, radiance);
+  const Vec3 value = vec_mul(walk->throughput, broadcast_vec(sky->power));
   add_contribution(&b->output,
                    to_own_pixel(walk->path, walk->sequence.pixel, value, weight, TECHNIQUE(0, walk->edges + 1)), m);
 #endif
@@ -188,10 +192,7 @@ static inline int walk_eye_subpaths(Bidir* b, Batch batch) {
   for (int row = 0;; ++row) {
     const Mask idle = !alive;
     while (wants_starts(&starts, &batch, count_lanes(idle))) put_starts(&starts, &next, leave_eye(b, &batch, &next));
-    const Mask starting = take_starts(&starts, &walk, idle);
-    alive |= starting;
-    trail.first = starting ? row * ROW_WORDS + LANE_NUMBERS : trail.first;
-    trail.length = starting ? (Int)(0) : trail.length;
+    alive |= begin_trails(&starts, &walk, &trail, row, idle);
     if (!any_lane(alive)) return 1;
     if (row == b->eye.rows) return 0;
 

@@ -5,8 +5,6 @@
 #include "intersect.cl"
 #include "scene.cl"
 
-static inline Vec3 camera_vector(const __global float* v) { return vec3((Real)(v[0]), (Real)(v[1]), (Real)(v[2])); }
-
 // The ray through a point of a pixel, (u, v) in [0, 1]^2 from its upper left corner. Pixels count row by row.
 static inline Ray camera_ray(const Scene* scene, Uint pixel, Real u, Real v) {
   const __global CameraRecord* camera = scene->camera;
@@ -19,10 +17,10 @@ static inline Ray camera_ray(const Scene* scene, Uint pixel, Real u, Real v) {
   const Real x = (to_real(column) + u) / width + camera->principal_x;
   const Real y = (to_real(row) + v) / height + camera->principal_y;
   Ray ray;
-  ray.origin = camera_vector(camera->position);
+  ray.origin = broadcast_vec(camera->position);
   ray.direction =
-      vec_normalize(vec_along(vec_along(camera_vector(camera->forward), 1.0f - 2.0f * x, camera_vector(camera->left)),
-                              1.0f - 2.0f * y, camera_vector(camera->up)));
+      vec_normalize(vec_along(vec_along(broadcast_vec(camera->forward), 1.0f - 2.0f * x, broadcast_vec(camera->left)),
+                              1.0f - 2.0f * y, broadcast_vec(camera->up)));
   return ray;
 }
 
@@ -41,8 +39,8 @@ typedef struct {
 static inline FilmPoint camera_sees(const Scene* scene, Vec3 from_eye) {
   const __global CameraRecord* camera = scene->camera;
   const float width = (float)camera->width, height = (float)camera->height;
-  const Vec3 left = camera_vector(camera->left), up = camera_vector(camera->up);
-  const Real cosine = vec_dot(from_eye, camera_vector(camera->forward));
+  const Vec3 left = broadcast_vec(camera->left), up = broadcast_vec(camera->up);
+  const Real cosine = vec_dot(from_eye, broadcast_vec(camera->forward));
   const Real x = 0.5f - 0.5f * vec_dot(from_eye, left) / (cosine * vec_dot(left, left)) - camera->principal_x;
   const Real y = 0.5f - 0.5f * vec_dot(from_eye, up) / (cosine * vec_dot(up, up)) - camera->principal_y;
   // Floor, not a cast: a cast would draw in light from beyond the left and upper borders.

@@ -395,6 +395,8 @@ static inline Vec3 vec3(Real x, Real y, Real z) {
   return v;
 }
 static inline Vec3 vec_all(Real s) { return vec3(s, s, s); }
+// Three words of memory, the same in every lane.
+static inline Vec3 broadcast_vec(const __global float* v) { return vec3((Real)(v[0]), (Real)(v[1]), (Real)(v[2])); }
 static inline Vec3 vec_add(Vec3 a, Vec3 b) { return vec3(a.x + b.x, a.y + b.y, a.z + b.z); }
 static inline Vec3 vec_sub(Vec3 a, Vec3 b) { return vec3(a.x - b.x, a.y - b.y, a.z - b.z); }
 static inline Vec3 vec_mul(Vec3 a, Vec3 b) { return vec3(a.x * b.x, a.y * b.y, a.z * b.z); }

@@ -34,7 +34,7 @@ typedef struct {
 } View;
 
 static inline View view_of(const Scene* scene, Vec3 position) {
-  const Vec3 way = vec_sub(position, camera_vector(scene->camera->position));
+  const Vec3 way = vec_sub(position, broadcast_vec(scene->camera->position));
   View view;
   view.distance2 = vec_dot(way, way);
   view.from_eye = vec_scale(1.0f / sqrt(view.distance2), way);
@@ -46,7 +46,7 @@ static inline View view_of(const Scene* scene, Vec3 position) {
 static inline void show_light(const Scene* scene, const Walk* walk, Emission e, ShadowQueue* queue, Output* output,
                               Mask m) {
 #ifdef PHLUX_HITTABLE_LIGHTS
-  const Vec3 eye = camera_vector(scene->camera->position);
+  const Vec3 eye = broadcast_vec(scene->camera->position);
   View view = view_of(scene, e.place.position);
   Real distance;
   Ray ray = ray_to_point(e.place, eye, &distance);
@@ -113,7 +113,7 @@ static inline void show_vertex(const Scene* scene, const Walk* walk, Vertex v, S
   const Real weight = (Real)(1.0f);
 #endif
   Real distance;
-  const Ray ray = ray_to_point(place_of(v.point), camera_vector(scene->camera->position), &distance);
+  const Ray ray = ray_to_point(place_of(v.point), broadcast_vec(scene->camera->position), &distance);
   add_if_free(scene, queue, output, ray, distance,
               splat(walk, view.film.pixel, value, weight, TECHNIQUE(walk->edges + 1, 1)), seen & brings_light(value));
 }

@@ -72,8 +72,7 @@ static inline void add_emission(const Scene* scene, Path* path, Hit hit, Surface
 static inline void add_sky(const Scene* scene, Path* path, Mask m, int sky_light) {
 #ifdef PHLUX_LIGHT_CONSTANT
   const __global LightRecord* sky = scene->lights + sky_light;
-  const Vec3 radiance = vec3((Real)(sky->power[0]), (Real)(sky->power[1]), (Real)(sky->power[2]));
-  Vec3 arriving = vec_mul(path->throughput, radiance);
+  Vec3 arriving = vec_mul(path->throughput, broadcast_vec(sky->power));
 #if PHLUX_CONNECT == CONNECT_LIGHT
   const Mask counts = m & (path->edges == 1);
 #else

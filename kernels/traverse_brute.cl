@@ -12,10 +12,10 @@
 #ifdef PHLUX_PLANARS
 static inline Planar planar_at(const __global float* values) {
   Planar p;
-  p.origin = vec3((Real)(values[0]), (Real)(values[1]), (Real)(values[2]));
-  p.edge_v = vec3((Real)(values[3]), (Real)(values[4]), (Real)(values[5]));
-  p.minus_u = vec3((Real)(values[6]), (Real)(values[7]), (Real)(values[8]));
-  p.normal = vec3((Real)(values[9]), (Real)(values[10]), (Real)(values[11]));
+  p.origin = broadcast_vec(values + PLANAR_ORIGIN);
+  p.edge_v = broadcast_vec(values + PLANAR_EDGE_V);
+  p.minus_u = broadcast_vec(values + PLANAR_MINUS_U);
+  p.normal = broadcast_vec(values + PLANAR_NORMAL);
   return p;
 }
 
@@ -38,8 +38,8 @@ static inline Planar planar_at(const __global float* values) {
 #ifdef PHLUX_SPHERES
 static inline SphereShape sphere_at(const __global float* values) {
   SphereShape s;
-  s.center = vec3((Real)(values[0]), (Real)(values[1]), (Real)(values[2]));
-  s.radius = (Real)(values[3]);
+  s.center = broadcast_vec(values + SPHERE_CENTER);
+  s.radius = (Real)(values[SPHERE_RADIUS]);
   return s;
 }
 #endif

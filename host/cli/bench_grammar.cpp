@@ -18,8 +18,6 @@ namespace phlux::cli {
 namespace {
 
 const char* const default_folder = "bench-results";
-constexpr int interrupted_exit_code = 130;
-
 // What every measurement has: a folder, a device and a width.
 template<class Options>
 void add_common(CLI::App& app, Options& options) {

@@ -59,9 +59,11 @@ void add_method(CLI::App& app, RenderOptions& options) {
 void add_amount(CLI::App& app, RenderOptions& options) {
   constexpr std::uint64_t most_samples = std::numeric_limits<int>::max();
   app.option_defaults()->group("How much");
-  add_value(app, "-n,--spp", "N", "samples a pixel (light: light paths per pixel of the image); default: the scene's", [&](const std::string& text) {
-    options.samples_per_pixel = static_cast<int>(whole_number("--spp", text, 1, most_samples));
-  });
+  add_value(app, "-n,--spp", "N",
+            "samples a pixel (light: light paths per pixel of the image); default: the scene's",
+            [&](const std::string& text) {
+              options.samples_per_pixel = static_cast<int>(whole_number("--spp", text, 1, most_samples));
+            });
   add_value(app, "--time", "SECONDS", "render for so long instead",
             [&](const std::string& text) { options.time_limit = positive_number("--time", text); });
   add_value(app, "--error", "E",
@@ -123,10 +125,11 @@ void add_files(CLI::App& app, RenderOptions& options) {
   add_file("--png", "FILE",
            "tone-mapped preview, also rewritten while rendering; default: beside the image; none: without",
            options.preview);
-  add_file("--contributions", "DIR",
-           "bidir and light: an image for every way of making a path, s light and t eye vertices, weighted and "
-           "unweighted, and a contact sheet",
-           options.contributions);
+  add_file(
+      "--contributions", "DIR",
+      "bidir and light: an image for every way of making a path, s light and t eye vertices, weighted and "
+      "unweighted, and a contact sheet",
+      options.contributions);
   add_file("--stats", "FILE.json", "figures of the render", options.statistics);
   app.add_flag("--moments", options.moments, "adds channels variance.R, .G and .B: variance of the mean");
   app.add_flag("-q,--quiet", options.quiet, "no progress and no summary");

@@ -3,6 +3,8 @@
 
 namespace phlux::cli {
 
+inline constexpr int interrupted_exit_code = 130;
+
 /// While one lives, the first SIGINT or SIGTERM only sets a flag; a second one ends the process at once. One
 /// at a time.
 class InterruptGuard {

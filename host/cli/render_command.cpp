@@ -23,8 +23,6 @@
 namespace phlux::cli {
 namespace {
 
-constexpr int interrupted_exit_code = 130;
-
 render::Settings settings_of(const RenderOptions& options, const scene::RenderDefaults& defaults) {
   render::Settings settings;
   settings.integrator = options.integrator.value_or(defaults.integrator);

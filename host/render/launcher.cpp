@@ -27,8 +27,6 @@ int least_lane_jobs(int lanes, int block_samples) {
   return (paths + block_samples - 1) / block_samples;
 }
 
-constexpr std::size_t local_size_wide = 1, local_size_scalar = 64;
-
 const char* kernel_name(Integrator integrator) {
   switch (integrator) {
   case Integrator::light:
@@ -58,7 +56,7 @@ Launcher::Launcher(const device::Device& device, const cl::Program& program, con
                    const Parts& parts, const Settings& settings)
     : device_(device), scene_(device, scene, parts), kernel_(program, kernel_name(parts.integrator)),
       first_launch_argument_(scene_.bind(kernel_)), parts_(parts), lanes_(parts.lanes),
-      sky_light_(std::max(scene.lights.constant, 0)),
+      local_size_(lanes_ == 1 ? 64 : 1), sky_light_(std::max(scene.lights.constant, 0)),
       pixels_(static_cast<std::int64_t>(scene.camera.width) * scene.camera.height),
       launch_seconds_(settings.launch_seconds), units_(device.info.compute_units),
       first_items_(std::max(work_items(device.info) / 64, units_)), items_(work_items(device.info)) {
@@ -124,15 +122,14 @@ void Launcher::enqueue(const Launch& launch) {
 // See divide_scratch in kernels/bidir.cl.
 std::size_t Launcher::scratch_bytes_per_item(const Flight& flight) const {
   const auto vertices = static_cast<std::size_t>(flight.rows) * static_cast<std::size_t>(lanes_);
-  const auto paths = static_cast<std::size_t>(flight.batch_jobs * flight.launch.block_samples);
-  return (2 * vertices * static_cast<std::size_t>(vertex_words(parts_)) + SCRATCH_WORDS_PER_PATH * paths) *
+  return (2 * vertices * static_cast<std::size_t>(vertex_words(parts_)) +
+          SCRATCH_WORDS_PER_PATH * flight.batch_paths()) *
          sizeof(float);
 }
 
 // How many work-items, how many batches, and what room each has.
 void Launcher::plan(Flight& flight) const {
   const auto jobs = static_cast<std::size_t>(flight.launch.jobs), lanes = static_cast<std::size_t>(lanes_);
-  const std::size_t local = lanes_ == 1 ? local_size_scalar : local_size_wide;
   flight.batch_jobs = batch_jobs(flight.launch.block_samples);
   const auto per_batch = static_cast<std::size_t>(flight.batch_jobs);
   if (parts_.integrator == Integrator::path) {
@@ -143,38 +140,38 @@ void Launcher::plan(Flight& flight) const {
   } else {
     flight.batches = (jobs + per_batch - 1) / per_batch;
     flight.items = std::clamp(flight.batches, std::size_t{1}, items_);
-    const double lane_paths = static_cast<double>(flight.batch_jobs * flight.launch.block_samples) / lanes_;
+    const double lane_paths = static_cast<double>(flight.batch_paths()) / lanes_;
     flight.rows = static_cast<int>(std::ceil(rows_per_path_ * lane_paths));
     flight.record_capacity = static_cast<int>(std::ceil(records_per_path_ * lane_paths)) * lanes_ + lanes_;
     if (parts_.integrator == Integrator::bidir) {
       // Two launches are in flight, and other tables want room.
       const std::size_t room = std::min(device_.info.largest_buffer / 2, device_.info.global_memory / 8);
       const std::size_t fit = room / scratch_bytes_per_item(flight);
-      flight.items = std::clamp(flight.items, std::size_t{1}, std::max(fit / local * local, local));
+      flight.items =
+          std::clamp(flight.items, std::size_t{1}, std::max(fit / local_size_ * local_size_, local_size_));
     }
   }
-  flight.items = (flight.items + local - 1) / local * local;
+  flight.items = (flight.items + local_size_ - 1) / local_size_ * local_size_;
 }
 
-void Launcher::reserve(cl::Buffer& buffer, std::size_t& has, std::size_t bytes, const char* what) const {
+void Launcher::reserve(Buffer& buffer, std::size_t bytes, const char* what) const {
   bytes = std::max(bytes, sizeof(cl_float));
-  if (bytes <= has) return;
+  if (bytes <= buffer.bytes) return;
   if (bytes > device_.info.largest_buffer)
     throw DeviceError(
         fmt::format("{}: the {} of a launch take {} MB and a buffer may have {} MB: shorten the paths "
                     "(--max-depth, --rr-depth)",
                     device_.info.name, what, bytes >> 20, device_.info.largest_buffer >> 20));
   buffer = {}; // before there is another: memory may be short
-  has = 0;
   try {
-    buffer = cl::Buffer(device_.context, CL_MEM_READ_WRITE, bytes);
+    buffer.memory = cl::Buffer(device_.context, CL_MEM_READ_WRITE, bytes);
   } catch (const cl::Error& error) {
     throw DeviceError(
         fmt::format("{}: no room for the {} of a launch ({} MB): {}: shorten the paths (--max-depth, "
                     "--rr-depth)",
                     device_.info.name, what, bytes >> 20, device::error_name(error.err())));
   }
-  has = bytes;
+  buffer.bytes = bytes;
 }
 
 void Launcher::start(Flight& flight) {
@@ -183,9 +180,8 @@ void Launcher::start(Flight& flight) {
   Buffers& to = flight.buffers;
   const bool batches = parts_.integrator != Integrator::path;
   const bool sums = parts_.integrator != Integrator::light;
-  reserve(to.counters, to.counters_bytes, flight.items * 3 * sizeof(cl_uint), "counters");
-  if (sums)
-    reserve(to.sums, to.sums_bytes, static_cast<std::size_t>(launch.jobs) * sizeof(film::BlockSum), "sums");
+  reserve(to.counters, flight.items * 3 * sizeof(cl_uint), "counters");
+  if (sums) reserve(to.sums, static_cast<std::size_t>(launch.jobs) * sizeof(film::BlockSum), "sums");
   cl_uint index = first_launch_argument_ + 1;
   const auto set = [&](const auto& value) { kernel_.setArg(index++, value); };
   set(static_cast<cl_int>(launch.first_job));
@@ -193,29 +189,27 @@ void Launcher::start(Flight& flight) {
   set(static_cast<cl_int>(launch.first_sample));
   set(static_cast<cl_int>(launch.block_samples));
   index += 3; // set once
-  set(to.counters);
+  set(to.counters.memory);
   if (batches) {
     const auto capacity = static_cast<std::size_t>(flight.record_capacity);
-    reserve(to.records, to.records_bytes, flight.batches * capacity * record_words(parts_) * sizeof(float),
-            "splats");
-    reserve(to.record_counts, to.record_counts_bytes, flight.batches * sizeof(cl_int), "counts of splats");
+    reserve(to.records, flight.batches * capacity * record_words(parts_) * sizeof(float), "splats");
+    reserve(to.record_counts, flight.batches * sizeof(cl_int), "counts of splats");
     set(static_cast<cl_int>(flight.batch_jobs));
     set(static_cast<cl_int>(record_words(parts_)));
     set(static_cast<cl_int>(flight.record_capacity));
-    set(to.records);
-    set(to.record_counts);
+    set(to.records.memory);
+    set(to.record_counts.memory);
   }
   if (parts_.integrator != Integrator::light) set(static_cast<cl_int>(sky_light_));
   if (parts_.integrator == Integrator::bidir) {
-    reserve(to.scratch, to.scratch_bytes, flight.items * scratch_bytes_per_item(flight), "vertices");
+    reserve(to.scratch, flight.items * scratch_bytes_per_item(flight), "vertices");
     set(static_cast<cl_int>(flight.rows));
-    set(to.scratch);
+    set(to.scratch.memory);
   }
   if (parts_.integrator == Integrator::path) ++index; // the ambient radiance, set once
-  if (sums) set(to.sums);
-  const std::size_t local = lanes_ == 1 ? local_size_scalar : local_size_wide;
-  device_.queue.enqueueNDRangeKernel(kernel_, cl::NullRange, cl::NDRange(flight.items), cl::NDRange(local),
-                                     nullptr, &flight.kernel_done);
+  if (sums) set(to.sums.memory);
+  device_.queue.enqueueNDRangeKernel(kernel_, cl::NullRange, cl::NDRange(flight.items),
+                                     cl::NDRange(local_size_), nullptr, &flight.kernel_done);
 }
 
 void Launcher::read_back(Flight& flight) {
@@ -226,15 +220,16 @@ void Launcher::read_back(Flight& flight) {
   };
   const Buffers& from = flight.buffers;
   if (flight.batches > 0) {
-    read(from.record_counts, flight.host_record_counts, flight.batches);
+    read(from.record_counts.memory, flight.host_record_counts, flight.batches);
     const std::size_t words =
         flight.batches * static_cast<std::size_t>(flight.record_capacity) * record_words(parts_);
-    flight.host_records = static_cast<float*>(device_.queue.enqueueMapBuffer(
-        from.records, CL_FALSE, CL_MAP_READ | CL_MAP_WRITE, 0, words * sizeof(float), nullptr, &flight.read));
+    flight.host_records = static_cast<float*>(
+        device_.queue.enqueueMapBuffer(from.records.memory, CL_FALSE, CL_MAP_READ | CL_MAP_WRITE, 0,
+                                       words * sizeof(float), nullptr, &flight.read));
   }
   if (parts_.integrator != Integrator::light)
-    read(from.sums, flight.host_sums, static_cast<std::size_t>(flight.launch.jobs));
-  read(from.counters, flight.host_counters, flight.items * 3);
+    read(from.sums.memory, flight.host_sums, static_cast<std::size_t>(flight.launch.jobs));
+  read(from.counters.memory, flight.host_counters, flight.items * 3);
   device_.queue.flush();
 }
 
@@ -250,7 +245,8 @@ void Launcher::settle() {
 }
 
 void Launcher::unmap(Flight& flight) {
-  if (flight.host_records) device_.queue.enqueueUnmapMemObject(flight.buffers.records, flight.host_records);
+  if (flight.host_records)
+    device_.queue.enqueueUnmapMemObject(flight.buffers.records.memory, flight.host_records);
   flight.host_records = nullptr;
 }
 
@@ -261,11 +257,11 @@ bool Launcher::overflowed(const Flight& flight) {
   const bool splats = most > flight.record_capacity - lanes_;
   const bool vertices = std::ranges::min(flight.host_record_counts) < 0;
   if (splats) {
-    const double paths = static_cast<double>(flight.batch_jobs) * flight.launch.block_samples;
+    const auto paths = static_cast<double>(flight.batch_paths());
     records_per_path_ = std::max(records_per_path_, 1.25 * most / paths);
   }
   if (vertices) {
-    const double lane_paths = static_cast<double>(flight.batch_jobs) * flight.launch.block_samples / lanes_;
+    const double lane_paths = static_cast<double>(flight.batch_paths()) / lanes_;
     rows_per_path_ = std::max(rows_per_path_, 2 * flight.rows / lane_paths);
   }
   return splats || vertices;
@@ -287,7 +283,7 @@ void Launcher::fold_records(Flight& flight, film::Film& film) {
     records.words = flight.host_records + batch * capacity * record_words(parts_);
     records.capacity = capacity;
     records.count = static_cast<std::size_t>(flight.host_record_counts[batch]);
-    records.paths = static_cast<std::size_t>(flight.batch_jobs * flight.launch.block_samples);
+    records.paths = flight.batch_paths();
     if (parts_.techniques) film::SplatFolder::fold_techniques(records, film);
     folder_.fold(records, film);
   }

@@ -42,10 +42,12 @@ public:
 
 private:
   // A launch's buffers, kept from one to the next: fresh memory costs more than the copies.
+  struct Buffer {
+    cl::Buffer memory;
+    std::size_t bytes = 0;
+  };
   struct Buffers {
-    cl::Buffer sums, counters, records, record_counts, scratch;
-    std::size_t sums_bytes = 0, counters_bytes = 0, records_bytes = 0, record_counts_bytes = 0,
-                scratch_bytes = 0;
+    Buffer sums, counters, records, record_counts, scratch;
   };
   struct Flight {
     Launch launch;
@@ -57,12 +59,15 @@ private:
     std::vector<cl_uint> host_counters;
     std::vector<cl_int> host_record_counts;
     float* host_records = nullptr; // mapped
+    [[nodiscard]] std::size_t batch_paths() const {
+      return static_cast<std::size_t>(batch_jobs) * static_cast<std::size_t>(launch.block_samples);
+    }
   };
   [[nodiscard]] int batch_jobs(int block_samples) const;
   void start(Flight& flight);
   void plan(Flight& flight) const;
   [[nodiscard]] std::size_t scratch_bytes_per_item(const Flight& flight) const;
-  void reserve(cl::Buffer& buffer, std::size_t& has, std::size_t bytes, const char* what) const;
+  void reserve(Buffer& buffer, std::size_t bytes, const char* what) const;
   void read_back(Flight& flight);
   [[nodiscard]] bool overflowed(const Flight& flight);
   void unmap(Flight& flight);
@@ -76,6 +81,7 @@ private:
   cl_uint first_launch_argument_;
   Parts parts_;
   int lanes_;
+  std::size_t local_size_;
   int sky_light_; // index of the constant light
   std::int64_t pixels_;
   double launch_seconds_;

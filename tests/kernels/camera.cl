@@ -12,7 +12,7 @@ __kernel void see_rays(SCENE_PARAMETERS, __global const Uint* pixel, __global co
   seen[i] = point.seen ? (Int)(1) : (Int)(0);
   seen_pixel[i] = point.pixel;
   density[i] = point.density;
-  density_alone[i] = film_density(&scene, vec_dot(ray.direction, camera_vector(scene.camera->forward)));
+  density_alone[i] = film_density(&scene, vec_dot(ray.direction, broadcast_vec(scene.camera->forward)));
 }
 
 __kernel void see_directions(SCENE_PARAMETERS, __global const Vec3* direction, __global Int* seen,
