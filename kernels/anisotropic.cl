@@ -38,7 +38,7 @@ static inline Vec3 anisotropic_eval(Anisotropic m, Vec3 fixed, Vec3 generated) {
   const Vec3 fresnel =
       vec3(fma(1.0f - m.specular.x, grazing, m.specular.x), fma(1.0f - m.specular.y, grazing, m.specular.y),
            fma(1.0f - m.specular.z, grazing, m.specular.z));
-  const Real under = (28.0f / 23.0f * PHONG_INV_PI) * (1.0f - fifth_power(1.0f - 0.5f * fixed.z)) *
+  const Real under = (REAL(28.0) / 23.0f * PHONG_INV_PI) * (1.0f - fifth_power(1.0f - 0.5f * fixed.z)) *
                      (1.0f - fifth_power(1.0f - 0.5f * generated.z));
   const Vec3 base = vec3(m.diffuse.x * (1.0f - m.specular.x), m.diffuse.y * (1.0f - m.specular.y),
                          m.diffuse.z * (1.0f - m.specular.z));

@@ -326,9 +326,9 @@ static inline void sum_jobs(const Bidir* b, Batch batch, __global float* sums) {
 }
 
 // A work-item's share of `scratch`, in words: light vertices, eye vertices, then a few words per path.
-static inline void divide_scratch(Bidir* b, __global float* scratch, int rows, int paths) {
+static inline void divide_scratch(Bidir* b, __global Scalar* scratch, int rows, int paths) {
   const size_t vertices = (size_t)rows * ROW_WORDS, share = 2 * vertices + SCRATCH_WORDS_PER_PATH * (size_t)paths;
-  __global float* mine = scratch + get_global_id(0) * share;
+  __global Scalar* mine = scratch + get_global_id(0) * share;
   b->light.words = mine;
   b->eye.words = mine + vertices;
   b->light.rows = b->eye.rows = rows;
@@ -343,7 +343,7 @@ static inline void divide_scratch(Bidir* b, __global float* scratch, int rows, i
 __kernel void trace_bidir(SCENE_PARAMETERS, int pixel_count, int first_pixel, int job_count, int first_sample,
                           int block_samples, uint2 seed, int max_edges, int roulette_edges, __global uint* counters,
                           int batch_jobs, int record_words, int record_capacity, __global float* records,
-                          __global int* record_counts, int sky_light, int rows, __global float* scratch,
+                          __global int* record_counts, int sky_light, int rows, __global Scalar* scratch,
                           __global float* sums) {
   SCENE_FROM_PARAMETERS
   Bidir b;

@@ -5,11 +5,31 @@
 // Operators and the built-in functions of OpenCL C work on Real, Int and Uint as they are. A comparison gives a Mask;
 // masks combine with & | ! and select with ?: (for a Real, an Int or a Uint) or vec_select (for a Vec3).
 // A lane whose mask is off may hold anything, NaN included: select results, never multiply them by 0.
+//
+// PHLUX_DOUBLE makes Real a double, at WIDTH 1 alone: comparisons of double vectors give masks of long, which no Int
+// goes with. Only this file knows of it. Shapes' tables are of doubles then. Camera, materials and lights stay floats,
+// the same in either precision, and so do sums and splats on their way to the host: each is rounded once, to 2^-24.
 #ifndef PHLUX_LANES_H
 #define PHLUX_LANES_H
 
+// One lane of a Real, a constant of that precision, and what follows from it.
+#ifdef PHLUX_DOUBLE
+#if WIDTH != 1
+#error "PHLUX_DOUBLE needs WIDTH 1"
+#endif
+typedef double Scalar;
+#define REAL(literal) literal
+#define REAL_HALF_ULP 1.1102230246251565e-16 // of 1: 2^-53
+#define REAL_LARGE 1e300                     // with room for a product with a few ordinary numbers
+#else
+typedef float Scalar;
+#define REAL(literal) literal##f
+#define REAL_HALF_ULP 5.9604645e-8f // 2^-24
+#define REAL_LARGE 1e30f
+#endif
+
 #if WIDTH == 1
-typedef float Real;
+typedef Scalar Real;
 typedef int Int;
 typedef uint Uint;
 typedef int Mask;
@@ -59,10 +79,24 @@ typedef int LaneNativeInts __attribute__((vector_size(64)));
 static inline Int to_int(Real x) { return LANE_CONVERT(int)(x); }
 static inline Int uint_to_int(Uint x) { return LANE_AS(int)(x); }
 static inline Uint int_to_uint(Int x) { return LANE_AS(uint)(x); }
+#if WIDTH == 1
+static inline Real to_real(Int x) { return (Real)x; }
+static inline Real uint_to_real(Uint x) { return (Real)x; }
+#else
 static inline Real to_real(Int x) { return LANE_CONVERT(float)(x); }
 static inline Real uint_to_real(Uint x) { return LANE_CONVERT(float)(x); }
+#endif
+
+// An Int that travels as a Real, and is the same when it is taken out again.
+#ifdef PHLUX_DOUBLE
+static inline Real carry_int(Int x) { return to_real(x); }
+static inline Int carried_int(Real x) { return to_int(x); }
+#else
 static inline Int real_bits(Real x) { return LANE_AS(int)(x); }
 static inline Real bits_real(Int x) { return LANE_AS(float)(x); }
+static inline Real carry_int(Int x) { return bits_real(x); }
+static inline Int carried_int(Real x) { return real_bits(x); }
+#endif
 
 // As fmax and fmin but for NaN, which costs them two more instructions.
 static inline Real larger(Real a, Real b) { return a > b ? a : b; }
@@ -70,7 +104,11 @@ static inline Real smaller(Real a, Real b) { return a < b ? a : b; }
 
 // x with the sign of `sign` multiplied in: two bit operations.
 static inline Real times_sign(Real x, Real sign) {
+#ifdef PHLUX_DOUBLE
+  return as_double(as_ulong(x) ^ (as_ulong(sign) & 0x8000000000000000UL));
+#else
   return bits_real(real_bits(x) ^ (real_bits(sign) & (Int)(int)0x80000000u));
+#endif
 }
 
 // Both halves of the 64-bit product of each lane with a constant. Compilers make mul_hi from 16-bit pieces; the two
@@ -164,7 +202,7 @@ static inline Int gather_int(const __global int* base, Int index) {
 static inline Real permute_real(const float* values, Int index) {
   return LANE_REALS(__builtin_ia32_permvarsf512(LANE_NATIVE_FLOATS(vload16(0, values)), LANE_NATIVE_INTS(index)));
 }
-static inline Int permute_int(const float* values, Int index) { return real_bits(permute_real(values, index)); }
+static inline Int permute_int(const float* values, Int index) { return carried_int(permute_real(values, index)); }
 // The table has LANES entries of `words` words, used or not.
 static inline void load_members(const __global void* table, int words, float (*members)[LANES]) {
   for (int word = 0; word < words; ++word)
@@ -177,7 +215,7 @@ static inline void load_members(const __global void* table, int words, float (*m
 // base[index] = value in the lanes of m, in lane order.
 static inline void scatter_real(__global float* base, Int index, Real value, Mask m) {
 #if WIDTH == 1
-  if (m) base[index] = value;
+  if (m) base[index] = (float)value;
 #else
 #define LANE_STORE(k) (m.s##k ? (void)(base[index.s##k] = value.s##k) : (void)0)
   LANE_EACH(LANE_STORE);
@@ -193,7 +231,7 @@ static inline void scatter_int(__global int* base, Int index, Int value, Mask m)
 }
 
 // Private copies, for loops over lanes.
-static inline void lanes_to_array(Real v, float* array) {
+static inline void lanes_to_array(Real v, Scalar* array) {
 #if WIDTH == 1
   *array = v;
 #else
@@ -207,7 +245,7 @@ static inline void int_lanes_to_array(Int v, int* array) {
   LANE_JOIN(vstore, WIDTH)(v, 0, array);
 #endif
 }
-static inline Real lanes_from_array(const float* array) {
+static inline Real lanes_from_array(const Scalar* array) {
 #if WIDTH == 1
   return *array;
 #else
@@ -241,7 +279,7 @@ static inline Int load_ints(const __global int* base) {
 // WIDTH consecutive words to `base`.
 static inline void store_reals(__global float* base, Real v) {
 #if WIDTH == 1
-  *base = v;
+  *base = (float)v;
 #else
   LANE_JOIN(vstore, WIDTH)(v, 0, base);
 #endif
@@ -254,10 +292,21 @@ static inline void store_ints(__global int* base, Int v) {
 #endif
 }
 
+// The same for tables in the precision of a Real; those above are of floats always.
+#ifdef PHLUX_DOUBLE
+static inline Real gather_scalar(const __global Scalar* base, Int index) { return base[index]; }
+static inline Real load_scalars(const __global Scalar* base) { return *base; }
+static inline void store_scalars(__global Scalar* base, Real v) { *base = v; }
+#else
+static inline Real gather_scalar(const __global Scalar* base, Int index) { return gather_real(base, index); }
+static inline Real load_scalars(const __global Scalar* base) { return load_reals(base); }
+static inline void store_scalars(__global Scalar* base, Real v) { store_reals(base, v); }
+#endif
+
 // ---- Across lanes
 
 // The smallest of all lanes.
-static inline float min_of_lanes(Real v) {
+static inline Scalar min_of_lanes(Real v) {
 #if WIDTH == 16
   const float8 v8 = fmin(v.lo, v.hi);
   const float4 v4 = fmin(v8.lo, v8.hi);
@@ -347,7 +396,7 @@ static inline Real pack_lanes(Mask m, Real v) {
   return lanes_from_array(to);
 #endif
 }
-static inline Int pack_int_lanes(Mask m, Int v) { return real_bits(pack_lanes(m, bits_real(v))); }
+static inline Int pack_int_lanes(Mask m, Int v) { return carried_int(pack_lanes(m, carry_int(v))); }
 
 // The other way round: the lanes of m take the first values of v, in lane order; the others keep `old`.
 static inline Real unpack_lanes(Mask m, Real v, Real old) {
@@ -370,12 +419,12 @@ static inline Real unpack_lanes(Mask m, Real v, Real old) {
 #endif
 }
 static inline Int unpack_int_lanes(Mask m, Int v, Int old) {
-  return real_bits(unpack_lanes(m, bits_real(v), bits_real(old)));
+  return carried_int(unpack_lanes(m, carry_int(v), carry_int(old)));
 }
 
 // Appends the keys and values of the lanes in m to two arrays, in lane order; the arrays have room for WIDTH more.
 // Returns how many.
-static inline int append_lanes(Mask m, Real key, Int value, float* keys, int* values) {
+static inline int append_lanes(Mask m, Real key, Int value, Scalar* keys, int* values) {
   lanes_to_array(pack_lanes(m, key), keys);
   int_lanes_to_array(pack_int_lanes(m, value), values);
   return count_lanes(m);
@@ -397,6 +446,9 @@ static inline Vec3 vec3(Real x, Real y, Real z) {
 static inline Vec3 vec_all(Real s) { return vec3(s, s, s); }
 // Three words of memory, the same in every lane.
 static inline Vec3 broadcast_vec(const __global float* v) { return vec3((Real)(v[0]), (Real)(v[1]), (Real)(v[2])); }
+static inline Vec3 broadcast_scalars(const __global Scalar* v) {
+  return vec3((Real)(v[0]), (Real)(v[1]), (Real)(v[2]));
+}
 static inline Vec3 vec_add(Vec3 a, Vec3 b) { return vec3(a.x + b.x, a.y + b.y, a.z + b.z); }
 static inline Vec3 vec_sub(Vec3 a, Vec3 b) { return vec3(a.x - b.x, a.y - b.y, a.z - b.z); }
 static inline Vec3 vec_mul(Vec3 a, Vec3 b) { return vec3(a.x * b.x, a.y * b.y, a.z * b.z); }
@@ -416,14 +468,14 @@ static inline Vec3 pack_vec(Mask m, Vec3 v) { return vec3(pack_lanes(m, v.x), pa
 static inline Vec3 vec_normalize(Vec3 a) { return vec_scale((Real)(1.0f) / sqrt(vec_dot(a, a)), a); }
 static inline Real vec_max(Vec3 a) { return larger(a.x, larger(a.y, a.z)); }
 static inline Real vec_sum(Vec3 a) { return a.x + a.y + a.z; }
-static inline Real vec_mean(Vec3 a) { return (a.x + a.y + a.z) * (1.0f / 3.0f); }
+static inline Real vec_mean(Vec3 a) { return (a.x + a.y + a.z) * (REAL(1.0) / 3.0f); }
 static inline Real vec_largest(Vec3 a) { return larger(fabs(a.x), larger(fabs(a.y), fabs(a.z))); }
 
 // Adds v to the vector `index` of `base`, of four words each, in the lanes of m, one lane after another: two lanes may
 // share an index.
 static inline void add_vec(__global float* base, Int index, Vec3 v, Mask m) {
 #if WIDTH == 1
-  if (m) vstore4(vload4((size_t)index, base) + (float4)(v.x, v.y, v.z, 0.0f), (size_t)index, base);
+  if (m) vstore4(vload4((size_t)index, base) + (float4)((float)v.x, (float)v.y, (float)v.z, 0.0f), (size_t)index, base);
 #else
   float x[WIDTH], y[WIDTH], z[WIDTH];
   int at[WIDTH];
@@ -440,6 +492,10 @@ static inline void add_vec(__global float* base, Int index, Vec3 v, Mask m) {
 // Cosine and sine of 2 pi turns, for turns in [0, 1]; both within 2 ulp of the larger. Polynomials fitted for the
 // least relative error over an eighth of a turn to either side of the nearest quarter.
 static inline void cos_sin_turns(Real turns, Real* cosine, Real* sine) {
+#ifdef PHLUX_DOUBLE
+  *cosine = cospi(2.0 * turns);
+  *sine = sinpi(2.0 * turns);
+#else
   const Real quarters = rint(4.0f * turns);
   const Real r = fma((Real)(4.0f), turns, -quarters);
   const Real r2 = r * r;
@@ -455,6 +511,7 @@ static inline void cos_sin_turns(Real turns, Real* cosine, Real* sine) {
   const Real cosine_here = odd ? s : c, sine_here = odd ? c : s;
   *cosine = ((quadrant + 1) & 2) != 0 ? -cosine_here : cosine_here;
   *sine = (quadrant & 2) != 0 ? -sine_here : sine_here;
+#endif
 }
 
 #endif

@@ -31,8 +31,8 @@
 #define STRATEGY_FOLD 11
 #define STRATEGY_EXACT 12
 
-#define PHONG_PI 3.14159265358979f
-#define PHONG_INV_PI 0.318309886183791f
+#define PHONG_PI REAL(3.14159265358979324)
+#define PHONG_INV_PI REAL(0.318309886183790672)
 
 // A path may reflect without loss where the reflectivity is 1; this lets roulette end it all the same.
 #define PHONG_LARGEST_SURVIVAL 0.999f

@@ -45,7 +45,7 @@ static inline Vec3 disk_direction(Real u1, Real u2) {
 #if defined(PHLUX_PHONG_LOBE) || defined(PHLUX_ANISOTROPIC)
 // cos(alpha) for sin^2(alpha) = -minus_sine2. Half an ulp of 1 keeps a direction at the edge, which rounding would put
 // where the lobe is 0, inside.
-static inline Real lobe_cosine(Real minus_sine2) { return sqrt(larger(1.0f + minus_sine2, (Real)(5.9604645e-8f))); }
+static inline Real lobe_cosine(Real minus_sine2) { return sqrt(larger(1.0f + minus_sine2, (Real)(REAL_HALF_ULP))); }
 #endif
 
 #ifdef PHLUX_PHONG_LOBE

@@ -26,11 +26,11 @@ typedef struct {
   const __global LightRecord* lights;
   int light_count;
 #ifdef PHLUX_PLANARS
-  const __global float* planars;
+  const __global Scalar* planars;
   int triangle_end, parallelogram_end, ellipse_end; // brute force: regions come in this order
 #endif
 #ifdef PHLUX_SPHERES
-  const __global float* spheres;
+  const __global Scalar* spheres;
   int first_sphere, sphere_count; // first_sphere: primitive index of sphere 0
 #endif
 #ifdef PHLUX_BVH
@@ -92,7 +92,7 @@ typedef struct {
 
 #ifdef PHLUX_PLANARS
 #define SCENE_PLANAR_PARAMETERS                                                                                        \
-  , const __global float *planars, int triangle_end, int parallelogram_end, int ellipse_end
+  , const __global Scalar *planars, int triangle_end, int parallelogram_end, int ellipse_end
 #define SCENE_PLANAR_SET                                                                                               \
   scene.planars = planars;                                                                                             \
   scene.triangle_end = triangle_end;                                                                                   \
@@ -103,7 +103,7 @@ typedef struct {
 #define SCENE_PLANAR_SET
 #endif
 #ifdef PHLUX_SPHERES
-#define SCENE_SPHERE_PARAMETERS , const __global float *spheres, int first_sphere, int sphere_count
+#define SCENE_SPHERE_PARAMETERS , const __global Scalar *spheres, int first_sphere, int sphere_count
 #define SCENE_SPHERE_SET                                                                                               \
   scene.spheres = spheres;                                                                                             \
   scene.first_sphere = first_sphere;                                                                                   \

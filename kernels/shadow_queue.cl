@@ -7,23 +7,23 @@
 #include "traverse.cl"
 
 typedef struct {
-  float origin[3][2 * LANES], direction[3][2 * LANES], distance[2 * LANES];
-  float value[3][2 * LANES];
+  Scalar origin[3][2 * LANES], direction[3][2 * LANES], distance[2 * LANES];
+  Scalar value[3][2 * LANES];
   int path[2 * LANES], pixel[2 * LANES]; // its complement where the contribution is to the path's own pixel
 #ifdef PHLUX_TECHNIQUES
-  float weight[2 * LANES]; // else it is in the value
+  Scalar weight[2 * LANES]; // else it is in the value
   int technique[2 * LANES];
 #endif
   int count; // < LANES between calls
   uint traced;
 } ShadowQueue;
 
-static inline void vec_to_arrays(Vec3 v, float (*arrays)[2 * LANES], int at) {
+static inline void vec_to_arrays(Vec3 v, Scalar (*arrays)[2 * LANES], int at) {
   lanes_to_array(v.x, arrays[0] + at);
   lanes_to_array(v.y, arrays[1] + at);
   lanes_to_array(v.z, arrays[2] + at);
 }
-static inline Vec3 vec_from_arrays(const float (*arrays)[2 * LANES], int at) {
+static inline Vec3 vec_from_arrays(const Scalar (*arrays)[2 * LANES], int at) {
   return vec3(lanes_from_array(arrays[0] + at), lanes_from_array(arrays[1] + at), lanes_from_array(arrays[2] + at));
 }
 

@@ -12,7 +12,7 @@
 #endif
 
 typedef struct {
-  float words[START_WORDS][2 * LANES];
+  Scalar words[START_WORDS][2 * LANES];
   int count;
 } Starts;
 
@@ -38,8 +38,8 @@ static inline Vec3 take_start_words(const Starts* starts, int word, Vec3 old, Ma
               unpack_lanes(m, lanes_from_array(starts->words[word + 2] + starts->count), old.z));
 }
 static inline Vec3 start_numbers(const Walk* walk) {
-  return vec3(bits_real(walk->path), bits_real(uint_to_int(walk->sequence.pixel)),
-              bits_real(uint_to_int(walk->sequence.sample)));
+  return vec3(carry_int(walk->path), carry_int(uint_to_int(walk->sequence.pixel)),
+              carry_int(uint_to_int(walk->sequence.sample)));
 }
 
 // Puts the lanes of m of `walk`, no edges long, among those that wait.
@@ -49,7 +49,7 @@ static inline void put_starts(Starts* starts, const Walk* walk, Mask m) {
   put_start_words(starts, 6, walk->throughput, m);
   put_start_words(starts, 9, start_numbers(walk), m);
 #ifdef PHLUX_BIDIR
-  put_start_words(starts, 12, vec3(walk->ratios.edge, walk->light_cosine, bits_real(walk->light)), m);
+  put_start_words(starts, 12, vec3(walk->ratios.edge, walk->light_cosine, carry_int(walk->light)), m);
 #endif
   starts->count += count_lanes(m);
 }
@@ -63,17 +63,17 @@ static inline Mask take_starts(Starts* starts, Walk* walk, Mask idle) {
   walk->ray.direction = take_start_words(starts, 3, walk->ray.direction, starting);
   walk->throughput = take_start_words(starts, 6, walk->throughput, starting);
   const Vec3 numbers = take_start_words(starts, 9, start_numbers(walk), starting);
-  walk->path = real_bits(numbers.x);
-  walk->sequence.pixel = int_to_uint(real_bits(numbers.y));
-  walk->sequence.sample = int_to_uint(real_bits(numbers.z));
+  walk->path = carried_int(numbers.x);
+  walk->sequence.pixel = int_to_uint(carried_int(numbers.y));
+  walk->sequence.sample = int_to_uint(carried_int(numbers.z));
   walk->edges = starting ? (Int)(0) : walk->edges;
 #ifdef PHLUX_BIDIR
-  const Vec3 old = vec3(walk->ratios.edge, walk->light_cosine, bits_real(walk->light));
+  const Vec3 old = vec3(walk->ratios.edge, walk->light_cosine, carry_int(walk->light));
   const Vec3 more = take_start_words(starts, 12, old, starting);
   walk->ratios.edge = more.x;
   walk->ratios.rest = starting ? (Real)(0.0f) : walk->ratios.rest;
   walk->light_cosine = more.y;
-  walk->light = real_bits(more.z);
+  walk->light = carried_int(more.z);
 #endif
   return starting;
 }

@@ -16,9 +16,9 @@ typedef struct {
   Int material, light;
 } SurfacePoint;
 
-// A point's coordinates and the arithmetic of the tests that meet it again are right to a few units of 2^-24 of the
-// largest number that enters them; 16 such units keep a ray from meeting the surface it leaves.
-#define ERROR_UNITS (16.0f * 5.9604645e-8f)
+// A point's coordinates and the arithmetic of the tests that meet it again are right to a few half units in the last
+// place of the largest number that enters them; 16 such units keep a ray from meeting the surface it leaves.
+#define ERROR_UNITS (16.0f * REAL_HALF_ULP)
 
 #ifdef PHLUX_PLANARS
 // Where value 0 of a flat primitive is, and value k from there (scene_data.h).
@@ -32,7 +32,7 @@ static inline Int planar_words(Int primitive) {
   return primitive * PLANAR_FLOATS - (primitive & (SCENE_BLOCK - 1)) * (PLANAR_FLOATS - 1);
 }
 static inline Real planar_value(const Scene* scene, Int words, int value) {
-  return gather_real(scene->planars, words + value * SCENE_BLOCK);
+  return gather_scalar(scene->planars, words + value * SCENE_BLOCK);
 }
 #endif
 static inline Vec3 gather_planar(const Scene* scene, Int words, int value) {
@@ -47,7 +47,7 @@ static inline Real sphere_value(const Scene* scene, Int sphere, int value) {
   return permute_real(scene->sphere_members[value], sphere);
 #else
   const Int words = sphere * SPHERE_FLOATS - (sphere & (SCENE_BLOCK - 1)) * (SPHERE_FLOATS - 1);
-  return gather_real(scene->spheres, words + value * SCENE_BLOCK);
+  return gather_scalar(scene->spheres, words + value * SCENE_BLOCK);
 #endif
 }
 static inline SphereShape gather_sphere(const Scene* scene, Int sphere) {

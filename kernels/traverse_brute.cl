@@ -10,12 +10,12 @@
 #define SCENE_BLOCK 1 // primitives stand one after another
 
 #ifdef PHLUX_PLANARS
-static inline Planar planar_at(const __global float* values) {
+static inline Planar planar_at(const __global Scalar* values) {
   Planar p;
-  p.origin = broadcast_vec(values + PLANAR_ORIGIN);
-  p.edge_v = broadcast_vec(values + PLANAR_EDGE_V);
-  p.minus_u = broadcast_vec(values + PLANAR_MINUS_U);
-  p.normal = broadcast_vec(values + PLANAR_NORMAL);
+  p.origin = broadcast_scalars(values + PLANAR_ORIGIN);
+  p.edge_v = broadcast_scalars(values + PLANAR_EDGE_V);
+  p.minus_u = broadcast_scalars(values + PLANAR_MINUS_U);
+  p.normal = broadcast_scalars(values + PLANAR_NORMAL);
   return p;
 }
 
@@ -36,9 +36,9 @@ static inline Planar planar_at(const __global float* values) {
 #endif
 
 #ifdef PHLUX_SPHERES
-static inline SphereShape sphere_at(const __global float* values) {
+static inline SphereShape sphere_at(const __global Scalar* values) {
   SphereShape s;
-  s.center = broadcast_vec(values + SPHERE_CENTER);
+  s.center = broadcast_scalars(values + SPHERE_CENTER);
   s.radius = (Real)(values[SPHERE_RADIUS]);
   return s;
 }

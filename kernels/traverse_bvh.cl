@@ -26,9 +26,9 @@ typedef struct {
 } BoxRay;
 
 // 1 / d, with d kept away from 0: a ray within 1e-20 of an axis plane may as well be that far from it.
-static inline float finite_inverse(float d) { return 1.0f / (fabs(d) < 1e-20f ? copysign(1e-20f, d) : d); }
+static inline Scalar finite_inverse(Scalar d) { return 1.0f / (fabs(d) < 1e-20f ? copysign((Scalar)(1e-20f), d) : d); }
 
-static inline BoxRay box_ray(const float* r) {
+static inline BoxRay box_ray(const Scalar* r) {
   BoxRay b;
   b.ray.origin = vec3((Real)(r[0]), (Real)(r[1]), (Real)(r[2]));
   b.ray.direction = vec3((Real)(r[3]), (Real)(r[4]), (Real)(r[5]));
@@ -44,7 +44,7 @@ static inline BoxRay box_ray(const float* r) {
 
 // Pushes the children of a node that the ray meets before `limit`, the nearest last. Distances are rounded to within
 // 2 ulp; the far one is taken 3 ulp further so that no box is missed (Ize 2013).
-static inline int push_children(const __global float* node, const BoxRay* b, float limit, float* nears, int* children,
+static inline int push_children(const __global float* node, const BoxRay* b, Scalar limit, Scalar* nears, int* children,
                                 int top) {
   const int first = top;
   for (int group = 0; group < CHILDREN; group += LANES) {
@@ -64,7 +64,7 @@ static inline int push_children(const __global float* node, const BoxRay* b, flo
   for (int i = first; i + 1 < top; ++i) {
     const int last = top - 1;
     if (nears[i] < nears[last]) {
-      const float near = nears[i];
+      const Scalar near = nears[i];
       const int child = children[i];
       nears[i] = nears[last];
       children[i] = children[last];
@@ -77,13 +77,13 @@ static inline int push_children(const __global float* node, const BoxRay* b, flo
 
 // The primitives of one block that the ray meets before `limit`, and how far along.
 #ifdef PHLUX_PLANARS
-static inline Vec3 load_planar(const __global float* block, int value) {
-  return vec3(load_reals(block + value * LANES), load_reals(block + (value + 1) * LANES),
-              load_reals(block + (value + 2) * LANES));
+static inline Vec3 load_planar(const __global Scalar* block, int value) {
+  return vec3(load_scalars(block + value * LANES), load_scalars(block + (value + 1) * LANES),
+              load_scalars(block + (value + 2) * LANES));
 }
 
-static inline Mask meet_planars(const Scene* scene, int block, Ray ray, float limit, Real* distance) {
-  const __global float* values = scene->planars + block * (PLANAR_FLOATS * LANES);
+static inline Mask meet_planars(const Scene* scene, int block, Ray ray, Scalar limit, Real* distance) {
+  const __global Scalar* values = scene->planars + block * (PLANAR_FLOATS * LANES);
   Planar p;
   p.origin = load_planar(values, PLANAR_ORIGIN);
   p.edge_v = load_planar(values, PLANAR_EDGE_V);
@@ -109,18 +109,18 @@ static inline Mask meet_planars(const Scene* scene, int block, Ray ray, float li
 #endif
 
 #ifdef PHLUX_SPHERES
-static inline Mask meet_spheres(const Scene* scene, int block, Ray ray, float limit, Real* distance) {
-  const __global float* values = scene->spheres + block * (SPHERE_FLOATS * LANES);
+static inline Mask meet_spheres(const Scene* scene, int block, Ray ray, Scalar limit, Real* distance) {
+  const __global Scalar* values = scene->spheres + block * (SPHERE_FLOATS * LANES);
   SphereShape s;
-  s.center = vec3(load_reals(values), load_reals(values + LANES), load_reals(values + 2 * LANES));
-  s.radius = load_reals(values + 3 * LANES);
+  s.center = vec3(load_scalars(values), load_scalars(values + LANES), load_scalars(values + 2 * LANES));
+  s.radius = load_scalars(values + 3 * LANES);
   *distance = cross_sphere(ray, s);
   return (*distance > 0.0f) & (*distance < limit);
 }
 #endif
 
 // The primitives of block `block` of a leaf; *first is the primitive index of its lane 0.
-static inline Mask meet_block(const Scene* scene, int block, int spheres, Ray ray, float limit, Real* distance,
+static inline Mask meet_block(const Scene* scene, int block, int spheres, Ray ray, Scalar limit, Real* distance,
                               int* first) {
 #ifdef PHLUX_SPHERES
 #ifdef PHLUX_PLANARS
@@ -138,8 +138,8 @@ static inline Mask meet_block(const Scene* scene, int block, int spheres, Ray ra
 }
 
 // The closest primitive before *distance; returns its index, or -1 and leaves *distance.
-static inline int closest_along(const Scene* scene, const float* ray, float* distance) {
-  float nears[STACK_SIZE];
+static inline int closest_along(const Scene* scene, const Scalar* ray, Scalar* distance) {
+  Scalar nears[STACK_SIZE];
   int children[STACK_SIZE];
   const BoxRay b = box_ray(ray);
   int found = -1, top = 1;
@@ -168,8 +168,8 @@ static inline int closest_along(const Scene* scene, const float* ray, float* dis
   return found;
 }
 
-static inline int blocked_along(const Scene* scene, const float* ray, float distance) {
-  float nears[STACK_SIZE];
+static inline int blocked_along(const Scene* scene, const Scalar* ray, Scalar distance) {
+  Scalar nears[STACK_SIZE];
   int children[STACK_SIZE];
   const BoxRay b = box_ray(ray);
   int top = 1;
@@ -193,7 +193,7 @@ static inline int blocked_along(const Scene* scene, const float* ray, float dist
 }
 
 // Rays as an array of six floats per lane: origin, direction.
-static inline void rays_to_array(Ray ray, float (*array)[LANES]) {
+static inline void rays_to_array(Ray ray, Scalar (*array)[LANES]) {
   lanes_to_array(ray.origin.x, array[0]);
   lanes_to_array(ray.origin.y, array[1]);
   lanes_to_array(ray.origin.z, array[2]);
@@ -203,12 +203,12 @@ static inline void rays_to_array(Ray ray, float (*array)[LANES]) {
 }
 
 static inline Hit scene_intersect(const Scene* scene, Ray ray, Mask alive) {
-  float rays[6][LANES], distance[LANES];
+  Scalar rays[6][LANES], distance[LANES];
   int asking[LANES], primitive[LANES];
   rays_to_array(ray, rays);
   int_lanes_to_array(alive, asking);
   for (int lane = 0; lane < LANES; ++lane) {
-    const float one[6] = {rays[0][lane], rays[1][lane], rays[2][lane], rays[3][lane], rays[4][lane], rays[5][lane]};
+    const Scalar one[6] = {rays[0][lane], rays[1][lane], rays[2][lane], rays[3][lane], rays[4][lane], rays[5][lane]};
     distance[lane] = INFINITY;
     primitive[lane] = asking[lane] ? closest_along(scene, one, &distance[lane]) : -1;
   }
@@ -219,13 +219,13 @@ static inline Hit scene_intersect(const Scene* scene, Ray ray, Mask alive) {
 }
 
 static inline Mask scene_occluded(const Scene* scene, Ray ray, Real distance, Mask asking) {
-  float rays[6][LANES], limit[LANES];
+  Scalar rays[6][LANES], limit[LANES];
   int asks[LANES], blocked[LANES];
   rays_to_array(ray, rays);
   lanes_to_array(distance, limit);
   int_lanes_to_array(asking, asks);
   for (int lane = 0; lane < LANES; ++lane) {
-    const float one[6] = {rays[0][lane], rays[1][lane], rays[2][lane], rays[3][lane], rays[4][lane], rays[5][lane]};
+    const Scalar one[6] = {rays[0][lane], rays[1][lane], rays[2][lane], rays[3][lane], rays[4][lane], rays[5][lane]};
     blocked[lane] = asks[lane] ? blocked_along(scene, one, limit[lane]) : 0;
   }
   return int_lanes_from_array(blocked) != 0;

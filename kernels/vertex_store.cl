@@ -14,7 +14,7 @@
 #endif
 
 typedef struct {
-  __global float* words;
+  __global Scalar* words;
   int rows;             // that there is room for
   __global int* first;  // per path: word 0 of its first vertex
   __global int* length; // and how many vertices it has
@@ -33,26 +33,26 @@ static inline Trail no_trail(void) {
 
 #define ROW_WORDS (VERTEX_WORDS * LANES)
 
-static inline void store_vec(__global float* words, int word, Vec3 v) {
-  store_reals(words + word * LANES, v.x);
-  store_reals(words + (word + 1) * LANES, v.y);
-  store_reals(words + (word + 2) * LANES, v.z);
+static inline void store_vec(__global Scalar* words, int word, Vec3 v) {
+  store_scalars(words + word * LANES, v.x);
+  store_scalars(words + (word + 1) * LANES, v.y);
+  store_scalars(words + (word + 2) * LANES, v.z);
 }
-static inline Vec3 gather_vec(const __global float* words, int word, Int at) {
-  return vec3(gather_real(words + word * LANES, at), gather_real(words + (word + 1) * LANES, at),
-              gather_real(words + (word + 2) * LANES, at));
+static inline Vec3 gather_vec(const __global Scalar* words, int word, Int at) {
+  return vec3(gather_scalar(words + word * LANES, at), gather_scalar(words + (word + 1) * LANES, at),
+              gather_scalar(words + (word + 2) * LANES, at));
 }
 
 static inline void store_vertex(const VertexStore* store, int row, const Walk* walk, Vertex v) {
-  __global float* words = store->words + (size_t)row * ROW_WORDS;
+  __global Scalar* words = store->words + (size_t)row * ROW_WORDS;
   store_vec(words, VERTEX_POSITION, v.point.position);
   store_vec(words, VERTEX_NORMAL, v.point.frame.z);
   store_vec(words, VERTEX_FIXED, vec_scale((Real)(-1.0f), walk->ray.direction));
   store_vec(words, VERTEX_THROUGHPUT, walk->throughput);
-  store_reals(words + VERTEX_ERROR * LANES, v.point.error);
-  store_ints((__global int*)words + VERTEX_MATERIAL * LANES, v.point.material);
-  store_reals(words + VERTEX_EDGE * LANES, walk->ratios.edge);
-  store_reals(words + VERTEX_REST * LANES, walk->ratios.rest);
+  store_scalars(words + VERTEX_ERROR * LANES, v.point.error);
+  store_scalars(words + VERTEX_MATERIAL * LANES, carry_int(v.point.material));
+  store_scalars(words + VERTEX_EDGE * LANES, walk->ratios.edge);
+  store_scalars(words + VERTEX_REST * LANES, walk->ratios.rest);
 #ifdef PHLUX_SMOOTH_NORMALS
   store_vec(words, VERTEX_GEOMETRIC, v.point.normal);
 #endif
@@ -69,7 +69,7 @@ typedef struct {
 } Joint;
 
 static inline Joint load_vertex(const Scene* scene, const VertexStore* store, Int at) {
-  const __global float* words = store->words;
+  const __global Scalar* words = store->words;
   Joint j;
   j.vertex.point.position = gather_vec(words, VERTEX_POSITION, at);
   const Vec3 shading = gather_vec(words, VERTEX_NORMAL, at);
@@ -86,11 +86,11 @@ static inline Joint load_vertex(const Scene* scene, const VertexStore* store, In
   j.vertex.point.normal = shading;
 #endif
   j.vertex.fixed = to_frame(j.vertex.point.frame, gather_vec(words, VERTEX_FIXED, at));
-  j.vertex.point.error = gather_real(words + VERTEX_ERROR * LANES, at);
-  j.vertex.material = material_at(scene, gather_int((const __global int*)words + VERTEX_MATERIAL * LANES, at));
+  j.vertex.point.error = gather_scalar(words + VERTEX_ERROR * LANES, at);
+  j.vertex.material = material_at(scene, carried_int(gather_scalar(words + VERTEX_MATERIAL * LANES, at)));
   j.throughput = gather_vec(words, VERTEX_THROUGHPUT, at);
-  j.ratios.edge = gather_real(words + VERTEX_EDGE * LANES, at);
-  j.ratios.rest = gather_real(words + VERTEX_REST * LANES, at);
+  j.ratios.edge = gather_scalar(words + VERTEX_EDGE * LANES, at);
+  j.ratios.rest = gather_scalar(words + VERTEX_REST * LANES, at);
   return j;
 }
 

@@ -18,7 +18,7 @@
 
 // Ratios that float could not square and multiply on are cut off. What they divide is then below 1e-15 of the rest,
 // unless a scene is larger than 1e5 or smaller than 1e-6 and lengths enter to the fourth power (WEIGHTS_POWER).
-#define LARGEST_RATIO 1e30f
+#define LARGEST_RATIO REAL_LARGE
 
 static inline Real heuristic(Real ratio) {
 #if PHLUX_WEIGHTS == WEIGHTS_BALANCE

@@ -13,8 +13,9 @@ std::uint64_t count_primitives(const scene::Scene& scene) {
   return count;
 }
 
-Geometry brute_force(const scene::Scene& scene) {
+Geometry brute_force(const scene::Scene& scene, bool in_double) {
   Geometry geometry;
+  geometry.in_double = in_double;
   geometry.origin = middle(scene);
   TableWriter writer(scene, geometry);
   Box all = {};

@@ -17,6 +17,8 @@ struct Geometry {
   int block = 1;              ///< primitives per block
   std::vector<float> planars; ///< PLANAR_FLOATS values per flat primitive, in blocks
   std::vector<float> spheres; ///< SPHERE_FLOATS values per sphere, in blocks
+  bool in_double = false;     ///< those two are empty and these hold the same, not rounded to float
+  std::vector<double> double_planars, double_spheres;
   std::vector<PrimitiveRecord>
       primitives;                    ///< flat ones (fillers included), then spheres; `light` is still -1
   std::vector<int> emitters;         ///< per primitive: its scene::AreaEmitter, -1 for none
@@ -34,10 +36,10 @@ struct Geometry {
 };
 
 /// Tables for testing every primitive in turn; regions come in the order of PlanarRegions, in blocks of one.
-[[nodiscard]] Geometry brute_force(const scene::Scene& scene);
+[[nodiscard]] Geometry brute_force(const scene::Scene& scene, bool in_double = false);
 
 /// Tables with a hierarchy of max(2, lanes) children a node and blocks of `lanes` primitives.
-[[nodiscard]] Geometry hierarchy(const scene::Scene& scene, int lanes);
+[[nodiscard]] Geometry hierarchy(const scene::Scene& scene, int lanes, bool in_double = false);
 
 /// Primitives that the scene's shapes stand for.
 [[nodiscard]] std::uint64_t count_primitives(const scene::Scene& scene);

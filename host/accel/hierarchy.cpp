@@ -223,8 +223,9 @@ double radius_of(const std::vector<RTCBuildPrimitive>& primitives) {
 
 } // namespace
 
-Geometry hierarchy(const scene::Scene& scene, int lanes) {
+Geometry hierarchy(const scene::Scene& scene, int lanes, bool in_double) {
   Geometry geometry;
+  geometry.in_double = in_double;
   geometry.block = lanes;
   geometry.origin = middle(scene);
   std::vector<RTCBuildPrimitive> primitives = build_primitives(scene, geometry.origin);

@@ -19,26 +19,27 @@ Vec3 rounded(const Vec3& v) {
   return Vec3(glm::vec3(v));
 }
 
-// The three points (or centre and edges) of a flat primitive about `origin`. Vertices are rounded before
-// edges are taken, so that neighbours keep sharing them.
+// The three points (or centre and edges) of a flat primitive about `origin`. Where tables are of floats,
+// vertices are rounded before edges are taken, so that neighbours keep sharing them.
 struct Flat {
   Vec3 origin, edge_u, edge_v;
   int region;
   scene::Surface surface;
 };
 
-Flat flat(const scene::Scene& scene, const Vec3& origin, Reference reference) {
+Flat flat(const scene::Scene& scene, const Vec3& origin, Reference reference, bool in_double = false) {
+  const auto about_origin = [&](const Vec3& v) { return in_double ? v - origin : rounded(v - origin); };
   if (reference.kind == Reference::Kind::patch) {
     const scene::Patch& patch = scene.patches[reference.object];
     const bool ellipse = patch.region == scene::Patch::Region::ellipse;
-    return {rounded(patch.origin - origin), patch.edge_u, patch.edge_v,
+    return {about_origin(patch.origin), patch.edge_u, patch.edge_v,
             ellipse ? REGION_ELLIPSE : REGION_PARALLELOGRAM, patch.surface};
   }
   const scene::Mesh& mesh = scene.meshes[reference.object];
   const auto& [a, b, c] = mesh.triangles[reference.element];
-  const Vec3 p0 = rounded(mesh.positions[a] - origin);
-  return {p0, rounded(mesh.positions[b] - origin) - p0, rounded(mesh.positions[c] - origin) - p0,
-          REGION_TRIANGLE, mesh.surface};
+  const Vec3 p0 = about_origin(mesh.positions[a]);
+  return {p0, about_origin(mesh.positions[b]) - p0, about_origin(mesh.positions[c]) - p0, REGION_TRIANGLE,
+          mesh.surface};
 }
 
 void grow(Box& box, const Vec3& low, const Vec3& high) {
@@ -60,6 +61,16 @@ Box empty_box() {
 Vec3 half_extent(const Flat& f) {
   if (f.region == REGION_PARALLELOGRAM) return glm::abs(f.edge_u) + glm::abs(f.edge_v);
   return glm::sqrt(f.edge_u * f.edge_u + f.edge_v * f.edge_v);
+}
+
+// Writes the values of primitive `index` of a table of blocks, which grows by a block where it must.
+template<typename T, std::size_t count>
+void write_values(std::vector<T>& table, std::size_t block, std::size_t index,
+                  const std::array<double, count>& values) {
+  const std::size_t slot = index % block;
+  if (slot == 0) table.resize(table.size() + count * block, T{0});
+  T* first = table.data() + (index / block) * count * block + slot;
+  for (std::size_t k = 0; k < count; ++k) first[k * block] = static_cast<T>(values[k]);
 }
 
 double area_of(int region, double cross_length) {
@@ -124,12 +135,22 @@ TableWriter::TableWriter(const scene::Scene& scene, Geometry& geometry) : scene_
       geometry.vertex_normals.insert(geometry.vertex_normals.end(), {n.x, n.y, n.z});
 }
 
-void TableWriter::write_planar(const std::array<float, PLANAR_FLOATS>& values) {
+void TableWriter::write_planar(const std::array<double, PLANAR_FLOATS>& values) {
   const auto block = static_cast<std::size_t>(geometry_.block);
-  const std::size_t index = geometry_.primitives.size(), slot = index % block;
-  if (slot == 0) geometry_.planars.resize(geometry_.planars.size() + PLANAR_FLOATS * block, 0.0f);
-  float* first = geometry_.planars.data() + (index / block) * PLANAR_FLOATS * block + slot;
-  for (std::size_t k = 0; k < values.size(); ++k) first[k * block] = values[k];
+  const std::size_t index = geometry_.primitives.size();
+  if (geometry_.in_double)
+    write_values(geometry_.double_planars, block, index, values);
+  else
+    write_values(geometry_.planars, block, index, values);
+}
+
+void TableWriter::write_sphere(const std::array<double, SPHERE_FLOATS>& values) {
+  const auto block = static_cast<std::size_t>(geometry_.block);
+  const std::size_t index = sphere_records_.size();
+  if (geometry_.in_double)
+    write_values(geometry_.double_spheres, block, index, values);
+  else
+    write_values(geometry_.spheres, block, index, values);
 }
 
 void TableWriter::add_corners(Reference reference) {
@@ -146,18 +167,18 @@ void TableWriter::add_corners(Reference reference) {
 }
 
 bool TableWriter::add_planar(Reference reference) {
-  const Flat f = flat(scene_, geometry_.origin, reference);
+  const Flat f = flat(scene_, geometry_.origin, reference, geometry_.in_double);
   const Vec3 cross = glm::cross(f.edge_u, f.edge_v);
   const double length = glm::length(cross);
   if (!(length > 0.0) || !std::isfinite(static_cast<float>(1.0 / length))) return false;
   const Vec3 edge_v = f.edge_v / length, minus_u = -f.edge_u / length, normal = cross / length;
-  std::array<float, PLANAR_FLOATS> values{};
+  std::array<double, PLANAR_FLOATS> values{};
   for (int axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<std::size_t>(axis);
-    values[PLANAR_ORIGIN + i] = static_cast<float>(f.origin[axis]);
-    values[PLANAR_EDGE_V + i] = static_cast<float>(edge_v[axis]);
-    values[PLANAR_MINUS_U + i] = static_cast<float>(minus_u[axis]);
-    values[PLANAR_NORMAL + i] = static_cast<float>(normal[axis]);
+    values[PLANAR_ORIGIN + i] = f.origin[axis];
+    values[PLANAR_EDGE_V + i] = edge_v[axis];
+    values[PLANAR_MINUS_U + i] = minus_u[axis];
+    values[PLANAR_NORMAL + i] = normal[axis];
   }
   write_planar(values);
   geometry_.primitives.push_back({f.surface.material, -1, f.region});
@@ -184,13 +205,7 @@ int TableWriter::finish_planar_block() {
 void TableWriter::add_sphere(Reference reference) {
   const scene::Sphere& sphere = scene_.spheres[reference.object];
   const Vec3 center = sphere.center - geometry_.origin;
-  const auto block = static_cast<std::size_t>(geometry_.block);
-  const std::size_t index = sphere_records_.size(), slot = index % block;
-  if (slot == 0) geometry_.spheres.resize(geometry_.spheres.size() + SPHERE_FLOATS * block, 0.0f);
-  float* first = geometry_.spheres.data() + (index / block) * SPHERE_FLOATS * block + slot;
-  for (int axis = 0; axis < 3; ++axis)
-    first[static_cast<std::size_t>(SPHERE_CENTER + axis) * block] = static_cast<float>(center[axis]);
-  first[SPHERE_RADIUS * block] = static_cast<float>(sphere.radius);
+  write_sphere({center.x, center.y, center.z, sphere.radius});
   sphere_records_.push_back({sphere.surface.material, -1, sphere.front_is_inside ? 1 : 0});
   sphere_emitters_.push_back(sphere.surface.area_emitter);
   if (sphere.surface.area_emitter >= 0)
@@ -202,9 +217,7 @@ int TableWriter::finish_sphere_block() {
   const auto block = static_cast<std::size_t>(geometry_.block);
   while (sphere_records_.size() % block != 0) {
     // A negative squared radius would need a root; a radius of 0 at infinity is simply never met.
-    const std::size_t index = sphere_records_.size();
-    float* first = geometry_.spheres.data() + (index / block) * SPHERE_FLOATS * block + index % block;
-    for (std::size_t axis = 0; axis < 3; ++axis) first[axis * block] = 1e18f;
+    write_sphere({1e18, 1e18, 1e18, 0.0});
     sphere_records_.push_back({0, -1, REGION_NONE});
     sphere_emitters_.push_back(-1);
   }

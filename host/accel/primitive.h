@@ -1,4 +1,5 @@
-// One primitive at a time, taken from the scene's shapes in float precision about the scene's middle.
+// One primitive at a time, taken from the scene's shapes about the scene's middle, in float precision where
+// the tables are of floats.
 #pragma once
 
 #include <array>
@@ -28,7 +29,7 @@ struct Box {
 /// A box that holds the primitive, in coordinates about `origin`.
 [[nodiscard]] Box bounds(const scene::Scene& scene, const scene::Vec3& origin, Reference reference);
 
-/// Appends primitives to a geometry's tables, whose `origin` and `block` are set.
+/// Appends primitives to a geometry's tables, whose `origin`, `block` and `in_double` are set.
 class TableWriter {
 public:
   TableWriter(const scene::Scene& scene, Geometry& geometry);
@@ -43,7 +44,8 @@ public:
   void finish();
 
 private:
-  void write_planar(const std::array<float, PLANAR_FLOATS>& values);
+  void write_planar(const std::array<double, PLANAR_FLOATS>& values);
+  void write_sphere(const std::array<double, SPHERE_FLOATS>& values);
   void add_corners(Reference reference);
 
   const scene::Scene& scene_;

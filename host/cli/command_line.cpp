@@ -97,6 +97,12 @@ void add_device(CLI::App& app, RenderOptions& options) {
               const std::vector<std::string> widths = {"1", "4", "8", "16"};
               options.lanes = std::stoi(widths[choice("--width", text, widths)]);
             });
+  add_value(app, "--precision", "NAME",
+            "what kernels compute in: single, or double, one path at a time and only where the device has "
+            "doubles; default: single",
+            [&](const std::string& text) {
+              options.double_precision = choice("--precision", text, {"single", "double"}) == 1;
+            });
   add_value(app, "--traversal", "NAME", "brute (every shape), bvh or auto; default: auto",
             [&](const std::string& text) {
               options.traversal =

@@ -40,6 +40,7 @@ nlohmann::ordered_json to_json(const device::DeviceInfo& info, bool is_default) 
           {"global_memory", info.global_memory},
           {"largest_buffer", info.largest_buffer},
           {"native_float_width", info.native_float_width},
+          {"doubles", info.doubles},
           {"width", info.lanes},
           {"default", is_default}};
 }

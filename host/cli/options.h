@@ -31,6 +31,7 @@ struct RenderOptions {
 
   std::vector<std::string> devices;
   int lanes = 0; ///< 0: what suits the device
+  bool double_precision = false;
   render::Traversal traversal = render::Traversal::automatic;
   std::filesystem::path kernel_dir;
 

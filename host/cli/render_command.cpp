@@ -45,6 +45,7 @@ render::Settings settings_of(const RenderOptions& options, const scene::RenderDe
   settings.seed = options.seed;
   settings.devices = options.devices;
   settings.lanes = options.lanes;
+  settings.double_precision = options.double_precision;
   settings.traversal = options.traversal;
   settings.kernel_dir = options.kernel_dir;
   return settings;

@@ -17,7 +17,8 @@ struct DeviceInfo {
   std::uint32_t compute_units = 0;
   std::uint64_t global_memory = 0, largest_buffer = 0; ///< bytes
   std::uint32_t native_float_width = 1;
-  int lanes = 1; ///< the WIDTH that phlux would use: 1, 4, 8 or 16
+  bool doubles = false; ///< kernels may compute in double
+  int lanes = 1;        ///< the WIDTH that phlux would use: 1, 4, 8 or 16
 };
 
 /// Every device of every platform, in the drivers' order. A platform without devices is skipped with a

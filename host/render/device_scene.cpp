@@ -72,13 +72,14 @@ cl::Buffer upload(const device::Device& device, const std::vector<T>& table, con
 
 } // namespace
 
-HostScene prepare(const scene::Scene& scene, Traversal traversal, int lanes) {
+HostScene prepare(const scene::Scene& scene, Traversal traversal, int lanes, bool double_precision) {
   const std::uint64_t primitives = accel::count_primitives(scene);
   if (primitives == 0) throw SceneError("the scene has no shapes: add at least one that the camera can see");
   const bool brute = traversal == Traversal::brute_force ||
                      (traversal == Traversal::automatic && primitives <= brute_force_limit(lanes));
   HostScene host;
-  host.geometry = brute ? accel::brute_force(scene) : accel::hierarchy(scene, lanes);
+  host.geometry =
+      brute ? accel::brute_force(scene, double_precision) : accel::hierarchy(scene, lanes, double_precision);
   if (host.geometry.primitive_count == 0)
     throw SceneError(
         "no shape of the scene has an area that single precision can tell from 0: scale them up");
@@ -97,8 +98,12 @@ DeviceScene::DeviceScene(const device::Device& device, const HostScene& scene, c
       primitives_(upload(device, scene.geometry.primitives, "primitives")),
       materials_(upload(device, scene.materials.records, "materials")),
       lights_(upload(device, scene.lights.records, "lights")),
-      planars_(upload(device, scene.geometry.planars, "triangles", PLANAR_FLOATS)),
-      spheres_(upload(device, scene.geometry.spheres, "spheres", SPHERE_FLOATS)),
+      planars_(parts.double_precision
+                   ? upload(device, scene.geometry.double_planars, "triangles", PLANAR_FLOATS)
+                   : upload(device, scene.geometry.planars, "triangles", PLANAR_FLOATS)),
+      spheres_(parts.double_precision
+                   ? upload(device, scene.geometry.double_spheres, "spheres", SPHERE_FLOATS)
+                   : upload(device, scene.geometry.spheres, "spheres", SPHERE_FLOATS)),
       nodes_(upload(device, scene.geometry.nodes, "hierarchy")),
       reflectivity_(upload(device, scene.materials.reflectivity, "reflectivities")),
       corners_(upload(device, scene.geometry.corners, "triangles' corners")),

@@ -9,7 +9,7 @@
 
 namespace phlux::render {
 
-/// Everything that the host computes about a scene for one WIDTH and traversal.
+/// Everything that the host computes about a scene for one WIDTH, precision and traversal.
 struct HostScene {
   accel::Geometry geometry;
   LightTable lights;
@@ -18,7 +18,8 @@ struct HostScene {
 };
 
 /// @throws SceneError when the scene has no shape with an area
-[[nodiscard]] HostScene prepare(const scene::Scene& scene, Traversal traversal, int lanes);
+[[nodiscard]] HostScene prepare(const scene::Scene& scene, Traversal traversal, int lanes,
+                                bool double_precision = false);
 
 class DeviceScene {
 public:

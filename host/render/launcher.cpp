@@ -46,6 +46,11 @@ int vertex_words(const Parts& parts) {
   return parts.anisotropic ? VERTEX_WORDS_MOST : parts.smooth_normals ? VERTEX_TANGENT : VERTEX_GEOMETRIC;
 }
 
+// Of what a bidirectional work-item keeps: kernels/lanes.h's Scalar.
+std::size_t scalar_bytes(const Parts& parts) {
+  return parts.double_precision ? sizeof(cl_double) : sizeof(cl_float);
+}
+
 std::size_t record_words(const Parts& parts) {
   return parts.techniques ? RECORD_TECHNIQUE + 1 : RECORD_VALUE + 3;
 }
@@ -124,7 +129,7 @@ std::size_t Launcher::scratch_bytes_per_item(const Flight& flight) const {
   const auto vertices = static_cast<std::size_t>(flight.rows) * static_cast<std::size_t>(lanes_);
   return (2 * vertices * static_cast<std::size_t>(vertex_words(parts_)) +
           SCRATCH_WORDS_PER_PATH * flight.batch_paths()) *
-         sizeof(float);
+         scalar_bytes(parts_);
 }
 
 // How many work-items, how many batches, and what room each has.

@@ -18,6 +18,7 @@ struct NamedPart {
 
 constexpr NamedPart named_parts[] = {
     {&Parts::hierarchy, "hierarchy", "PHLUX_BVH"},
+    {&Parts::double_precision, "double_precision", "PHLUX_DOUBLE"},
     {&Parts::planars, "planars", "PHLUX_PLANARS"},
     {&Parts::triangles, "triangles", "PHLUX_TRIANGLES"},
     {&Parts::parallelograms, "parallelograms", "PHLUX_PARALLELOGRAMS"},
@@ -123,10 +124,24 @@ const std::vector<std::string>& strategy_names() {
   return names;
 }
 
+int lanes_for(const device::DeviceInfo& device, const Settings& settings) {
+  if (!settings.double_precision) return settings.lanes != 0 ? settings.lanes : device.lanes;
+  if (settings.lanes > 1)
+    throw UsageError(fmt::format(
+        "--precision double: doubles go one path at a time, not {}: leave --width out", settings.lanes));
+  if (!device.doubles)
+    throw DeviceError(fmt::format(
+        "{}: --precision double: the device has no doubles (cl_khr_fp64): use --precision single, or "
+        "--device with one for which `phlux devices --json` says doubles",
+        device.name));
+  return 1;
+}
+
 Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, const LightTable& lights,
                  const Settings& settings, int lanes) {
   Parts parts;
   parts.lanes = lanes;
+  parts.double_precision = settings.double_precision;
   parts.integrator = find_integrator(settings.integrator);
   parts.weights = settings.weights;
   parts.techniques = settings.techniques;

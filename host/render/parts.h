@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "accel/geometry.h"
+#include "device/device.h"
 #include "render/light_table.h"
 #include "render/render.h"
 
@@ -21,6 +22,7 @@ struct Parts {
   Integrator integrator = Integrator::path;
   int lanes = 1;
   bool hierarchy = false;
+  bool double_precision = false; ///< kernels/lanes.h: Real is a double
   bool planars = false, triangles = false, parallelograms = false, ellipses = false, spheres = false;
   bool smooth_normals = false, two_sided = false, black = false;
   bool phong_lobe = false, anisotropic = false;
@@ -42,6 +44,10 @@ struct Parts {
   /// Macros for the kernels.
   [[nodiscard]] std::map<std::string, std::string> defines() const;
 };
+
+/// WIDTH on a device. @throws UsageError for a WIDTH without doubles where they are asked for, DeviceError
+/// where the device has none
+[[nodiscard]] int lanes_for(const device::DeviceInfo& device, const Settings& settings);
 
 /// @throws UsageError for an integrator that there is not, and for a strategy, a --connect or an --ambient
 /// that cannot render this scene

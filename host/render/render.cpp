@@ -157,9 +157,10 @@ public:
   [[nodiscard]] double unit() const { return host_->lights.unit; }
 
   Worker make(const device::Device& device, Statistics& statistics) {
-    const int lanes = settings_.lanes != 0 ? settings_.lanes : device.info.lanes;
+    const int lanes = lanes_for(device.info, settings_);
     const Clock::time_point begin = Clock::now();
-    if (!host_ || lanes_ != lanes) host_ = prepare(scene_, settings_.traversal, lanes_ = lanes);
+    if (!host_ || lanes_ != lanes)
+      host_ = prepare(scene_, settings_.traversal, lanes_ = lanes, settings_.double_precision);
     Worker worker;
     worker.parts = find_parts(scene_, host_->geometry, host_->lights, settings_, lanes);
     if (!worker.parts.phong_lobe) warn_of_plain_strategy();
@@ -186,7 +187,7 @@ private:
     constexpr double smallest = 1e-6, largest = 1e5;
     const double radius = host_->geometry.radius;
     if (settings_.integrator == "bidir" && settings_.weights == Weights::power &&
-        (radius < smallest || radius > largest))
+        !settings_.double_precision && (radius < smallest || radius > largest))
       spdlog::warn(
           "--weights power: the scene's radius is {:.1g}, and the weights are right between {:g} and "
           "{:g}: use --weights balance",

@@ -31,6 +31,7 @@ struct Settings {
   std::uint64_t seed = 0;
   std::vector<std::string> devices; ///< --device specifications
   int lanes = 0;                    ///< WIDTH; 0: what suits the device
+  bool double_precision = false;    ///< kernels compute in double; WIDTH is 1
   Traversal traversal = Traversal::automatic;
   std::filesystem::path kernel_dir; ///< empty: the embedded kernels
   double launch_seconds = 0.05;     ///< aimed-at length of one launch

@@ -82,6 +82,7 @@ TEST_CASE("phlux devices lists every device and marks the default") {
     CHECK((width == 1 || width == 4 || width == 8 || width == 16));
     for (const char* key : {"device", "platform", "type", "name", "driver", "opencl_c_version"})
       CHECK(device.at(key).is_string());
+    CHECK(device.at("doubles").is_boolean());
     for (const char* key : {"compute_units", "global_memory", "largest_buffer", "native_float_width"})
       CHECK(device.at(key) > 0);
   }

@@ -6,6 +6,7 @@
 
 #include "cli/program.h"
 #include "cli/scenes.h"
+#include "device/device.h"
 #include "files/exr.h"
 
 using phlux::files::Image;
@@ -134,6 +135,20 @@ TEST_CASE("Every width and traversal renders, and --stats says which") {
       CHECK(stats["traversal"] == traversal);
       CHECK(mean(place.image().channels.at("G")) == Approx(0.0).margin(10.0)); // and is finite
     }
+}
+
+TEST_CASE("--precision double renders the same image but for rounding, and --stats says so") {
+  if (!phlux::device::open_devices({}).front().info.doubles) return;
+  const Workplace place;
+  place.render({"-o", "a.exr", "--width", "1"});
+  place.render({"-o", "b.exr", "--precision", "double", "--stats", "stats.json"});
+  const nlohmann::json stats = place.json("stats.json");
+  CHECK(stats["lanes"] == 1);
+  CHECK_THAT(stats["parts"].dump(), Catch::Contains("\"double_precision\""));
+  const double a = mean(place.image("a.exr").channels.at("G")),
+               b = mean(place.image("b.exr").channels.at("G"));
+  CHECK(b == Approx(a).epsilon(1e-4));
+  CHECK(place.image("a.exr").channels != place.image("b.exr").channels);
 }
 
 TEST_CASE("The same seed gives the same image, another seed another") {

@@ -45,6 +45,8 @@ const std::vector<Wrong> wrong_usage = {
      "--max-depth 0: must be a whole number of 1 or more, or -1"},
     {{"render", "scene.xml", "--rr-depth", "-2"}, "--rr-depth -2: must be"},
     {{"render", "scene.xml", "--width", "3"}, "--width 3: must be one of 1, 4, 8, 16"},
+    {{"render", "scene.xml", "--precision", "half"}, "--precision half: must be one of single, double"},
+    {{"render", "scene.xml", "--precision", "double", "--width", "4"}, "leave --width out"},
     {{"render", "scene.xml", "--traversal", "octree"}, "--traversal octree: must be one of auto, brute, bvh"},
     {{"render", "scene.xml", "--kernel-dir", "missing"}, "--kernel-dir missing: must be a folder"},
     {{"render", "scene.xml", "-o", "image.png"}, "such as image.exr"},
@@ -80,10 +82,10 @@ TEST_CASE("Help and version are no errors") {
     CHECK_THAT(help.out, Catch::Contains(word));
   const Outcome of_render = run({{"render", "--help"}, folder.path(), {}, {}});
   CHECK(of_render.exit_code == 0);
-  for (const char* option :
-       {"--output",    "--integrator", "--strategy", "--connect", "--spp",       "--time",      "--error",
-        "--max-depth", "--rr-depth",   "--size",     "--seed",    "-D",          "--device",    "--moments",
-        "--png",       "--stats",      "--quiet",    "--width",   "--traversal", "--kernel-dir"})
+  for (const char* option : {"--output",    "--integrator", "--strategy", "--connect", "--spp",   "--time",
+                             "--error",     "--max-depth",  "--rr-depth", "--size",    "--seed",  "-D",
+                             "--device",    "--moments",    "--png",      "--stats",   "--quiet", "--width",
+                             "--traversal", "--kernel-dir", "--precision"})
     CHECK_THAT(of_render.out, Catch::Contains(option));
   const Outcome version = run({{"--version"}, folder.path(), {}, {}});
   CHECK(version.out == "phlux " PHLUX_VERSION "\n");

@@ -72,6 +72,11 @@ Parts by(Integrator integrator, Parts parts, Weights weights = Weights::balance)
   return parts;
 }
 
+Parts in_double(Parts parts) {
+  parts.double_precision = true;
+  return parts;
+}
+
 Parts with_techniques(Parts parts) {
   parts.techniques = true;
   return parts;
@@ -111,10 +116,13 @@ int main(int argc, char** argv) {
       {"sky-light", with_techniques(by(Integrator::light, sphere_in_sky()))},
       {"everything-bidir", by(Integrator::bidir, everything())},
       {"glossy-spheres-bidir", by(Integrator::bidir, glossy_spheres(), Weights::power)},
-      {"mesh-bidir", with_techniques(by(Integrator::bidir, mesh(), Weights::uniform))}};
+      {"mesh-bidir", with_techniques(by(Integrator::bidir, mesh(), Weights::uniform))},
+      {"everything-double", in_double(everything())},
+      {"glossy-spheres-bidir-double", in_double(by(Integrator::bidir, glossy_spheres()))}};
   bool good = true;
   for (const int lanes : {1, 4, 8, 16}) {
     for (auto [name, parts] : programs) {
+      if (parts.double_precision && lanes != 1) continue;
       parts.lanes = lanes;
       good = good && write(folder, name, parts.file(), lanes, parts.defines());
     }
