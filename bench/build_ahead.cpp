@@ -9,6 +9,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "errors.h"
+
 namespace phlux::bench {
 namespace {
 
@@ -49,6 +51,26 @@ std::size_t run_in_children(const std::vector<std::function<std::size_t()>>& job
       built += static_cast<std::size_t>(WEXITSTATUS(status));
   }
   return built;
+}
+
+std::size_t build_programs(const std::vector<std::function<scene::Scene()>>& scenes,
+                           const std::vector<Method>& methods, const SceneBenchSettings& settings) {
+  std::vector<std::function<std::size_t()>> jobs;
+  for (const auto& load : scenes)
+    for (const Method& method : methods)
+      jobs.emplace_back([&load, &method, &settings]() -> std::size_t {
+        scene::Scene scene = load();
+        scene.camera.width = scene.camera.height = 1;
+        render::Settings one_sample = render_settings(method, scene, settings);
+        one_sample.samples_per_pixel = 1;
+        film::Film film(1, 1);
+        try {
+          return render::render(scene, one_sample, film, {}).kernels_from_cache ? 0 : 1;
+        } catch (const Error&) {
+          return 0;
+        }
+      });
+  return run_in_children(jobs);
 }
 
 } // namespace phlux::bench

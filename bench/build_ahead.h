@@ -6,6 +6,8 @@
 #include <functional>
 #include <vector>
 
+#include "bench/scene_bench.h"
+
 namespace phlux::bench {
 
 /// Runs each job in one of as many child processes as there are processors, and waits for them all. A job
@@ -13,5 +15,11 @@ namespace phlux::bench {
 /// simply not done. Only for a process that has not used OpenCL yet: its drivers' threads do not live on in a
 /// child.
 [[nodiscard]] std::size_t run_in_children(const std::vector<std::function<std::size_t()>>& jobs);
+
+/// Builds, in children, the programs of every scene and method or finds them in the cache; returns how many
+/// were built. A method that refuses a scene has none.
+[[nodiscard]] std::size_t build_programs(const std::vector<std::function<scene::Scene()>>& scenes,
+                                         const std::vector<Method>& methods,
+                                         const SceneBenchSettings& settings);
 
 } // namespace phlux::bench

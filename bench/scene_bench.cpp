@@ -74,6 +74,12 @@ struct Renders {
   }
 };
 
+bool is_black(Repeats images) {
+  return std::ranges::all_of(images, [](const ImageEstimate& image) {
+    return std::ranges::all_of(image.radiance, [](double value) { return value == 0; });
+  });
+}
+
 // Means over 9x9 pixels. An image's own large samples would make their pixels count for little.
 Reference smoothed(const Reference& image, const scene::Camera& camera) {
   constexpr int reach = 4;
@@ -113,6 +119,12 @@ std::vector<ConvergencePoint> convergence_of(const Renders& renders) {
 }
 
 void judge_variance(MethodResult& result, const Renders& renders, const Reference& reference) {
+  if (!(result.variance.value > 0)) {
+    if (result.verdict == Verdict::sound) return;
+    result.verdict = Verdict::suspect_variance;
+    result.reason = "no two samples differ: those that carry the light were never met";
+    return;
+  }
   const double error = result.variance.standard_error / result.variance.value;
   if (error > suspect_error || (error > suspect_error_of_few && result.top_share > suspect_top_share)) {
     result.verdict = Verdict::suspect_variance;
@@ -176,16 +188,21 @@ const char* word_of(Verdict verdict) {
   return words[static_cast<std::size_t>(verdict)];
 }
 
+render::Settings render_settings(const Method& method, const scene::Scene& scene,
+                                 const SceneBenchSettings& settings) {
+  render::Settings result = settings_of(method, scene.defaults);
+  result.devices = settings.devices;
+  result.lanes = settings.lanes;
+  result.kernel_dir = settings.kernel_dir;
+  result.seed = settings.seed;
+  return result;
+}
+
 SceneBench::SceneBench(const scene::Scene& scene, const SceneBenchSettings& settings)
     : scene_(scene), settings_(settings), begin_(Clock::now()) {}
 
 render::Settings SceneBench::settings_for(const Method& method) const {
-  render::Settings settings = settings_of(method, scene_.defaults);
-  settings.devices = settings_.devices;
-  settings.lanes = settings_.lanes;
-  settings.kernel_dir = settings_.kernel_dir;
-  settings.seed = settings_.seed;
-  return settings;
+  return render_settings(method, scene_, settings_);
 }
 
 double SceneBench::seconds_left() const {
@@ -224,9 +241,10 @@ void SceneBench::try_methods(const std::vector<Method>& methods) {
     say("trying " + method.name());
     trials_.push_back(try_method(method, seconds));
     if (!trials_.back().refusal.empty()) continue;
-    // Once more, now that its kernels are there: what a render costs beside rendering.
+    // Once more, now that its kernels are there: what a round's two renders cost beside rendering.
     const Clock::time_point begin = Clock::now();
     (void)render_for(scene_, settings_for(method), least_seconds, {}, settings_.interrupted);
+    (void)render_one_sample(scene_, settings_for(method));
     beyond += seconds_since(begin) - least_seconds;
     ++renders;
   }
@@ -250,10 +268,13 @@ void SceneBench::rate_trials() {
   if (const Trial* best = best_trial()) rate(smoothed(pooled(best->images).radiance, scene_.camera));
 }
 
+// One whose samples have met no light at all has no variance, which is not to its credit.
 const Trial* SceneBench::best_trial() const {
+  const auto black = [](const Trial& trial) { return is_black(trial.images); };
+  const bool all_black = std::ranges::all_of(trials_, black);
   const Trial* best = nullptr;
   for (const Trial& trial : trials_)
-    if (trial.refusal.empty() && known_bias(trial.method, scene_).empty())
+    if (trial.refusal.empty() && known_bias(trial.method, scene_).empty() && (all_black || !black(trial)))
       if (best == nullptr ||
           trial.variance * trial.seconds_per_sample < best->variance * best->seconds_per_sample)
         best = &trial;

@@ -27,6 +27,10 @@ struct SceneBenchSettings {
   std::function<void(const std::string& what)> report; ///< may be empty; called often
 };
 
+/// How `method` is rendered: the scene's depths, these settings' devices and seed.
+[[nodiscard]] render::Settings render_settings(const Method& method, const scene::Scene& scene,
+                                               const SceneBenchSettings& settings);
+
 /// The method on its first few renders.
 struct Trial {
   Method method;
@@ -86,7 +90,7 @@ private:
   const SceneBenchSettings& settings_;
   std::chrono::steady_clock::time_point begin_;
   std::vector<Trial> trials_;
-  double overhead_ = 0; ///< seconds of a render beyond those asked for
+  double overhead_ = 0; ///< seconds of a round of one method beyond those asked for
 };
 
 } // namespace phlux::bench

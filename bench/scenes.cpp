@@ -14,9 +14,9 @@
 #include "bench/build_ahead.h"
 #include "bench/csv.h"
 #include "bench/draw.h"
+#include "bench/fingerprint.h"
 #include "bench/provenance.h"
-#include "bench/saved_table.h"
-#include "bench/scene_bench.h"
+#include "bench/result_table.h"
 #include "bench/scripts.h"
 #include "bench/status_line.h"
 #include "bench/timed_render.h"
@@ -33,57 +33,10 @@ constexpr double default_seconds = 120, quick_seconds = 11; // a scene
 constexpr double default_total = 17 * 60, quick_total = 90;
 constexpr int default_side = 128, quick_side = 64;
 
-const std::vector<std::string> columns = {"scene",
-                                          "integrator",
-                                          "strategy",
-                                          "connect_or_weights",
-                                          "device",
-                                          "samples_per_pixel",
-                                          "seconds",
-                                          "relmse",
-                                          "variance_per_sample",
-                                          "variance_standard_error",
-                                          "top_share",
-                                          "seconds_per_sample",
-                                          "variance_times_seconds", // the contract's end here
-                                          "verdict",
-                                          "reason",
-                                          "variance_measured",
-                                          "variance_measured_standard_error",
-                                          "seconds_per_sample_least",
-                                          "seconds_per_sample_most",
-                                          "processor_seconds_per_sample",
-                                          "mean",
-                                          "mean_standard_error",
-                                          "mean_bias_sigma",
-                                          "rounds",
-                                          "seed",
-                                          "image",
-                                          "reference_by",
-                                          "reference_relmse",
-                                          "reference_seconds",
-                                          "lanes",
-                                          "settings"};
-
 const std::vector<std::string> convergence_columns = {
-    "scene",  "integrator",   "strategy",    "connect_or_weights", "seconds", "samples_per_pixel",
-    "relmse", "relmse_least", "relmse_most", "relmse_expected",    "rounds",  "settings"};
+    "seconds", "samples_per_pixel", "relmse", "relmse_least", "relmse_most", "relmse_expected", "rounds"};
 
 // ---- What is the same in two runs
-
-// FNV-1a, 64 bits (Fowler, Noll, Vo): names what was measured, without a claim to be unbreakable.
-class Fingerprint {
-public:
-  void add(const void* bytes, std::size_t size) {
-    for (std::size_t i = 0; i < size; ++i)
-      hash_ = (hash_ ^ static_cast<const unsigned char*>(bytes)[i]) * 0x100000001b3ull;
-  }
-  void add(const std::string& text) { add(text.data(), text.size() + 1); }
-  [[nodiscard]] std::string text() const { return fmt::format("{:016x}", hash_); }
-
-private:
-  std::uint64_t hash_ = 0xcbf29ce484222325ull;
-};
 
 std::string text_of(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
@@ -136,87 +89,43 @@ SceneRun load(const std::filesystem::path& file, const Run& run) {
 
 // ---- The tables
 
-std::string number(double value) {
-  return std::isfinite(value) ? fmt::format("{:.6g}", value) : "";
-}
-
-std::vector<std::string> row_of(const Run& run, const SceneRun& scene, const ReferenceImage& reference,
-                                const MethodResult& result) {
-  const Method& m = result.method;
-  std::vector<std::string> row = {scene.name, m.integrator, m.strategy, m.variant,
-                                  csv_value(run.device.name)};
-  const bool refused = result.verdict == Verdict::refused, sound = result.verdict == Verdict::sound;
-  const auto figure = [&](double value, bool earned = true) {
-    row.push_back(refused || !earned ? "" : number(value));
-  };
-  const ConvergencePoint end = refused ? ConvergencePoint{} : result.convergence.back();
-  figure(end.samples_per_pixel);
-  figure(end.seconds);
-  figure(end.relmse);
-  const bool variance_known = result.verdict != Verdict::suspect_variance;
-  figure(result.variance.value, variance_known);
-  figure(result.variance.standard_error, variance_known);
-  figure(result.top_share);
-  figure(result.seconds_per_sample);
-  figure(result.variance.value * result.seconds_per_sample, sound);
-  row.push_back(word_of(result.verdict));
-  row.push_back(csv_value(result.reason));
-  figure(result.variance.value);
-  figure(result.variance.standard_error);
-  figure(result.seconds_per_sample_least);
-  figure(result.seconds_per_sample_most);
-  figure(result.processor_seconds_per_sample);
-  figure(result.mean.value);
-  figure(result.mean.standard_error);
-  figure(result.mean_bias_sigma);
-  const scene::Camera& camera = scene.scene.camera;
-  for (const std::string& text :
-       {fmt::format("{}", result.rounds), fmt::format("{}", run.options.seed),
-        fmt::format("{}x{}", camera.width, camera.height), csv_value(reference.method),
-        number(reference.relmse), number(reference.seconds), fmt::format("{}", run.lanes), scene.settings})
-    row.push_back(text);
-  return row;
-}
-
-std::vector<std::string> convergence_row(const SceneRun& scene, const ReferenceImage& reference,
-                                         const MethodResult& result, const ConvergencePoint& point) {
-  const Method& m = result.method;
-  std::vector<std::string> row = {scene.name, m.integrator, m.strategy, m.variant};
+std::vector<std::string> convergence_values(const ReferenceImage& reference, const MethodResult& result,
+                                            const ConvergencePoint& point) {
+  std::vector<std::string> row;
   for (const double value :
        {point.seconds, point.samples_per_pixel, point.relmse, point.relmse_least, point.relmse_most,
         result.variance.value / point.samples_per_pixel + reference.relmse})
-    row.push_back(number(value));
+    row.push_back(number_text(value));
   row.push_back(fmt::format("{}", point.rounds));
-  row.push_back(scene.settings);
   return row;
 }
 
 struct Tables {
   explicit Tables(const std::filesystem::path& folder)
-      : results(folder, "scenes.csv", columns),
-        convergence(folder, "scenes-convergence.csv", convergence_columns) {}
+      : results(folder, "scenes.csv", {"scene"}, result_columns()),
+        convergence(folder, "scenes-convergence.csv", {"scene"}, convergence_columns) {}
 
-  [[nodiscard]] bool has(const SceneRun& scene, const Method& m) const {
-    return std::ranges::any_of(results.rows(), [&](const SavedTable::Row& row) {
-      return row[0] == scene.name && Method{row[1], row[2], row[3]} == m && row.back() == scene.settings &&
-             results.value(row, "verdict") != word_of(Verdict::refused);
-    });
-  }
-  // What other settings gave, and what is measured anew.
-  void forget(const SceneRun& scene, const std::vector<Method>& again) {
-    const auto unwanted = [&](const SavedTable::Row& row) {
-      return row[0] == scene.name &&
-             (row.back() != scene.settings || std::ranges::count(again, Method{row[1], row[2], row[3]}) > 0);
-    };
-    results.remove_if(unwanted);
-    convergence.remove_if(unwanted);
+  void replace(const Run& run, const SceneRun& scene, const std::vector<Method>& methods,
+               const ReferenceImage& reference, const std::vector<MethodResult>& measured) {
+    results.forget({scene.name}, methods, scene.settings);
+    convergence.forget({scene.name}, methods, scene.settings);
+    for (const MethodResult& result : measured) {
+      results.add({scene.name}, result.method,
+                  result_values(result, reference, scene.scene.camera,
+                                {run.device.name, run.lanes, run.options.seed}),
+                  scene.settings);
+      for (const ConvergencePoint& point : result.convergence)
+        convergence.add({scene.name}, result.method, convergence_values(reference, result, point),
+                        scene.settings);
+    }
+    write();
   }
   void write() const {
     convergence.write();
     results.write(); // last: what it has is there in full
   }
 
-  SavedTable results, convergence;
+  ResultTable results, convergence;
 };
 
 // ---- One scene
@@ -271,17 +180,22 @@ struct SceneResults {
   std::vector<MethodResult> methods;
 };
 
+SceneBenchSettings bench_settings(const ScenesOptions& options) {
+  SceneBenchSettings settings;
+  settings.devices = options.devices;
+  settings.lanes = options.lanes;
+  settings.kernel_dir = options.kernel_dir;
+  settings.seed = options.seed;
+  settings.least_rounds = options.quick ? 5 : 10;
+  settings.trial_renders = options.quick ? 3 : 6;
+  settings.interrupted = options.interrupted;
+  return settings;
+}
+
 SceneResults measure(const Run& run, const SceneRun& scene, const std::vector<Method>& methods,
                      Tables& tables, const std::function<void(const std::string&)>& report) {
-  SceneBenchSettings settings;
-  settings.devices = run.options.devices;
-  settings.lanes = run.options.lanes;
-  settings.kernel_dir = run.options.kernel_dir;
-  settings.seed = run.options.seed;
+  SceneBenchSettings settings = bench_settings(run.options);
   settings.seconds = run.seconds_left;
-  settings.least_rounds = run.options.quick ? 5 : 10;
-  settings.trial_renders = run.options.quick ? 3 : 6;
-  settings.interrupted = run.options.interrupted;
   settings.report = report;
   SceneBench bench(scene.scene, settings);
   bench.try_methods(methods);
@@ -292,13 +206,7 @@ SceneResults measure(const Run& run, const SceneRun& scene, const std::vector<Me
     if (result.method.name() == reference.method)
       reference.relmse = std::max(reference.relmse, result.variance.value / reference.samples_per_pixel);
   write_images(run.options.folder / "scenes-images" / scene.name, scene.scene.camera, reference, results);
-  tables.forget(scene, methods);
-  for (const MethodResult& result : results) {
-    tables.results.add(row_of(run, scene, reference, result));
-    for (const ConvergencePoint& point : result.convergence)
-      tables.convergence.add(convergence_row(scene, reference, result, point));
-  }
-  tables.write();
+  tables.replace(run, scene, methods, reference, results);
   return {reference, results};
 }
 
@@ -339,50 +247,15 @@ std::string command_of(const ScenesOptions& options) {
   return command;
 }
 
-std::vector<Method> missing(const Run& run, const SceneRun& scene, const Tables& tables) {
-  std::vector<Method> methods;
-  for (const Method& method : run.methods)
-    if (!tables.has(scene, method)) methods.push_back(method);
-  // Those that refuse are asked again at no cost; alone they are no reason to measure.
-  const bool only_refusals = std::ranges::all_of(methods, [&](const Method& m) {
-    return std::ranges::any_of(tables.results.rows(), [&](const SavedTable::Row& row) {
-      return row[0] == scene.name && Method{row[1], row[2], row[3]} == m && row.back() == scene.settings;
-    });
-  });
-  return only_refusals ? std::vector<Method>{} : methods;
-}
-
-// The programs of all scenes and methods, built or found in the cache; returns how many were built.
-std::size_t build_kernels(const ScenesOptions& options, const std::vector<std::filesystem::path>& files,
-                          const std::vector<Method>& methods) {
-  std::vector<std::function<std::size_t()>> jobs;
-  for (const auto& file : files)
-    for (const Method& method : methods)
-      jobs.emplace_back([&options, &file, &method]() -> std::size_t {
-        const scene::Scene scene = load_at_size(file, 1);
-        render::Settings settings = settings_of(method, scene.defaults);
-        settings.devices = options.devices;
-        settings.lanes = options.lanes;
-        settings.kernel_dir = options.kernel_dir;
-        settings.samples_per_pixel = 1;
-        film::Film film(scene.camera.width, scene.camera.height);
-        try {
-          return render::render(scene, settings, film, {}).kernels_from_cache ? 0 : 1;
-        } catch (const Error&) {
-          return 0;
-        }
-      });
-  return run_in_children(jobs);
-}
-
-struct Measured {
+struct Done {
   std::size_t scenes = 0, programs = 0, programs_built = 0;
 };
 
-void measure_all(const Run& run, const std::vector<SceneRun>& scenes, Tables& tables, Measured& measured) {
+void measure_all(const Run& run, const std::vector<SceneRun>& scenes, Tables& tables, Done& done) {
   StatusLine status;
   std::vector<std::vector<Method>> methods_of;
-  for (const SceneRun& scene : scenes) methods_of.push_back(missing(run, scene, tables));
+  for (const SceneRun& scene : scenes)
+    methods_of.push_back(tables.results.missing({scene.name}, run.methods, scene.settings));
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     const std::vector<Method>& methods = methods_of[i];
     if (methods.empty()) {
@@ -401,18 +274,18 @@ void measure_all(const Run& run, const std::vector<SceneRun>& scenes, Tables& ta
     });
     status.clear();
     print(scenes[i], results.reference, results.methods);
-    ++measured.scenes;
+    ++done.scenes;
   }
 }
 
-void finish(const Run& run, const Measured& measured) {
+void finish(const Run& run, const Done& done) {
   // Where nothing was measured, what is there says how it was.
-  if (measured.scenes > 0 || !std::filesystem::exists(run.options.folder / "scenes.provenance.json")) {
+  if (done.scenes > 0 || !std::filesystem::exists(run.options.folder / "scenes.provenance.json")) {
     const std::string kernels =
-        measured.programs > 0
+        done.programs > 0
             ? fmt::format("{} programs of {} scenes and methods were not in the cache; all were built before "
                           "anything was timed",
-                          measured.programs_built, measured.programs)
+                          done.programs_built, done.programs)
             : "built before anything was timed";
     write_provenance(run.options.folder, "scenes",
                      {command_of(run.options), run.device, run.lanes, kernels,
@@ -421,11 +294,6 @@ void finish(const Run& run, const Measured& measured) {
                                   run.options.seed)});
   }
   draw_charts(run.options.folder, scenes_script());
-}
-
-bool stopped() {
-  fmt::print("interrupted: the same command goes on with the scenes that are missing\n");
-  return false;
 }
 
 } // namespace
@@ -451,15 +319,17 @@ bool measure_scenes(const ScenesOptions& options) {
     (void)scene_file::load(file); // bad ones are errors before minutes have passed
   make_folder(options.folder);
   Tables tables(options.folder);
-  Measured measured;
+  Done done;
   const Clock::time_point begin = Clock::now();
   const std::vector<Method> methods = all_methods(options.strategies, options.quick);
-  if (options.build_ahead && tables.results.rows().empty()) {
+  if (options.build_ahead && tables.results.empty()) {
     tables.write();
     StatusLine status;
     status.show("building kernels");
-    measured.programs = files.size() * methods.size();
-    measured.programs_built = build_kernels(options, files, methods);
+    done.programs = files.size() * methods.size();
+    std::vector<std::function<scene::Scene()>> loads;
+    for (const auto& file : files) loads.emplace_back([&file] { return scene_file::load(file); });
+    done.programs_built = build_programs(loads, methods, bench_settings(options));
   }
   const device::Device device = device::open_devices(options.devices).front();
   const double seconds = seconds_for_each(options, files.size());
@@ -468,15 +338,11 @@ bool measure_scenes(const ScenesOptions& options) {
                 methods, seconds,     seconds_left_for_each(options, seconds, building, files.size())};
   std::vector<SceneRun> scenes;
   for (const auto& file : files) scenes.push_back(load(file, run));
-  try {
-    measure_all(run, scenes, tables, measured);
-  } catch (const Interrupted&) {
-    return stopped();
-  } catch (const DeviceError&) { // a compiler gives up, too, when it is interrupted
-    if (options.interrupted && options.interrupted()) return stopped();
-    throw;
+  if (!runs_to_end([&] { measure_all(run, scenes, tables, done); }, options.interrupted)) {
+    fmt::print("interrupted: the same command goes on with the scenes that are missing\n");
+    return false;
   }
-  finish(run, measured);
+  finish(run, done);
   fmt::print("{}\n", (options.folder / "index.html").string());
   return true;
 }

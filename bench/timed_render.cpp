@@ -7,6 +7,8 @@
 
 #include <spdlog/spdlog.h>
 
+#include "errors.h"
+
 namespace phlux::bench {
 namespace {
 
@@ -63,6 +65,18 @@ TimedRender render_once(const scene::Scene& scene, render::Settings settings, st
 }
 
 } // namespace
+
+bool runs_to_end(const std::function<void()>& work, const std::function<bool()>& interrupted) {
+  try {
+    work();
+  } catch (const Interrupted&) {
+    return false;
+  } catch (const DeviceError&) { // a compiler gives up, too, when it is interrupted
+    if (interrupted && interrupted()) return false;
+    throw;
+  }
+  return true;
+}
 
 TimedRender render_for(const scene::Scene& scene, render::Settings settings, double seconds,
                        const std::vector<double>& times, const std::function<bool()>& interrupted) {

@@ -13,6 +13,9 @@ namespace phlux::bench {
 /// What ends a measurement that the user interrupts.
 struct Interrupted {};
 
+/// Whether `work` came to its end; false when the user interrupted it.
+[[nodiscard]] bool runs_to_end(const std::function<void()>& work, const std::function<bool()>& interrupted);
+
 struct Snapshot {
   ImageEstimate image;
   double seconds = 0;   ///< since rendering began

@@ -1,0 +1,97 @@
+#include <algorithm>
+
+#include <catch2/catch.hpp>
+
+#include "bench/fingerprint.h"
+#include "bench/result_table.h"
+#include "temporary_folder.h"
+
+using namespace phlux;
+using namespace phlux::bench;
+
+namespace {
+
+const Method none{"path", "exact", "none"}, mis{"path", "exact", "mis"}, light{"light", "exact", "-"};
+const ResultTable::Values key_columns = {"exponent", "light_radius"}, key = {"10", "0.1"},
+                          other_key = {"10", "0.01"};
+
+ResultTable open(const TemporaryFolder& folder) {
+  return {folder.path(), "t.csv", key_columns, result_columns()};
+}
+
+ResultTable::Values values(const MethodResult& result) {
+  ReferenceImage reference;
+  reference.method = "bidir balance";
+  scene::Camera camera;
+  camera.width = 3, camera.height = 2;
+  return result_values(result, reference, camera, {"a CPU, of some kind", 4, 7, true});
+}
+
+MethodResult result_with(Verdict verdict) {
+  MethodResult result;
+  result.verdict = verdict;
+  result.variance = {2, .1};
+  result.seconds_per_sample = .5;
+  result.processor_seconds_per_sample = .25;
+  result.convergence.push_back({});
+  return result;
+}
+
+const std::string& value_of(const ResultTable::Values& row, const std::string& column) {
+  const auto& columns = result_columns();
+  const auto found = std::ranges::find(columns, column);
+  REQUIRE(found != columns.end());
+  return row[static_cast<std::size_t>(found - columns.begin())];
+}
+
+} // namespace
+
+TEST_CASE("A method has only those figures in the table that its verdict allows") {
+  const auto sound = values(result_with(Verdict::sound));
+  CHECK(sound.size() == result_columns().size());
+  CHECK(value_of(sound, "variance_per_sample") == "2");
+  CHECK(value_of(sound, "variance_times_seconds") == "0.5"); // of the processor's
+  CHECK(value_of(sound, "device") == "a CPU  of some kind");
+  CHECK(value_of(sound, "image") == "3x2");
+  const auto suspect = values(result_with(Verdict::suspect_variance));
+  CHECK(value_of(suspect, "variance_per_sample").empty());
+  CHECK(value_of(suspect, "variance_measured") == "2");
+  CHECK(value_of(suspect, "variance_times_seconds").empty());
+  const auto biased = values(result_with(Verdict::biased));
+  CHECK(value_of(biased, "variance_per_sample") == "2");
+  CHECK(value_of(biased, "variance_times_seconds").empty());
+  const auto refused = values(result_with(Verdict::refused));
+  CHECK(value_of(refused, "verdict") == "refused");
+  CHECK(value_of(refused, "seconds_per_sample").empty());
+}
+
+TEST_CASE("What a table of results lacks is what is measured next") {
+  const TemporaryFolder folder;
+  {
+    ResultTable table = open(folder);
+    CHECK(table.empty());
+    table.add(key, none, values(result_with(Verdict::refused)), "s");
+    table.add(key, mis, values(result_with(Verdict::sound)), "s");
+    table.write();
+  }
+  ResultTable table = open(folder);
+  CHECK_FALSE(table.empty());
+  CHECK(table.missing(key, {none, mis}, "s").empty()); // a refusal alone is no reason to measure
+  CHECK(table.missing(key, {none, mis, light}, "s") == std::vector<Method>{none, light});
+  CHECK(table.missing(key, {mis}, "other settings") == std::vector<Method>{mis});
+  CHECK(table.missing(other_key, {mis}, "s") == std::vector<Method>{mis});
+  table.forget(key, {none}, "s");
+  CHECK(table.missing(key, {none, mis}, "s") == std::vector<Method>{none});
+  table.forget(other_key, {mis}, "other settings");
+  CHECK(table.missing(key, {mis}, "s").empty());
+  table.forget(key, {}, "other settings");
+  CHECK(table.empty());
+}
+
+TEST_CASE("A fingerprint tells texts apart that run into each other") {
+  Fingerprint a, b;
+  a.add("ab"), a.add("c");
+  b.add("a"), b.add("bc");
+  CHECK(a.text() != b.text());
+  CHECK(Fingerprint{}.text() == "cbf29ce484222325"); // FNV's offset basis
+}
