@@ -97,6 +97,8 @@ def dark_rules(svg):
         for property in ("fill", "stroke"):
             if f"{property}: {light}" in svg:
                 rules.append(f'[style*="{property}: {light}"]{{{property}:{dark}!important}}')
+            if f'{property}="{light}"' in svg:  # the ground of a hatch
+                rules.append(f'[{property}="{light}"]{{{property}:{dark}}}')
     return "@media (prefers-color-scheme:dark){" + "".join(rules) + "}"
 
 
@@ -120,7 +122,7 @@ def save(folder, name, draw):
                 path = os.path.join(folder, name + ".svg")
                 figure.savefig(path, dpi=DPI, metadata={"Date": None})
                 with open(path, encoding="utf-8") as file:
-                    svg = file.read()
+                    svg = re.sub(r">\s+<", "><", file.read())  # texts are paths: nothing is lost, and a sixth of the size
                 end = re.search(r"<svg\b[^>]*>", svg).end()
                 write(folder, name + ".svg", f"{svg[:end]}\n <style>{dark_rules(svg)}</style>{svg[end:]}")
             plt.close(figure)

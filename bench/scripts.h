@@ -19,5 +19,7 @@ namespace phlux::bench {
 [[nodiscard]] std::string_view sampling_script();
 /// bench/arithmetic.py
 [[nodiscard]] std::string_view arithmetic_script();
+/// bench/stability.py
+[[nodiscard]] std::string_view stability_script();
 
 } // namespace phlux::bench

@@ -9,6 +9,8 @@
 #include "bench/rays.h"
 #include "bench/sampling.h"
 #include "bench/scenes.h"
+#include "bench/stability.h"
+#include "bench/stability_scene.h"
 #include "cli/grammar.h"
 #include "cli/interrupt.h"
 #include "cli/values.h"
@@ -159,6 +161,18 @@ void add_figures(CLI::App& bench, std::optional<Command>& command) {
   });
 }
 
+// In place of those that are there.
+void add_strategies(CLI::App& app, std::vector<std::string>& strategies) {
+  const auto named = std::make_shared<bool>(false);
+  add_values(app, "--strategy", "NAME", "how directions are sampled; may be repeated; default: exact",
+             [&strategies, named](const std::string& text) {
+               const auto& names = render::strategy_names();
+               if (!*named) strategies.clear();
+               *named = true;
+               strategies.push_back(names[choice("--strategy", text, names)]);
+             });
+}
+
 void add_scenes(CLI::App& bench, std::optional<Command>& command) {
   CLI::App& app = *bench.add_subcommand(
       "scenes", "Every method on every scene: variance, time, convergence: scenes.csv and index.html");
@@ -166,14 +180,7 @@ void add_scenes(CLI::App& bench, std::optional<Command>& command) {
   add_common(app, *options);
   add_values(app, "--scene", "FILE.xml", "only this one; may be repeated; default: those that ship",
              [options](const std::string& text) { options->scenes.emplace_back(text); });
-  const auto named = std::make_shared<bool>(false);
-  add_values(app, "--strategy", "NAME", "how directions are sampled; may be repeated; default: exact",
-             [options, named](const std::string& text) {
-               const auto& names = render::strategy_names();
-               if (!*named) options->strategies.clear();
-               *named = true;
-               options->strategies.push_back(names[choice("--strategy", text, names)]);
-             });
+  add_strategies(app, options->strategies);
   app.add_flag("--quick", options->quick, "under two minutes for the scenes that ship; coarser");
   add_value(app, "--seconds", "S", "for each scene; default: 120, or 11 with --quick, less for many scenes",
             [options](const std::string& text) { options->seconds = positive_number("--seconds", text); });
@@ -197,6 +204,53 @@ void add_scenes(CLI::App& bench, std::optional<Command>& command) {
   });
 }
 
+bench::StabilityCell cell_of(const std::string& text) {
+  const std::vector<std::string> parts = split(text);
+  if (parts.size() != 2) throw UsageError(fmt::format("--cell {}: must be N,RADIUS", text));
+  constexpr double largest_exponent = 1e6, least_radius = 1e-4;
+  return {number_within("--cell", parts[0], 0, largest_exponent),
+          number_within("--cell", parts[1], least_radius, bench::largest_light_radius)};
+}
+
+void add_stability(CLI::App& bench, std::optional<Command>& command) {
+  CLI::App& app = *bench.add_subcommand(
+      "stability", "Where each method fails, over a lobe's exponent and a light's size: stability.csv");
+  const auto options = std::make_shared<bench::StabilityOptions>();
+  add_common(app, *options);
+  app.add_flag("--quick", options->quick, "nine cells and five methods in under two minutes; coarser");
+  add_values(app, "--cell", "N,RADIUS",
+             "only this exponent and radius of the light; may be repeated; default: a grid",
+             [options](const std::string& text) { options->cells.push_back(cell_of(text)); });
+  add_values(app, "--method", "NAME",
+             "only this one, such as 'path mis' or light; may be repeated; default: all",
+             [options](const std::string& text) {
+               const auto names = bench::stability_method_names();
+               options->variants.push_back(names[choice("--method", text, names)]);
+             });
+  add_strategies(app, options->strategies);
+  add_value(app, "--seconds", "S",
+            "for each cell; default: 20, or 10 with --quick, less where building kernels took long",
+            [options](const std::string& text) { options->seconds = positive_number("--seconds", text); });
+  add_value(app, "--side", "N", "pixels of an image's side; default: 48, or 32 with --quick",
+            [options](const std::string& text) {
+              constexpr std::uint64_t most = 4096;
+              options->side = static_cast<int>(whole_number("--side", text, 1, most));
+            });
+  add_value(app, "--seed", "N", "of the first round; default: 1", [options](const std::string& text) {
+    constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
+    options->seed = whole_number("--seed", text, 0, most);
+  });
+  app.footer("What the folder holds of the same settings is not measured again: an interrupted run goes on.");
+  app.final_callback([&command, options] {
+    command = [options] {
+      const InterruptGuard guard;
+      options->interrupted = [&guard] { return guard.requested(); };
+      options->build_ahead = true;
+      return bench::measure_stability(*options) ? 0 : interrupted_exit_code;
+    };
+  });
+}
+
 } // namespace
 
 void add_bench(CLI::App& program, std::optional<Command>& command) {
@@ -208,6 +262,7 @@ void add_bench(CLI::App& program, std::optional<Command>& command) {
   add_sampling(app, command);
   add_arithmetic(app, command);
   add_figures(app, command);
+  add_stability(app, command);
 }
 
 } // namespace phlux::cli

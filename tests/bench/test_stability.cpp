@@ -1,0 +1,98 @@
+#include <cmath>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+
+#include <catch2/catch.hpp>
+
+#include "bench/scene_bench.h"
+#include "bench/stability.h"
+#include "bench/stability_scene.h"
+
+using namespace phlux;
+using namespace phlux::bench;
+
+namespace {
+
+const Method none{"path", "exact", "none"}, mis{"path", "exact", "mis"}, bidir{"bidir", "exact", "balance"};
+
+std::vector<MethodResult> measured(const scene::Scene& scene, const std::vector<Method>& methods,
+                                   double seconds) {
+  SceneBenchSettings settings;
+  settings.seconds = seconds;
+  settings.trial_renders = 2;
+  SceneBench bench(scene, settings);
+  bench.try_methods(methods);
+  return bench.measure(make_reference(scene, bidir, render_settings(bidir, scene, settings), 0.25, {}));
+}
+
+double power(const scene::Scene& scene) {
+  const scene::Patch& disk = scene.patches.back();
+  REQUIRE(disk.surface.area_emitter == 0);
+  const double area = std::numbers::pi * glm::length(glm::cross(disk.edge_u, disk.edge_v));
+  return std::numbers::pi * area * scene.area_emitters[0].radiance.x;
+}
+
+// Whether a point is within the camera's pyramid.
+bool in_view(const scene::Camera& camera, const scene::Vec3& point) {
+  const scene::Vec3 d = point - camera.position;
+  const double depth = glm::dot(d, camera.forward), reach = depth * camera.tan_half_fov_x;
+  return depth > 0 && std::abs(glm::dot(d, camera.left)) < reach && std::abs(glm::dot(d, camera.up)) < reach;
+}
+
+} // namespace
+
+TEST_CASE("The lamp of the atlas has the same power in every cell, and is never in view") {
+  for (const StabilityCell& cell : stability_cells(false)) {
+    const scene::Scene scene = stability_scene(cell.exponent, cell.light_radius, 8);
+    CHECK(power(scene) == Approx(20));
+    CHECK(scene.materials[3].exponent_u == cell.exponent);
+    const scene::Patch& disk = scene.patches.back();
+    for (int i = 0; i < 64; ++i) {
+      const double angle = 2 * std::numbers::pi * i / 64;
+      CHECK_FALSE(
+          in_view(scene.camera, disk.origin + std::cos(angle) * disk.edge_u + std::sin(angle) * disk.edge_v));
+    }
+  }
+}
+
+TEST_CASE("The quick cells of the atlas are some of the others") {
+  const auto all = stability_cells(false), quick = stability_cells(true);
+  CHECK(all.size() == 36);
+  CHECK(quick.size() == 9);
+  for (const StabilityCell& cell : quick) CHECK(std::ranges::count(all, cell) == 1);
+}
+
+// A path meets a lamp of this size once in 10^9 samples or so.
+TEST_CASE("A method that never meets the light is suspect, and no reference") {
+  const scene::Scene scene = stability_scene(100, 1e-4, 8);
+  SceneBenchSettings settings;
+  settings.seconds = 0.5;
+  settings.trial_renders = 3;
+  SceneBench bench(scene, settings);
+  bench.try_methods({none, mis});
+  CHECK(bench.trials()[0].variance == 0);
+  const ReferenceImage reference = bench.reference();
+  CHECK(reference.method == mis.name());
+  const auto results = bench.measure(reference);
+  CHECK(results[0].verdict == Verdict::suspect_variance);
+  CHECK_THAT(results[0].reason, Catch::Contains("never met"));
+}
+
+// Directions meet a lamp of this size once in 10^7 samples; a hundred would have to be met.
+TEST_CASE("Where the light is tiny, hitting it by chance is suspect and sampling it is sound") {
+  const Method light_samples{"path", "exact", "light"};
+  const auto results = measured(stability_scene(1, .001, 8), {none, light_samples}, 1);
+  CHECK(results[0].verdict == Verdict::suspect_variance);
+  CHECK(results[1].verdict == Verdict::sound);
+}
+
+// MATH.md 2.6: of all strategies `exact` has the least variance where lights are hit by directions alone.
+TEST_CASE("In the atlas a method that is made worse comes out worse") {
+  const Method plain{"path", "uniform", "none"};
+  const auto results = measured(stability_scene(10, .3, 8), {none, plain}, 2);
+  REQUIRE(results[0].verdict == Verdict::sound);
+  const Figure a = results[0].variance, b = results[1].variance;
+  CAPTURE(a.value, a.standard_error, b.value, b.standard_error);
+  CHECK(b.value - a.value > 4 * std::hypot(a.standard_error, b.standard_error));
+}
