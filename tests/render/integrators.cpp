@@ -19,6 +19,8 @@ double welch_p(double a, double variance_a, double b, double variance_b, int ren
 }
 
 std::string name_of(const Method& method) {
+  if (method.connect != render::Connect::mis)
+    return method.connect == render::Connect::none ? "path, hits" : "path, light samples";
   if (method.integrator != "bidir") return method.integrator;
   return method.weights == render::Weights::balance ? "bidir, balance"
          : method.weights == render::Weights::power ? "bidir, power"
@@ -28,6 +30,7 @@ std::string name_of(const Method& method) {
 Repeated repeated(const scene::Scene& scene, const Method& method, render::Settings with, int renders) {
   with.integrator = method.integrator;
   with.weights = method.weights;
+  with.connect = method.connect;
   const std::uint64_t first_seed = with.seed;
   std::vector<Channels> means;
   Repeated result;

@@ -11,12 +11,15 @@ namespace phlux::test {
 struct Method {
   std::string integrator = "path";
   render::Weights weights = render::Weights::balance; ///< bidir
+  render::Connect connect = render::Connect::mis;     ///< path
 };
 
 [[nodiscard]] std::string name_of(const Method& method);
 
 inline const Method path{"path"}, light{"light"}, bidir{"bidir"},
-    bidir_power{"bidir", render::Weights::power}, bidir_uniform{"bidir", render::Weights::uniform};
+    bidir_power{"bidir", render::Weights::power}, bidir_uniform{"bidir", render::Weights::uniform},
+    path_hits{"path", render::Weights::balance, render::Connect::none},
+    path_light_samples{"path", render::Weights::balance, render::Connect::light};
 
 /// Means of independent renders. One path may reach several pixels, so that pixels are not independent: the
 /// variance of the image's mean is therefore measured between the renders.
