@@ -58,20 +58,6 @@ struct SceneRun {
   std::string settings; // fingerprint of all that the figures depend on but the method
 };
 
-scene::Scene load_at_size(const std::filesystem::path& file, int largest_side) {
-  scene::Scene scene = scene_file::load(file);
-  scene::Camera& camera = scene.camera;
-  const int side = std::max(camera.width, camera.height);
-  if (side > largest_side) {
-    const auto scaled = [&](int pixels) {
-      return std::max(1, static_cast<int>(std::lround(static_cast<double>(pixels) * largest_side / side)));
-    };
-    camera.width = scaled(camera.width);
-    camera.height = scaled(camera.height);
-  }
-  return scene;
-}
-
 SceneRun load(const std::filesystem::path& file, const Run& run) {
   const int side = run.options.largest_side.value_or(run.options.quick ? quick_side : default_side);
   SceneRun result{file.stem().string(), load_at_size(file, side), {}};
@@ -297,6 +283,20 @@ void finish(const Run& run, const Done& done) {
 }
 
 } // namespace
+
+scene::Scene load_at_size(const std::filesystem::path& file, int largest_side) {
+  scene::Scene scene = scene_file::load(file);
+  scene::Camera& camera = scene.camera;
+  const int side = std::max(camera.width, camera.height);
+  if (side > largest_side) {
+    const auto scaled = [&](int pixels) {
+      return std::max(1, static_cast<int>(std::lround(static_cast<double>(pixels) * largest_side / side)));
+    };
+    camera.width = scaled(camera.width);
+    camera.height = scaled(camera.height);
+  }
+  return scene;
+}
 
 std::vector<std::filesystem::path> shipped_scenes() {
   std::error_code ignored;

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "scene/scene.h"
+
 namespace phlux::bench {
 
 struct ScenesOptions {
@@ -32,6 +34,9 @@ struct ScenesOptions {
 /// scene.
 /// Returns false when interrupted. @throws UsageError, SceneError, DeviceError, WriteError
 [[nodiscard]] bool measure_scenes(const ScenesOptions& options);
+
+/// The scene in `file`, its image no larger than `largest_side` pixels. @throws SceneError
+[[nodiscard]] scene::Scene load_at_size(const std::filesystem::path& file, int largest_side);
 
 /// The scenes that ship: scenes/*.xml in the working directory, or beside the program's folder. @throws
 /// UsageError where there are none

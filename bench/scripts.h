@@ -21,5 +21,7 @@ namespace phlux::bench {
 [[nodiscard]] std::string_view arithmetic_script();
 /// bench/stability.py
 [[nodiscard]] std::string_view stability_script();
+/// bench/precision.py
+[[nodiscard]] std::string_view precision_script();
 
 } // namespace phlux::bench

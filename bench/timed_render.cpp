@@ -115,6 +115,18 @@ TimedRender render_for(const scene::Scene& scene, render::Settings settings, dou
   return result;
 }
 
+film::Film render_samples(const scene::Scene& scene, const render::Settings& settings,
+                          const std::function<bool()>& interrupted) {
+  const QuietLog quiet;
+  film::Film film(scene.camera.width, scene.camera.height);
+  bool stopped = false;
+  render::Events events;
+  events.progress = [&](const render::Progress&) { return !(stopped = interrupted && interrupted()); };
+  (void)render::render(scene, settings, film, events);
+  if (stopped) throw Interrupted{};
+  return film;
+}
+
 ImageEstimate render_one_sample(const scene::Scene& scene, const render::Settings& settings) {
   const QuietLog quiet;
   return render_once(scene, settings, 0).last.image;

@@ -45,6 +45,11 @@ struct TimedRender {
                                      const std::vector<double>& times,
                                      const std::function<bool()>& interrupted);
 
+/// `settings.samples_per_pixel` samples, without the warnings that a render of the user's would give. @throws
+/// Interrupted, and as render()
+[[nodiscard]] film::Film render_samples(const scene::Scene& scene, const render::Settings& settings,
+                                        const std::function<bool()>& interrupted);
+
 /// An image with one sample per pixel. @throws as render()
 [[nodiscard]] ImageEstimate render_one_sample(const scene::Scene& scene, const render::Settings& settings);
 

@@ -20,7 +20,7 @@
 typedef double Scalar;
 #define REAL(literal) literal
 #define REAL_HALF_ULP 1.1102230246251565e-16 // of 1: 2^-53
-#define REAL_LARGE 1e300                     // with room for a product with a few ordinary numbers
+#define REAL_LARGE 1e200                     // with room for products with ordinary numbers
 #else
 typedef float Scalar;
 #define REAL(literal) literal##f

@@ -6,6 +6,7 @@
 
 #include "bench/arithmetic.h"
 #include "bench/figures.h"
+#include "bench/precision.h"
 #include "bench/rays.h"
 #include "bench/sampling.h"
 #include "bench/scenes.h"
@@ -146,6 +147,25 @@ void add_arithmetic(CLI::App& bench, std::optional<Command>& command) {
   });
 }
 
+void add_precision(CLI::App& bench, std::optional<Command>& command) {
+  CLI::App& app = *bench.add_subcommand(
+      "precision", "Float32 against float64: its error against noise, and its speed: precision.csv");
+  const auto options = std::make_shared<bench::PrecisionOptions>();
+  add_common(app, *options);
+  add_values(app, "--scene", "FILE.xml",
+             "only this one; may be repeated; default: those that ship, with those of scenes/stability",
+             [options](const std::string& text) { options->scenes.emplace_back(text); });
+  app.add_flag("--quick", options->quick, "path tracing alone, without scenes/stability; fewer samples");
+  app.footer("--width N is measured beside 1. The device must have doubles.");
+  app.final_callback([&command, options] {
+    command = [options] {
+      const InterruptGuard guard;
+      options->interrupted = [&guard] { return guard.requested(); };
+      return bench::measure_precision(*options) ? 0 : interrupted_exit_code;
+    };
+  });
+}
+
 void add_figures(CLI::App& bench, std::optional<Command>& command) {
   CLI::App& app = *bench.add_subcommand(
       "figures", "The figures of CW 197 from the kernels' output: figure-1 to figure-7 (.csv, .svg, .png)");
@@ -261,6 +281,7 @@ void add_bench(CLI::App& program, std::optional<Command>& command) {
   add_rays(app, command);
   add_sampling(app, command);
   add_arithmetic(app, command);
+  add_precision(app, command);
   add_figures(app, command);
   add_stability(app, command);
 }

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "cli/program.h"
+#include "device/device.h"
 #include "temporary_folder.h"
 
 namespace {
@@ -376,6 +377,28 @@ TEST_CASE("phlux bench stability goes on where it was interrupted") {
   CHECK(rows()[2] != first[1]);
 }
 
+TEST_CASE("phlux bench precision writes a row for each width, its charts and a section of the report") {
+  if (!phlux::device::open_devices({}).front().info.doubles) return;
+  const TemporaryFolder folder;
+  const std::string scene = shipped("furnace-sphere");
+  const Outcome outcome =
+      run({{"bench", "precision", "--quick", "--width", "4", "--scene", scene, "--out", "out"},
+           folder.path(),
+           {},
+           {}});
+  CAPTURE(outcome.err);
+  const auto lines = lines_of(TemporaryFolder::read(folder / "out/precision.csv"));
+  REQUIRE(lines.size() == 3);
+  for (const std::string& line : lines) CHECK(columns_of(line) == columns_of(lines[0]));
+  CHECK_THAT(lines[1], Catch::StartsWith("furnace-sphere,path,1,"));
+  CHECK_THAT(lines[2], Catch::StartsWith("furnace-sphere,path,4,"));
+  if (!has_charts(outcome)) return;
+  for (const char* chart : {"tradeoff", "time"})
+    CHECK_THAT(TemporaryFolder::read(folder / (std::string("out/precision-") + chart + ".svg")),
+               Catch::Contains("</svg>"));
+  CHECK_THAT(TemporaryFolder::read(folder / "out/index.html"), Catch::Contains("Float32 against float64"));
+}
+
 TEST_CASE("phlux bench: bad input is one line and its exit code") {
   struct Bad {
     std::vector<std::string> arguments;
@@ -423,6 +446,8 @@ TEST_CASE("phlux bench: bad input is one line and its exit code") {
       {{"stability", "--device", "none such"}, 4, "none such"},
       {{"arithmetic", "--out", "/proc/phlux"}, 5, "/proc/phlux"},
       {{"arithmetic", "--width", "5"}, 2, "--width 5"},
+      {{"precision", "--scene", "broken.xml"}, 3, "broken.xml"},
+      {{"precision", "--out", "/proc/phlux", "--scene", shipped("furnace-box")}, 5, "/proc/phlux"},
       {{"figures", "--out", "/proc/phlux"}, 5, "/proc/phlux"},
       {{"figures", "--out", "file"}, 5, "file"},
       {{"figures", "--device", "none such"}, 4, "none such"},
