@@ -222,6 +222,19 @@ TEST_CASE("floor and light of needle triangles look like rectangles") {
   }
 }
 
+// What is below would be seen through a gap between two needles.
+TEST_CASE("nothing shines through a floor of needle triangles") {
+  scene::Scene scene = stability("slivers");
+  scene.patches.push_back(square({0, -0.5, 0}, {0, 0, 1}, {1, 0, 0}, 3, scene.meshes[1].surface));
+  scene.camera = look_at({0.1, 0.9, 0.2}, {0.05, 0, 0.1}, 60, width, height);
+  render::Settings settings = with(path, 4096, 1);
+  settings.traversal = render::Traversal::bvh;
+  settings.max_depth = 1;
+  CHECK(mean_of(estimate_of(render_of(scene, settings).film)) == 0);
+  scene.meshes[0].triangles.pop_back();
+  CHECK(mean_of(estimate_of(render_of(scene, settings).film)) > 0);
+}
+
 namespace {
 
 // As million_lights.py.
