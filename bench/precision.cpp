@@ -136,6 +136,13 @@ std::vector<Method> methods_of(const PrecisionOptions& options) {
   return {{"path", strategy, "mis"}, {"light", strategy, "-"}, {"bidir", strategy, "balance"}};
 }
 
+// The file's name, with its folder's where there are two of one name.
+std::string name_of(const std::filesystem::path& file, const std::vector<std::filesystem::path>& files) {
+  const auto count =
+      std::ranges::count_if(files, [&](const auto& other) { return other.stem() == file.stem(); });
+  return count > 1 ? (file.parent_path().filename() / file.stem()).string() : file.stem().string();
+}
+
 void print(const std::string& scene, const Method& method, int lanes, const PrecisionError& error,
            const Timing& time) {
   fmt::print("{:<20} {:<12} WIDTH {:<3} error of float32 {:.2g} of the noise of {:g} samples, systematic at "
@@ -145,10 +152,10 @@ void print(const std::string& scene, const Method& method, int lanes, const Prec
   std::fflush(stdout);
 }
 
-void measure_scene(const PrecisionOptions& options, const std::filesystem::path& file, const Method& method,
-                   const device::DeviceInfo& device, CsvFile& table, StatusLine& status) {
+void measure_scene(const PrecisionOptions& options, const std::filesystem::path& file,
+                   const std::string& scene, const Method& method, const device::DeviceInfo& device,
+                   CsvFile& table, StatusLine& status) {
   const Setup setup{options, load_at_size(file, largest_side), method};
-  const std::string scene = file.stem().string();
   const int native = options.lanes != 0 ? options.lanes : device.lanes;
   std::vector<int> widths = {1};
   if (native != 1) widths.push_back(native);
@@ -268,7 +275,7 @@ bool measure_precision(const PrecisionOptions& options) try {
   StatusLine status;
   for (const Method& method : methods_of(options))
     for (const auto& file : files)
-      measure_scene(options, file, method, device.info, table, status);
+      measure_scene(options, file, name_of(file, files), method, device.info, table, status);
   status.clear();
   fmt::print("{}\n", (options.folder / "precision.csv").string());
   std::fflush(stdout);

@@ -110,8 +110,10 @@ def main():
     style.section(
         folder, "precision", title="Float32 against float64", order=45,
         text=["The same seed gives the same samples in either precision, but for rounding: what two images differ by is the "
-              "error of float32, far below their common noise. Part of it is systematic; the rest are samples that rounding "
-              "sent another way, which is no bias. Both are root mean squares over pixels and channels in the measure of "
+              "error of float32, mostly far below their common noise. Part of it is systematic; the rest are samples that "
+              "rounding sent another way, which is no bias: reflections enlarge the rounding of those before them, and samples "
+              "of very long paths may have nothing in common in the end. A difference near 1 then says no more than that, and "
+              "the systematic part is known no better. Both are root mean squares over pixels and channels in the measure of "
               "phlux compare.",
               "Camera, materials and lights are the same rounded floats in both, and so are sums on their way to the host; "
               "shapes are doubles in float64."],
