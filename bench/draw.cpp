@@ -42,16 +42,10 @@ std::string with_chart_style(std::string_view script) {
                      nlohmann::json(chart_style_script()).dump(-1, ' ', true), script);
 }
 
-constexpr const char* no_figures = "the figures cannot be drawn";
 constexpr const char* no_charts = "the charts cannot be drawn";
 constexpr const char* no_report = "the report cannot be written";
 
 } // namespace
-
-void draw_figures(const std::filesystem::path& folder) {
-  const std::string python = python_with("matplotlib", "python3-matplotlib", no_figures);
-  run(python, folder, std::string(figures_script()), no_figures);
-}
 
 void write_report(const std::filesystem::path& folder) {
   run(python_with("json", "python3", no_report), folder, std::string(report_script()), no_report);

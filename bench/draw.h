@@ -6,12 +6,9 @@
 
 namespace phlux::bench {
 
-/// Draws figure-1.svg and .png to figure-7 beside the tables in `folder`. @throws WriteError where no Python
-/// with matplotlib is found, naming the package, or where it fails
-void draw_figures(const std::filesystem::path& folder);
-
 /// Runs a script of this folder (scripts.h), which draws charts from the tables in `folder` and writes a
-/// section of the report, then writes the report. @throws WriteError as draw_figures
+/// section of the report, then writes the report. @throws WriteError where no Python with matplotlib is found,
+/// naming the package, or where it fails
 void draw_charts(const std::filesystem::path& folder, std::string_view script);
 
 /// Writes `folder`/index.html from the sections there (README.md). @throws WriteError

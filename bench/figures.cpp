@@ -10,6 +10,8 @@
 #include "bench/csv.h"
 #include "bench/draw.h"
 #include "bench/phong_program.h"
+#include "bench/provenance.h"
+#include "bench/scripts.h"
 
 namespace phlux::bench {
 namespace {
@@ -169,7 +171,11 @@ void make_figures(const FiguresOptions& options) {
   fmt::print("reflectivity {:.5f}; figure 6 sums to {:.5f}, figure 7 to {:.5f}\n", sums.exact, sums.sampled,
              sums.evaluated);
   std::fflush(stdout);
-  draw_figures(options.folder);
+  const device::DeviceInfo device = device::open_devices(options.devices).front().info;
+  write_provenance(options.folder, "figures",
+                   {"phlux bench figures", device, options.lanes != 0 ? options.lanes : device.lanes,
+                    "nothing is timed", std::to_string(options.seed)});
+  draw_charts(options.folder, figures_script());
   fmt::print("{}\n", (options.folder / "figure-{1..7}.{csv,svg,png}").string());
 }
 

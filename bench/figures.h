@@ -25,7 +25,7 @@ struct FigureSums {
 /// Computes every figure's data and writes the tables. @throws DeviceError, WriteError
 FigureSums write_figure_tables(const FiguresOptions& options);
 
-/// The tables, then SVG and PNG files beside them. @throws DeviceError, WriteError, also when the drawings
+/// The tables, then SVG and PNG files beside them and the report. @throws DeviceError, WriteError, also when the drawings
 /// cannot be made: the tables are there then
 void make_figures(const FiguresOptions& options);
 

@@ -1,6 +1,6 @@
-"""Draws the figures of CW 197 from the tables that `phlux bench figures` writes.
+"""Draws the figures of CW 197 from the tables that `phlux bench figures` writes, and writes their section of the report.
 
-    python3 - FOLDER < figures.py
+    python3 figures.py FOLDER
 
 FOLDER/figure-N.csv becomes figure-N.svg and figure-N.png, N = 1 to 7.
 """
@@ -9,15 +9,15 @@ import math
 import os
 import sys
 
-import matplotlib
-
-matplotlib.use("Agg")
+import chart_style as style
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import LightSource
 
-INK = "#22272e"
-GRAY = "#9aa3ad"
+# None is one of chart_style.py's: in a page with its charts those change with the theme.
+INK = "#23272e"
+GRAY = "#9ba3ad"
+WHITE = "#fffffe"
 BLUE = "#2f6ea5"
 PALE = "#dce9f4"
 FACE = "#f3f8fc"
@@ -39,7 +39,8 @@ plt.rcParams.update({
     "ytick.labelsize": 8,
     "svg.hashsalt": "phlux",
     "svg.fonttype": "path",
-    "figure.facecolor": "white",
+    "figure.facecolor": WHITE,
+    "axes.facecolor": WHITE,
 })
 
 
@@ -55,6 +56,28 @@ def save(figure, folder, number):
         metadata = {"Date": None} if extension == "svg" else {"Software": None}
         figure.savefig(os.path.join(folder, f"figure-{number}.{extension}"), dpi=130, metadata=metadata)
     plt.close(figure)
+
+
+# ---- The section
+
+TEXT = [
+    "The figures of CW 197 (Lafortune and Willems 1994), from what the kernels evaluate and sample. They are on white in both "
+    "themes, as they were printed. Figures 6 and 7 must agree but for noise.",
+]
+CAPTIONS = {
+    1: "f_r in the plane of incidence, for six directions of incidence.",
+    2: "The reflectivity's integrand over the angles: f_r cos θ sin θ.",
+    3: "Over c = 1 - cos θ and φ, which are even on the hemisphere: f_r (1 - c).",
+    4: "Over the unit square that is mapped in proportion to the cosine: π f_r.",
+    5: "Over the unit disk under the hemisphere: f_r.",
+    6: "Each square's share of the reflectivity, by sampling directions.",
+    7: "The same, by evaluating the model in each square.",
+}
+
+
+def write_section(folder):
+    style.section(folder, "figures", title="The figures of CW 197", order=60, text=TEXT, charts=[
+        {"svg": f"figure-{number}.svg", "title": f"Figure {number}", "caption": caption} for number, caption in CAPTIONS.items()])
 
 
 # ---- Figure 1
@@ -131,7 +154,7 @@ def gridded(data):
 
 def plain_3d(axes):
     for axis in (axes.xaxis, axes.yaxis, axes.zaxis):
-        axis.pane.set_facecolor("white")
+        axis.pane.set_facecolor(WHITE)
         axis.pane.set_edgecolor(GRAY)
         axis.set_rotate_label(False)
         axis._axinfo["grid"].update(color="#e3e6ea", linewidth=0.5)
@@ -274,6 +297,7 @@ def main():
     top = 1.05 * max(read(folder, number)["partial_reflectivity"].max() for number in (6, 7))
     figure_of_squares(folder, 6, "sampling: 100,000 samples", top)
     figure_of_squares(folder, 7, "evaluating: 10 samples per square", top)
+    write_section(folder)
 
 
 if __name__ == "__main__":

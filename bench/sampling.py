@@ -122,7 +122,8 @@ def panels_of(lines, columns, panel, *, gap=(0.25, 0.4), left=0.65, right=0.15, 
 
 
 def title_of(figure, text):
-    figure.text(0.5, 1 - 0.12 / figure.get_figheight(), text, ha="center", va="top", fontsize=11)
+    size = min(11, 130 * figure.get_figwidth() / len(text))  # a narrow figure has less room for it
+    figure.text(0.5, 1 - 0.12 / figure.get_figheight(), text, ha="center", va="top", fontsize=size)
 
 
 def legend_below(figure, handles):

@@ -59,17 +59,33 @@ class Atlas:
         """The methods that may win there, the best first."""
         return sorted((entry for entry in self.entries if entry.place == place and entry.sound), key=lambda entry: entry.cost)
 
+    def suspects(self, place):
+        """Those of which something was met, by that."""
+        return sorted((entry for entry in self.entries if entry.place == place and entry.suspect and entry.cost > 0),
+                      key=lambda entry: entry.cost)
+
     def color(self, method, theme):
         return theme.color(self.of(method)[0].number)
 
 
-def margin_of(ranked):
-    """How many times as long the runner-up takes, and whether that is more than the errors explain."""
+def margin_of(ranked, suspects):
+    """How many times as long the runner-up takes, and whether that is more than the errors explain, and no method that is
+    suspect may be faster."""
+    undecided = any(entry.cost < ranked[0].cost for entry in suspects)
     if len(ranked) < 2:
-        return math.inf, True
+        return math.inf, not undecided
     margin = ranked[1].cost / ranked[0].cost
     error = math.hypot(ranked[0].relative_error, ranked[1].relative_error)
-    return margin, margin > CLEAR_MARGIN and math.log(margin) > 2 * error
+    return margin, margin > CLEAR_MARGIN and math.log(margin) > 2 * error and not undecided
+
+
+def of_another(ranked, suspects):
+    """The best of the other integrators over the best of all; where none of them is sound, what is known of it."""
+    for entries, sign in ((ranked, ""), (suspects, "≥")):
+        others = [entry for entry in entries if entry.row.integrator != ranked[0].row.integrator]
+        if others:
+            return f"{others[0].row.integrator} {sign}{ratio(others[0].cost / ranked[0].cost)}"
+    return ""
 
 
 def short(value):
@@ -80,7 +96,7 @@ def short(value):
 
 
 def ratio(value):
-    return f"{value:.2f}" if value < 1.995 else short(value)
+    return f"{value:.1g}" if value < 0.095 else f"{value:.2f}" if value < 1.995 else short(value)
 
 
 def exponent_text(n):
@@ -189,14 +205,13 @@ def draw_best(atlas, theme):
                 x, y = square(axes, place, atlas, facecolor=theme.wash)
                 axes.text(x, y, "none\nsound", ha="center", va="center", fontsize=7, color=theme.muted)
             continue
-        margin, clear = margin_of(ranked)
+        suspects = atlas.suspects(place)
+        margin, clear = margin_of(ranked, suspects)
         color = atlas.color(ranked[0].method, theme)
         x, y = square(axes, place, atlas, facecolor=color, alpha=1 if clear else 0.45)
         ink = theme.paper if clear else theme.ink
         axes.text(x, y + 0.16, "alone" if math.isinf(margin) else ratio(margin), ha="center", va="center", fontsize=8, color=ink)
-        other = next((entry for entry in ranked if entry.row.integrator != ranked[0].row.integrator), None)
-        text = f"{other.row.integrator} {ratio(other.cost / ranked[0].cost)}" if other else "no other"
-        axes.text(x, y - 0.22, text, ha="center", va="center", fontsize=6.5, color=ink)
+        axes.text(x, y - 0.22, of_another(ranked, suspects), ha="center", va="center", fontsize=6.5, color=ink)
         seen[ranked[0].number] = ranked[0].method
     set_grid(axes, atlas)
     handles = [Patch(facecolor=atlas.color(method, theme), label=method) for _, method in sorted(seen.items())]
@@ -277,8 +292,8 @@ def main():
         charts += [
             {"svg": "stability-best.svg", "title": "The best method",
              "caption": f"Above, how many times as long the runner-up takes; faint where that is below {CLEAR_MARGIN:g} or within "
-                        "two standard errors. Below, the best method of another integrator, where one is sound: the variances "
-                        "of the others are suspect."},
+                        "two standard errors, or where one that is suspect may be faster. Below, the best method of another "
+                        "integrator; ≥: of what is known of it, its variance being suspect."},
             {"svg": "stability-cost.svg", "title": "Each method", "caption": "Microseconds to unit variance. Hatched: the variance is suspect, and what was met of it is a lower bound, if "
                         "anything was. Crossed: the image is off the reference, though its variance does not show why."}]
     places = [place for place in corners(atlas) if os.path.exists(image_file(folder, place))]

@@ -134,6 +134,8 @@ TEST_CASE("phlux bench figures draws the seven figures of CW 197") {
     CHECK_THAT(TemporaryFolder::read(folder / (name + ".png")), Catch::StartsWith("\x89PNG"));
     CHECK_THAT(TemporaryFolder::read(folder / (name + ".svg")), Catch::Contains("</svg>"));
   }
+  CHECK_THAT(TemporaryFolder::read(folder / "a folder/index.html"),
+             Catch::Contains("The figures of CW 197") && !Catch::Contains("is not here"));
 }
 
 TEST_CASE("phlux bench figures without matplotlib keeps the tables and names the package") {
