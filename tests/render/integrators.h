@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "render/scenes.h"
+#include "render/welch.h"
 
 namespace phlux::test {
 
@@ -31,9 +32,6 @@ struct Repeated {
 
 [[nodiscard]] Repeated repeated(const scene::Scene& scene, const Method& method, render::Settings with,
                                 int renders = 16);
-
-/// Two-sided p of Welch's test (1947) of two means of `renders` values each; 1 where they differ by rounding.
-[[nodiscard]] double welch_p(double a, double variance_a, double b, double variance_b, int renders);
 
 /// The z-tests of agreement() for tiles of `side` x `side` pixels and, instead of its test of the image's
 /// mean, Welch's t-test of the means of the renders. A false alarm of either has the chance false_alarm_rate.

@@ -1,0 +1,40 @@
+// By which methods random scenes are rendered.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "render/render.h"
+#include "scene/scene.h"
+
+namespace phlux::test {
+
+/// What makes some methods unfit for a scene.
+struct SceneFacts {
+  double largest_exponent = 0; ///< of lobes
+  double brightest = 0;        ///< radiance, or what a light without area sends to a scene's radius away
+  double smallest_light = 1;   ///< area of the smallest emitter / that of the scene's largest cross-section
+  bool lights_without_area = false; ///< point, spot or directional: nothing can hit them
+};
+
+[[nodiscard]] SceneFacts facts_of(const scene::Scene& scene);
+
+/// The methods for the scenes of a family: `count` (4 or 5) of them, path tracing, path tracing, light
+/// tracing, bidirectional, bidirectional. Over the families, every pair of integrator and weights, strategy,
+/// width and traversal comes up about equally soon. The first and the fifth sample lobes by their shape; in
+/// families with sharp lobes all do.
+[[nodiscard]] std::vector<render::Settings> methods_of_family(std::uint64_t family, int count);
+
+/// The method, without what the renderer refuses for this scene.
+[[nodiscard]] render::Settings possible(render::Settings method, const SceneFacts& facts);
+
+/// Why rare samples may carry much of the image, so that no number of samples that a test has time for shows
+/// their mean and variance: some paths' contributions are not bounded by a small multiple of the mean. Empty
+/// where that is not to be feared.
+[[nodiscard]] std::string doubts(const render::Settings& method, const SceneFacts& facts);
+
+/// Such as "bidir power mixture 8 bvh".
+[[nodiscard]] std::string name_of(const render::Settings& method);
+
+} // namespace phlux::test

@@ -1,0 +1,29 @@
+// Small meshes of random shape as OBJ and PLY files.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "random/random_numbers.h"
+#include "scene/scene.h"
+
+namespace phlux::test {
+
+struct RandomMesh {
+  std::vector<scene::Vec3> positions, normals; ///< a normal per position, or none
+  std::vector<std::array<int, 3>> triangles;
+};
+
+enum class MeshShape { tetrahedron, octahedron, icosahedron, sheet };
+
+/// About the unit sphere's size, closed but for the sheet. Vertices are moved by `random`, never so far that
+/// a closed mesh turns inside out; normals lean away from the triangles' by some twenty degrees.
+[[nodiscard]] RandomMesh random_mesh(MeshShape shape, bool with_normals, RandomNumbers& random);
+
+[[nodiscard]] std::string obj_file(const RandomMesh& mesh);
+
+enum class PlyFormat { ascii, little_endian, big_endian };
+[[nodiscard]] std::string ply_file(const RandomMesh& mesh, PlyFormat format);
+
+} // namespace phlux::test
