@@ -21,7 +21,8 @@ using render::Traversal;
 using render::Weights;
 
 // A direction that is chosen without the lobe finds it in one of (n + 2) / 2 samples or fewer.
-constexpr double sharp = 100;
+constexpr double sharp = 100, sharp_for_eye = 50;
+constexpr double narrow_view = 0.01; // light paths that end in it are few, and in its darkest part fewer
 constexpr double small_light = 1e-3; // in SceneFacts' unit
 
 struct Kind {
@@ -113,6 +114,7 @@ SceneFacts facts_of(const scene::Scene& scene) {
     for (const float power : light.power)
       facts.brightest = std::max(facts.brightest, unit * static_cast<double>(power));
   }
+  facts.view = std::min(1.0, static_cast<double>(host.camera.film_area) / (4 * std::numbers::pi));
   const double cross_section = std::numbers::pi * host.geometry.radius * host.geometry.radius;
   for (const double area : host.geometry.areas)
     facts.smallest_light = std::min(facts.smallest_light, area / cross_section);
@@ -145,7 +147,8 @@ Settings possible(Settings method, const SceneFacts& facts) {
 
 std::string doubts(const Settings& method, const SceneFacts& facts) {
   const bool lobes = facts.largest_exponent > sharp;
-  if (method.integrator == "light" && lobes) return "eye connected to lobes";
+  if (method.integrator == "light" && facts.view < narrow_view) return "little in view";
+  if (method.integrator == "light" && facts.largest_exponent > sharp_for_eye) return "eye connected to lobes";
   if (method.integrator == "path" && method.connect == Connect::light && lobes)
     return "lights connected to lobes";
   if (facts.lights_without_area && lobes) return "points connected to lobes";

@@ -15,6 +15,7 @@ struct SceneFacts {
   double largest_exponent = 0; ///< of lobes
   double brightest = 0;        ///< radiance, or what a light without area sends to a scene's radius away
   double smallest_light = 1;   ///< area of the smallest emitter / that of the scene's largest cross-section
+  double view = 1;             ///< of all directions, the part that the camera sees (at most this)
   bool lights_without_area = false; ///< point, spot or directional: nothing can hit them
 };
 
