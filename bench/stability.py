@@ -172,7 +172,7 @@ def draw_map(axes, atlas, method, norm, colors, theme):
 
 def draw_costs(atlas, theme):
     costs = [entry.cost for entry in atlas.entries if entry.sound]
-    norm = LogNorm(min(costs), max(costs))
+    norm = LogNorm(min(costs), max(max(costs), 1.1 * min(costs)))
     colors = plt.get_cmap(style.SEQUENTIAL + "_r")
     columns = min(4, len(atlas.methods))
     lines = -(-len(atlas.methods) // columns)
