@@ -12,6 +12,7 @@ from matplotlib.lines import Line2D
 
 UNIT = 4096  # samples whose noise is the unit of errors
 LEAST = 1e-6  # what is drawn of an error of 0
+DARK = 1e-8  # a variance below is of an image that phlux compare takes for black
 INTEGRATORS = ("path", "light", "bidir")
 
 
@@ -33,7 +34,7 @@ def draw_tradeoff(rows, theme):
         axes.annotate(row.scene, (row.times_as_fast, error_of(row)), xytext=(-6, 3), textcoords="offset points",
                       ha="right", fontsize=7.5, color=theme.muted)
     axes.axhline(1, color=theme.ink, lw=1)
-    axes.text(0.99, 1.08, f"noise of {UNIT:,} samples", transform=axes.get_yaxis_transform(), ha="right", va="bottom",
+    axes.text(0.4, 1.08, f"noise of {UNIT:,} samples", transform=axes.get_yaxis_transform(), ha="center", va="bottom",
               fontsize=8)
     axes.set_xscale("log")
     axes.set_yscale("log")
@@ -58,7 +59,8 @@ def draw_tradeoff(rows, theme):
 
 def draw_time(rows, theme):
     """Error against time of one pixel, in either precision: noise falls, what is systematic stays."""
-    chosen = [row for row in rows if row.integrator == "path" and row.width == max(r.width for r in rows)]
+    chosen = [row for row in rows if row.integrator == "path" and row.width == max(r.width for r in rows)
+              and row.variance_per_sample > DARK]
     columns = min(4, len(chosen))
     lines = math.ceil(len(chosen) / columns)
     figure, panels = plt.subplots(lines, columns, figsize=(11, 0.7 + 2.1 * lines), squeeze=False, sharey=True)
@@ -98,7 +100,7 @@ def main():
                "caption": "A point for each scene, integrator and WIDTH: what two images of the same samples differ by, in "
                           "noise of 4,096 samples; its line goes to two standard errors above the systematic part, where "
                           "that is more. Below the line at 1 and to the right is good."}]
-    if any(row.integrator == "path" for row in rows):
+    if any(row.integrator == "path" and row.variance_per_sample > DARK for row in rows):
         drawings.append(("precision-time", partial(draw_time, rows)))
         charts.append({"svg": "precision-time.svg", "title": "Accuracy bought per second, path tracing",
                        "caption": "Noise falls with the root of time; what is systematic in float32 stays, and above it "
