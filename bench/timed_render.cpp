@@ -5,7 +5,7 @@
 
 #include <sys/resource.h>
 
-#include <spdlog/spdlog.h>
+#include "render/quiet_log.h"
 
 #include "errors.h"
 
@@ -13,18 +13,6 @@ namespace phlux::bench {
 namespace {
 
 constexpr double usual_launch_seconds = 0.05;
-
-// The renderer warns once per render: here, hundreds of times of the same.
-class QuietLog {
-public:
-  QuietLog() : level_(spdlog::get_level()) { spdlog::set_level(std::max(level_, spdlog::level::err)); }
-  ~QuietLog() { spdlog::set_level(level_); }
-  QuietLog(const QuietLog&) = delete;
-  QuietLog& operator=(const QuietLog&) = delete;
-
-private:
-  spdlog::level::level_enum level_;
-};
 
 // Light tracing begins no sample in a pixel, so there the image's paths per pixel count.
 bool all_pixels(const film::Film& film, const std::function<bool(double)>& have) {
@@ -80,7 +68,7 @@ bool runs_to_end(const std::function<void()>& work, const std::function<bool()>&
 
 TimedRender render_for(const scene::Scene& scene, render::Settings settings, double seconds,
                        const std::vector<double>& times, const std::function<bool()>& interrupted) {
-  const QuietLog quiet;
+  const render::QuietLog quiet;
   film::Film film(scene.camera.width, scene.camera.height);
   TimedRender result;
   settings.time_limit = seconds;
@@ -128,7 +116,7 @@ film::Film render_samples(const scene::Scene& scene, const render::Settings& set
 }
 
 ImageEstimate render_one_sample(const scene::Scene& scene, const render::Settings& settings) {
-  const QuietLog quiet;
+  const render::QuietLog quiet;
   return render_once(scene, settings, 0).last.image;
 }
 

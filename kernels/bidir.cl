@@ -309,20 +309,27 @@ static inline void connect_subpaths(Bidir* b, Batch batch) {
 
 // ---- Batches
 
-// The sums of each job's samples (film::BlockSum).
+// The sums of each job's samples.
 static inline void sum_jobs(const Bidir* b, Batch batch, __global float* sums) {
-  const __global float* radiance = b->output.radiance;
-  for (int job = 0; job < batch.jobs; ++job)
-    for (int channel = 0; channel < 3; ++channel) {
-      float sum = 0.0f, sum_of_squares = 0.0f;
-      for (int sample = 0; sample < b->list.block_samples; ++sample) {
-        const float value = radiance[4 * (job * b->list.block_samples + sample) + channel];
-        sum += value;
-        sum_of_squares += value * value;
-      }
-      sums[(batch.job + job) * 6 + channel] = sum;
-      sums[(batch.job + job) * 6 + 3 + channel] = sum_of_squares;
+  for (int job = 0; job < batch.jobs; ++job) {
+    float4 sum = (float4)(0.0f), sum_of_squares = (float4)(0.0f);
+    float clamped = 0.0f;
+    for (int sample = 0; sample < b->list.block_samples; ++sample) {
+      float4 radiance = vload4((size_t)(job * b->list.block_samples + sample), b->output.radiance);
+#ifdef PHLUX_CLAMP
+      const float scale = PHLUX_CLAMP / fmax(PHLUX_CLAMP, fmax(radiance.x, fmax(radiance.y, radiance.z)));
+      clamped += (1.0f - scale) * (radiance.x + radiance.y + radiance.z);
+      radiance *= scale;
+#endif
+      sum += radiance;
+      sum_of_squares += radiance * radiance;
     }
+    __global float* mine = sums + (batch.job + job) * SUM_WORDS;
+    vstore3(sum.xyz, 0, mine + SUM_RADIANCE);
+    vstore3(sum_of_squares.xyz, 0, mine + SUM_SQUARES);
+    mine[SUM_NONFINITE] = 0.0f;
+    mine[SUM_CLAMPED] = clamped;
+  }
 }
 
 // A work-item's share of `scratch`, in words: light vertices, eye vertices, then a few words per path.
@@ -357,7 +364,6 @@ __kernel void trace_bidir(SCENE_PARAMETERS, int pixel_count, int first_pixel, in
   b.queue.count = 0;
   b.queue.traced = 0;
   b.rays = 0;
-  b.output.nonfinite = (Uint)(0u);
   divide_scratch(&b, scratch, rows, batch_jobs * block_samples);
   for (int index = (int)get_global_id(0); index < batch_count(list, batch_jobs); index += (int)get_global_size(0)) {
     const Batch batch = batch_at(list, batch_jobs, index);
@@ -371,8 +377,7 @@ __kernel void trace_bidir(SCENE_PARAMETERS, int pixel_count, int first_pixel, in
     sum_jobs(&b, batch, sums);
     record_counts[index] = fits ? b.output.count : -1;
   }
-  __global uint* mine = counters + get_global_id(0) * 3;
+  __global uint* mine = counters + get_global_id(0) * 2;
   mine[0] = b.rays;
   mine[1] = b.queue.traced;
-  mine[2] = sum_of_lanes(b.output.nonfinite);
 }

@@ -20,7 +20,6 @@ typedef struct {
   __global float* records; // arrays of `capacity` words each, see RecordWords
   int capacity;
   int count; // records so far, those beyond the capacity included: the host then makes more room and tries again
-  Uint nonfinite;
 #ifdef PHLUX_BIDIR
   __global float* radiance; // four words for each path: what it brought to its own pixel
 #endif
@@ -47,19 +46,20 @@ static inline void append_record(Output* output, Contribution c, Mask m) {
   output->count += count_lanes(m);
 }
 
+// What is not finite goes to the host, which counts it and knows whose it was.
 static inline void add_contribution(Output* output, Contribution c, Mask m) {
   const Vec3 weighted = vec_scale(c.weight, c.value);
-  const Real total = vec_sum(weighted);
-  const Mask finite = total - total == 0.0f;
-  output->nonfinite += (m & !finite) ? (Uint)(1u) : (Uint)(0u);
-  const Mask counts = m & finite;
 #ifdef PHLUX_BIDIR
-  if (any_lane(counts & c.own)) add_vec(output->radiance, c.path, weighted, counts & c.own);
+  const Real total = vec_sum(weighted);
+  const Mask to_own = m & c.own & (total - total == 0.0f);
+  if (any_lane(to_own)) add_vec(output->radiance, c.path, weighted, to_own);
+#else
+  const Mask to_own = NO_LANES;
 #endif
 #ifdef PHLUX_TECHNIQUES
-  const Mask recorded = counts;
+  const Mask recorded = m;
 #else
-  const Mask recorded = counts & !c.own;
+  const Mask recorded = m & !to_own;
   c.value = weighted;
 #endif
   if (any_lane(recorded)) append_record(output, c, recorded);

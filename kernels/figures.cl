@@ -73,9 +73,7 @@ __kernel void evaluate_parameters(const __global MaterialRecord* materials, cons
   const Vec3 v =
       on_hemisphere(direction_of(space, gather_real(parameters, 2 * index), gather_real(parameters, 2 * index + 1)));
   const Real value = phong_eval(m, all_lanes_of(fixed), v).x;
-  scatter_real(values, 5 * element, v.x, inside);
-  scatter_real(values, 5 * element + 1, v.y, inside);
-  scatter_real(values, 5 * element + 2, v.z, inside);
+  scatter_vec(values, 5 * element, v, inside);
   scatter_real(values, 5 * element + 3, value, inside);
   scatter_real(values, 5 * element + 4, value * measure_of(space, v), inside);
 }

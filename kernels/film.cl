@@ -5,13 +5,17 @@
 
 #include "lanes.h"
 #include "launch.h"
+#include "scene_data.h"
 
 // The job that each lane is at.
 typedef struct {
   Int job, pixel, block;
   Int samples; // done
   Vec3 sum, sum_of_squares;
-  Uint nonfinite; // samples that were not finite: they count as black
+  Real nonfinite; // samples that were not finite: they count as black
+#ifdef PHLUX_CLAMP
+  Real clamped;
+#endif
 } Job;
 
 static inline int job_stride(void) { return (int)get_global_size(0) * LANES; }
@@ -23,7 +27,10 @@ static inline Job first_job(JobList list) {
   job.pixel = list.first_pixel + job.job - job.block * list.pixel_count;
   job.samples = (Int)(0);
   job.sum = job.sum_of_squares = vec_all((Real)(0.0f));
-  job.nonfinite = (Uint)(0u);
+  job.nonfinite = (Real)(0.0f);
+#ifdef PHLUX_CLAMP
+  job.clamped = (Real)(0.0f);
+#endif
   return job;
 }
 
@@ -34,18 +41,19 @@ static inline Int sample_number(JobList list, Job job) {
   return list.first_sample + job.block * list.block_samples + job.samples;
 }
 
-// Writes the sums of the lanes in `complete` (float triples: radiance, then its square) and moves them to their next
-// job.
+// Writes the sums of the lanes in `complete` and moves them to their next job.
 static inline void hand_over(JobList list, Job* job, __global float* sums, Mask complete) {
-  const Int slot = job->job * 6;
-  scatter_real(sums, slot, job->sum.x, complete);
-  scatter_real(sums, slot + 1, job->sum.y, complete);
-  scatter_real(sums, slot + 2, job->sum.z, complete);
-  scatter_real(sums, slot + 3, job->sum_of_squares.x, complete);
-  scatter_real(sums, slot + 4, job->sum_of_squares.y, complete);
-  scatter_real(sums, slot + 5, job->sum_of_squares.z, complete);
+  const Int slot = job->job * SUM_WORDS;
+  scatter_vec(sums + SUM_RADIANCE, slot, job->sum, complete);
+  scatter_vec(sums + SUM_SQUARES, slot, job->sum_of_squares, complete);
+  scatter_real(sums + SUM_NONFINITE, slot, job->nonfinite, complete);
   job->sum = vec_select(complete, vec_all((Real)(0.0f)), job->sum);
   job->sum_of_squares = vec_select(complete, vec_all((Real)(0.0f)), job->sum_of_squares);
+  job->nonfinite = complete ? (Real)(0.0f) : job->nonfinite;
+#ifdef PHLUX_CLAMP
+  scatter_real(sums + SUM_CLAMPED, slot, job->clamped, complete);
+  job->clamped = complete ? (Real)(0.0f) : job->clamped;
+#endif
   job->samples = complete ? (Int)(0) : job->samples;
   const int stride = job_stride();
   const Int next_pixel = job->pixel + stride % list.pixel_count;
@@ -61,7 +69,12 @@ static inline void add_sample(JobList list, Job* job, Vec3 radiance, __global fl
   const Real total = radiance.x + radiance.y + radiance.z;
   const Mask finite = total - total == 0.0f;
   const Mask counts = ended & finite;
-  job->nonfinite += (ended & !finite) ? (Uint)(1u) : (Uint)(0u);
+  job->nonfinite += (ended & !finite) ? (Real)(1.0f) : (Real)(0.0f);
+#ifdef PHLUX_CLAMP
+  const Real scale = PHLUX_CLAMP / larger(vec_max(radiance), (Real)(PHLUX_CLAMP));
+  job->clamped += counts ? (1.0f - scale) * total : (Real)(0.0f);
+  radiance = vec_scale(scale, radiance);
+#endif
   job->sum = vec_select(counts, vec_add(job->sum, radiance), job->sum);
   job->sum_of_squares =
       vec_select(counts, vec_add(job->sum_of_squares, vec_mul(radiance, radiance)), job->sum_of_squares);

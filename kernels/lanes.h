@@ -471,6 +471,12 @@ static inline Real vec_sum(Vec3 a) { return a.x + a.y + a.z; }
 static inline Real vec_mean(Vec3 a) { return (a.x + a.y + a.z) * (REAL(1.0) / 3.0f); }
 static inline Real vec_largest(Vec3 a) { return larger(fabs(a.x), larger(fabs(a.y), fabs(a.z))); }
 
+static inline void scatter_vec(__global float* base, Int index, Vec3 v, Mask m) {
+  scatter_real(base, index, v.x, m);
+  scatter_real(base + 1, index, v.y, m);
+  scatter_real(base + 2, index, v.z, m);
+}
+
 // Adds v to the vector `index` of `base`, of four words each, in the lanes of m, one lane after another: two lanes may
 // share an index.
 static inline void add_vec(__global float* base, Int index, Vec3 v, Mask m) {

@@ -9,7 +9,7 @@ __kernel void trace_light(SCENE_PARAMETERS, int pixel_count, int first_pixel, in
   SCENE_FROM_PARAMETERS
   const JobList list = {pixel_count, first_pixel, job_count, first_sample, block_samples};
   const WalkLimits limits = {max_edges, roulette_edges};
-  uint rays = 0, nonfinite = 0;
+  uint rays = 0;
   ShadowQueue queue;
   queue.count = 0;
   queue.traced = 0;
@@ -19,7 +19,6 @@ __kernel void trace_light(SCENE_PARAMETERS, int pixel_count, int first_pixel, in
     output.records = records + (size_t)index * (size_t)record_words * (size_t)record_capacity;
     output.capacity = record_capacity;
     output.count = 0;
-    output.nonfinite = (Uint)(0u);
 
     Walk walk = no_walk(seed), next = no_walk(seed);
     Starts starts = no_starts();
@@ -43,10 +42,8 @@ __kernel void trace_light(SCENE_PARAMETERS, int pixel_count, int first_pixel, in
     }
     trace_last(&scene, &queue, &output);
     record_counts[index] = output.count;
-    nonfinite += sum_of_lanes(output.nonfinite);
   }
-  __global uint* mine = counters + get_global_id(0) * 3;
+  __global uint* mine = counters + get_global_id(0) * 2;
   mine[0] = rays;
   mine[1] = queue.traced;
-  mine[2] = nonfinite;
 }

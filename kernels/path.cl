@@ -162,8 +162,7 @@ __kernel void trace_paths(SCENE_PARAMETERS, int pixel_count, int first_pixel, in
     const Mask ended = working & !alive;
     if (any_lane(ended)) add_sample(list, &job, path.radiance, sums, ended);
   }
-  const int item = (int)get_global_id(0) * 3;
+  const int item = (int)get_global_id(0) * 2;
   counters[item] = sum_of_lanes(rays);
   counters[item + 1] = sum_of_lanes(shadow_rays);
-  counters[item + 2] = sum_of_lanes(job.nonfinite);
 }

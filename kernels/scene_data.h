@@ -84,6 +84,10 @@ typedef struct {
   int width, height;
 } CameraRecord;
 
+// What a device hands over for a job (film::BlockSum): sums over its samples of radiance, of its squares, of what was not
+// finite and of what clamping took away.
+enum SumWords { SUM_RADIANCE = 0, SUM_SQUARES = 3, SUM_NONFINITE = 6, SUM_CLAMPED = 7, SUM_WORDS = 8 };
+
 // A record of a splat: arrays of one word each. The last two only where each technique is wanted by itself; the
 // technique is then s << 16 | t, its complement where the path adds to its own pixel, and the value is without its
 // weight.

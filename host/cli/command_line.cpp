@@ -48,6 +48,11 @@ void add_method(CLI::App& app, RenderOptions& options) {
       "path only: a radiance that is about what arrives everywhere, as a control variate: the nearer the "
       "guess, the less noise; the mean stays right whatever it is",
       [&](const std::string& text) { options.ambient = positive_number("--ambient", text); });
+  add_value(
+      app, "--clamp", "X",
+      "no path brings a pixel more radiance than X: less noise, and a bias, which the log and the files "
+      "name",
+      [&](const std::string& text) { options.clamp = positive_number("--clamp", text); });
   add_value(app, "--max-depth", "N",
             "edges of the longest path: 1 is emission alone, -1 unbounded; default: the scene's",
             [&](const std::string& text) { options.max_depth = depth("--max-depth", text); });
@@ -137,7 +142,13 @@ void add_files(CLI::App& app, RenderOptions& options) {
       "unweighted, and a contact sheet",
       options.contributions);
   add_file("--stats", "FILE.json", "figures of the render", options.statistics);
-  app.add_flag("--moments", options.moments, "adds channels variance.R, .G and .B: variance of the mean");
+  app.add_flag(
+      "--moments", options.moments,
+      "adds channels variance.R, .G and .B: variance of the mean; and reliability: how far to trust it");
+  app.add_flag(
+      "--advise", options.advise,
+      "where the error cannot be trusted, tries the other integrators for a second each and says which "
+      "does better; without it only where that takes 3% of the time");
   app.add_flag("-q,--quiet", options.quiet, "no progress and no summary");
   app.add_flag("--verbose", options.verbose, "notes on what was passed over and chosen");
 }

@@ -22,7 +22,7 @@ struct RenderOptions {
   std::optional<render::Connect> connect;
   std::optional<render::Weights> weights;
   std::optional<int> max_depth, rr_depth;
-  std::optional<double> ambient;
+  std::optional<double> ambient, clamp;
 
   std::optional<int> samples_per_pixel;
   std::optional<double> time_limit, target_error;
@@ -39,7 +39,7 @@ struct RenderOptions {
   std::filesystem::path preview; ///< empty: the output's name, .png, beside it
   std::filesystem::path statistics;
   std::filesystem::path contributions; ///< folder, empty: none
-  bool moments = false, quiet = false, verbose = false;
+  bool moments = false, advise = false, quiet = false, verbose = false;
 };
 
 struct CompareOptions {

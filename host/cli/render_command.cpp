@@ -8,6 +8,7 @@
 #include <spdlog/spdlog.h>
 
 #include "cli/commands.h"
+#include "cli/diagnosis.h"
 #include "cli/interrupt.h"
 #include "cli/outputs.h"
 #include "cli/progress.h"
@@ -37,6 +38,7 @@ render::Settings settings_of(const RenderOptions& options, const scene::RenderDe
   settings.weights = options.weights.value_or(settings.weights);
   settings.techniques = !options.contributions.empty();
   settings.ambient = options.ambient;
+  settings.clamp = options.clamp;
   settings.samples_per_pixel = options.samples_per_pixel.value_or(defaults.samples_per_pixel);
   settings.time_limit = options.time_limit;
   settings.target_error = options.target_error;
@@ -112,7 +114,9 @@ files::RenderInfo info_of(const RenderOptions& options, const render::Settings& 
           .seed = settings.seed,
           .device = statistics.device,
           .driver = statistics.driver,
-          .seconds = statistics.seconds_render};
+          .seconds = statistics.seconds_render,
+          .clamp = settings.clamp,
+          .clamped_share = film.clamped_share()};
 }
 
 void warn_of_moments(const files::Image& image) {
@@ -127,14 +131,11 @@ void warn_of_moments(const files::Image& image) {
     }
 }
 
-void write(const Outputs& outputs, const files::RenderInfo& info, const film::Film& film,
-           const render::Statistics& statistics, bool moments) {
+void write(const Outputs& outputs, const files::RenderInfo& info, const film::Film& film, bool moments) {
   const files::Image image = files::image_of(film, info, moments && film.has_variance());
   if (moments) warn_of_moments(image);
   files::write_exr(outputs.image, image);
   if (!outputs.preview.empty()) files::write_png(outputs.preview, image);
-  if (!outputs.statistics.empty())
-    files::write_file(outputs.statistics, files::json_text(statistics_json(statistics, info, film)));
 }
 
 void write_techniques(const std::filesystem::path& folder, film::Film& film, const files::RenderInfo& info) {
@@ -151,7 +152,9 @@ std::string summary(const Outputs& outputs, const film::Film& film, const render
   if (seconds > 0.0)
     text += fmt::format(", {:.3g} M paths/s", 1e-6 * static_cast<double>(statistics.paths) / seconds);
   if (const double error = film.relative_standard_error(); std::isfinite(error))
-    text += fmt::format(", relative standard error {:.3g}%", 100.0 * error);
+    text +=
+        fmt::format(", relative standard error {:.3g}%{}", 100.0 * error,
+                    film.samples_per_pixel() < film::least_samples ? " (of too few samples to trust)" : "");
   return text + (statistics.interrupted ? ", interrupted" : "");
 }
 
@@ -161,21 +164,25 @@ int render(const RenderOptions& options) {
   if (options.verbose) spdlog::set_level(spdlog::level::info);
   const Outputs outputs = outputs_of(options);
   check_writable(outputs);
-  const scene::Scene scene = scene_file::load(options.scene_file, options.definitions, options.size);
+  scene::Scene scene = scene_file::load(options.scene_file, options.definitions, options.size);
   const render::Settings settings = settings_of(options, scene.defaults);
   film::Film film(scene.camera.width, scene.camera.height);
   const render::Statistics statistics = run(scene, settings, film, outputs, options);
 
-  if (statistics.nonfinite > 0)
-    spdlog::warn("{} samples were not finite and count as black", statistics.nonfinite);
   if (film.samples_per_pixel() == 0.0) { // an older image is worth more than a black one
     spdlog::warn("interrupted before the first sample: nothing is written");
     return interrupted_exit_code;
   }
   const files::RenderInfo info = info_of(options, settings, film, statistics);
-  write(outputs, info, film, statistics, options.moments);
+  // The image is safe before anything else is tried.
+  write(outputs, info, film, options.moments);
+  const Diagnosis diagnosis = diagnose(film, statistics, settings, std::move(scene), options.advise);
+  if (!outputs.statistics.empty())
+    files::write_file(outputs.statistics,
+                      files::json_text(statistics_json(statistics, info, film, diagnosis)));
   if (settings.techniques) write_techniques(options.contributions, film, info);
   if (!options.quiet) fmt::print("{}\n", summary(outputs, film, statistics));
+  report(diagnosis, film, statistics, settings);
   return statistics.interrupted ? interrupted_exit_code : 0;
 }
 

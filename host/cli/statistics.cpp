@@ -1,9 +1,41 @@
 #include "cli/statistics.h"
 
 namespace phlux::cli {
+namespace {
+
+template<class T>
+nlohmann::ordered_json value_or_null(const std::optional<T>& value) {
+  return value ? nlohmann::ordered_json(*value) : nullptr;
+}
+
+nlohmann::ordered_json reliability_json(const film::Reliability& r, const film::Film& film) {
+  auto history = nlohmann::ordered_json::array();
+  for (const film::Growth& then : film.history())
+    history.push_back({{"samples", then.samples}, {"largest", then.largest}});
+  return {{"trusted", r.trusted},
+          {"reasons", r.reasons},
+          {"variance", r.variance},
+          {"variance_error", r.variance_error},
+          {"understated", r.understated},
+          {"top_share", r.top_share},
+          {"tail_index", value_or_null(r.tail_index)},
+          {"growth", value_or_null(r.growth)},
+          {"worst", {{"x", r.worst_x}, {"y", r.worst_y}, {"share", r.worst_share}}},
+          {"history", history}};
+}
+
+nlohmann::ordered_json origin_json(const std::optional<render::Origin>& origin, const film::Film& film) {
+  if (!origin) return nullptr;
+  return {{"x", origin->pixel % film.width()},
+          {"y", origin->pixel / film.width()},
+          {"sample", origin->sample},
+          {"samples", origin->samples}};
+}
+
+} // namespace
 
 nlohmann::ordered_json statistics_json(const render::Statistics& statistics, const files::RenderInfo& info,
-                                       const film::Film& film) {
+                                       const film::Film& film, const Diagnosis& diagnosis) {
   return {{"version", info.version},
           {"scene", info.scene},
           {"integrator", info.integrator},
@@ -28,6 +60,11 @@ nlohmann::ordered_json statistics_json(const render::Statistics& statistics, con
           {"kernel_cache", statistics.kernels_from_cache ? "hit" : "miss"},
           {"variance", film.has_variance() ? nlohmann::ordered_json(film.relative_variance()) : nullptr},
           {"relative_standard_error", film.relative_standard_error()},
+          {"reliability", reliability_json(diagnosis.reliability, film)},
+          {"first_nonfinite", origin_json(statistics.first_nonfinite, film)},
+          {"clamp", value_or_null(info.clamp)},
+          {"clamped_share", info.clamped_share},
+          {"advice", diagnosis.advice},
           {"interrupted", statistics.interrupted}};
 }
 

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "cli/diagnosis.h"
 #include "files/image.h"
 #include "film/film.h"
 #include "render/render.h"
@@ -12,6 +13,7 @@ namespace phlux::cli {
 /// All keys of CONTRACT.md, and version, scene, seed, lanes, traversal, parts (what the kernel holds code
 /// for), interrupted. `variance` and `relative_standard_error` are the film's; an infinite one becomes null.
 [[nodiscard]] nlohmann::ordered_json statistics_json(const render::Statistics& statistics,
-                                                     const files::RenderInfo& info, const film::Film& film);
+                                                     const files::RenderInfo& info, const film::Film& film,
+                                                     const Diagnosis& diagnosis);
 
 } // namespace phlux::cli

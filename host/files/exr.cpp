@@ -56,6 +56,11 @@ void insert_attributes(Imf::Header& header, const RenderInfo& info) {
   header.insert("device", Imf::StringAttribute(info.device));
   header.insert("driver", Imf::StringAttribute(info.driver));
   header.insert("seconds", Imf::DoubleAttribute(info.seconds));
+  if (info.clamp) {
+    header.insert("clamp", Imf::DoubleAttribute(*info.clamp));
+    header.insert("clampedShare", Imf::DoubleAttribute(info.clamped_share));
+    header.insert("bias", Imf::StringAttribute("clamped"));
+  }
 }
 
 void find_attribute(const Imf::Header& header, const char* name, std::string& value) {
@@ -80,6 +85,10 @@ RenderInfo find_attributes(const Imf::Header& header) {
   find_attribute(header, "device", info.device);
   find_attribute(header, "driver", info.driver);
   find_attribute(header, "seconds", info.seconds);
+  if (header.findTypedAttribute<Imf::DoubleAttribute>("clamp") != nullptr) {
+    find_attribute(header, "clamp", info.clamp.emplace());
+    find_attribute(header, "clampedShare", info.clamped_share);
+  }
   return info;
 }
 

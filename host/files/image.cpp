@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "film/reliability.h"
+
 namespace phlux::files {
 namespace {
 
@@ -27,9 +29,11 @@ Image image_of(const film::Film& film, const RenderInfo& info, bool moments) {
   Image image{.width = film.width(), .height = film.height(), .channels = {}, .info = info};
   const std::size_t pixels = film.pixels().size();
   add_channels(image, radiance_names, pixels, [&](std::size_t pixel) { return film.mean(pixel); });
-  if (moments)
+  if (moments) {
     add_channels(image, variance_names, pixels,
                  [&](std::size_t pixel) { return film.variance_of_mean(pixel); });
+    image.channels.emplace("reliability", film::reliability_map(film));
+  }
   return image;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,9 @@ struct RenderInfo {
   double samples = 0.0; ///< per pixel, a mean where pixels differ
   std::uint64_t seed = 0;
   std::string device, driver;
-  double seconds = 0.0; ///< of rendering
+  double seconds = 0.0;        ///< of rendering
+  std::optional<double> clamp; ///< most radiance that a path brought a pixel; none: not clamped, no bias
+  double clamped_share = 0.0;  ///< of the light, that clamping took away
 };
 
 struct Image {
@@ -29,7 +32,7 @@ struct Image {
 };
 
 /// Channels R, G, B: mean radiance, linear, neither exposed nor clamped. With `moments` also variance.R,
-/// variance.G and variance.B: the variance of that mean.
+/// variance.G and variance.B: the variance of that mean; and reliability, see film::reliability_map.
 [[nodiscard]] Image image_of(const film::Film& film, const RenderInfo& info, bool moments);
 
 } // namespace phlux::files

@@ -2,12 +2,14 @@
 // file.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "film/contribution_sizes.h"
 #include "film/techniques.h"
 
 namespace phlux::film {
@@ -16,11 +18,14 @@ namespace phlux::film {
 struct BlockSum {
   float radiance[3];
   float radiance_squared[3];
+  float nonfinite = 0.0F; ///< contributions that were not finite, and are not in the sums
+  float clamped = 0.0F;   ///< sum over channels of the radiance that clamping took away
 };
 
 /// Sums over the samples that began in a pixel.
 struct Pixel {
   std::array<double, 3> sum{}, sum_of_squares{};
+  double sum_of_fourths = 0.0; ///< of blocks: of the square of what one adds to the sum of squared deviations
   std::uint64_t samples = 0;
 };
 
@@ -28,6 +33,13 @@ struct Pixel {
 /// One cache line, as splats fall where they like.
 struct alignas(64) Splats {
   std::array<double, 3> sum{}, sum_of_squares{};
+  double sum_of_fourths = 0.0; ///< of the squared sum over channels of the squares
+};
+
+/// The largest contribution to the variance so far, relative as in ContributionSizes.
+struct Growth {
+  std::uint64_t samples = 0;
+  double largest = 0.0;
 };
 
 /// Sums stay exact to about 2^-53 times the number of blocks, so that no sample count stalls them (MATH.md
@@ -52,20 +64,35 @@ public:
   /// bits.
   void add(std::size_t pixel, const BlockSum& block, std::uint32_t samples);
 
+  /// No path brings a pixel more than `radiance` in any channel from here on: a bias. What splats bring is
+  /// clamped here, what blocks bring by the device.
+  void set_clamp(double radiance) { clamp_ = radiance / unit_; }
+  /// Share of the light that clamping took away.
+  [[nodiscard]] double clamped_share() const;
+
   /// Adds what one path brought to a pixel that it did not begin in. A pixel's radiance is the mean of its
-  /// samples plus the sum of its splats / the number of splatting paths per pixel of the image.
-  void add_splat(std::size_t pixel, const std::array<double, 3>& value) {
+  /// samples plus the sum of its splats / the number of splatting paths per pixel of the image. Sizes are
+  /// taken of one path in `sized_one_in` alone: of each they would cost a sixth of light tracing's time.
+  void add_splat(std::size_t pixel, std::array<double, 3> value, bool sized = true) {
+    if (clamp_) clamp(value);
     Splats& sums = splats_[pixel];
+    double square = 0.0;
     for (std::size_t channel = 0; channel < 3; ++channel) {
       sums.sum[channel] += value[channel];
-      sums.sum_of_squares[channel] += value[channel] * value[channel];
+      const double channel_square = value[channel] * value[channel];
+      sums.sum_of_squares[channel] += channel_square;
+      square += channel_square;
     }
+    sums.sum_of_fourths += square * square;
+    if (sized) count_splat(pixel, square, value[0] + value[1] + value[2]);
   }
+  static constexpr std::uint32_t sized_one_in = 16;
   void use_splats() { splats_.resize(pixels_.size()); } ///< before the first add_splat()
   /// Fetches what add_splat() will need soon.
   void expect_splat(std::size_t pixel) const { __builtin_prefetch(&splats_[pixel], 1); }
-  /// Counts paths of the whole image that could have brought splats.
-  void add_splatting_paths(std::uint64_t paths) { splatting_paths_ += paths; }
+  /// Counts paths of the whole image that may bring splats, before they do.
+  void add_splatting_paths(std::uint64_t paths);
+  [[nodiscard]] bool splats() const { return !splats_.empty(); }
 
   /// Keeps what each technique brings by itself as well, from here on.
   void use_techniques() { techniques_.emplace(pixels_.size()); }
@@ -89,7 +116,27 @@ public:
   [[nodiscard]] double relative_standard_error() const;
   [[nodiscard]] double samples_per_pixel() const; ///< mean over the pixels
 
+  /// Of all pixels: samples that began in them, or paths that splat where none did.
+  [[nodiscard]] std::uint64_t samples() const { return own_samples_ > 0 ? own_samples_ : splatting_paths_; }
+  /// Independent sums that the variance is made from: blocks of samples, and paths that splat.
+  [[nodiscard]] std::uint64_t contributors() const { return blocks_ + splatting_paths_; }
+  [[nodiscard]] const ContributionSizes& sizes() const { return sizes_; }
+  [[nodiscard]] const TileMeans& tiles() const { return tiles_; }
+
+  /// What is known of a pixel's variance; sums over its channels, in units.
+  struct Spread {
+    double mean = 0.0;    ///< of the pixel, over channels
+    double squares = 0.0; ///< of what contributions differ from the mean: about samples x variance of one
+    double fourths = 0.0; ///< of the squares of those
+  };
+  [[nodiscard]] Spread spread(std::size_t pixel) const;
+  [[nodiscard]] const std::vector<Growth>& history() const { return history_; }
+
 private:
+  void clamp(std::array<double, 3>& value);
+  void note_growth();
+  void count_block(std::size_t pixel, const BlockSum& block, double square, std::uint32_t samples);
+  void count_splat(std::size_t pixel, double square, double sum);
   [[nodiscard]] double splatting_paths_per_pixel() const;
   [[nodiscard]] double mean_in_units(std::size_t pixel, std::size_t channel) const;
   [[nodiscard]] double variance_in_units(std::size_t pixel, std::size_t channel) const;
@@ -100,7 +147,15 @@ private:
   double unit_ = 1.0;
   std::vector<Pixel> pixels_;
   std::vector<Splats> splats_; ///< empty where nothing splats
-  std::uint64_t splatting_paths_ = 0;
+  std::uint64_t splatting_paths_ = 0, own_samples_ = 0, blocks_ = 0;
+  double pixels_per_path_ = 0.0; ///< of the splatting paths so far
+  ContributionSizes sizes_;
+  TileMeans tiles_;
+  std::vector<Growth> history_;
+  std::uint64_t next_growth_;   ///< samples at which the history goes on
+  std::optional<double> clamp_; ///< in units
+  double clamped_ = 0.0;        ///< of blocks, in units, sum over channels
+  double clamped_of_splats_ = 0.0;
   std::optional<Techniques> techniques_;
 };
 

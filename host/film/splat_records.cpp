@@ -1,6 +1,8 @@
 #include "film/splat_records.h"
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 
 #include "scene_data.h"
 
@@ -16,6 +18,10 @@ void fetch(const SplatRecords& records, std::size_t i) {
   if (i >= records.capacity) return;
   for (std::size_t array = 0; array < RECORD_VALUE + 3; ++array)
     __builtin_prefetch(records.words + array * records.capacity + i);
+}
+
+std::size_t path_of(const SplatRecords& records, std::size_t i) {
+  return std::bit_cast<std::uint32_t>(records.words[RECORD_PATH * records.capacity + i]);
 }
 
 // One of 64 bits for a pixel: a path that has not set it has not been there.
@@ -54,8 +60,9 @@ void SplatFolder::merge(const SplatRecords& records) {
   }
 }
 
-void SplatFolder::fold(const SplatRecords& records, Film& film) {
+std::vector<std::size_t> SplatFolder::fold(const SplatRecords& records, Film& film) {
   merge(records);
+  std::vector<std::size_t> not_finite;
   const auto* const pixels =
       reinterpret_cast<const std::int32_t*>(records.words + RECORD_PIXEL * records.capacity);
   const float* const red = records.words + RECORD_VALUE * records.capacity;
@@ -64,8 +71,15 @@ void SplatFolder::fold(const SplatRecords& records, Film& film) {
   for (std::size_t i = 0; i < records.count; ++i) {
     if (i + ahead < records.count && pixels[i + ahead] != merged)
       film.expect_splat(static_cast<std::size_t>(pixels[i + ahead]));
-    if (pixels[i] != merged) film.add_splat(static_cast<std::size_t>(pixels[i]), {red[i], green[i], blue[i]});
+    if (pixels[i] == merged) continue;
+    const std::size_t path = path_of(records, i);
+    if (std::isfinite(red[i] + green[i] + blue[i]))
+      film.add_splat(static_cast<std::size_t>(pixels[i]), {red[i], green[i], blue[i]},
+                     path % Film::sized_one_in == 0);
+    else
+      not_finite.push_back(path);
   }
+  return not_finite;
 }
 
 void SplatFolder::fold_techniques(const SplatRecords& records, Film& film) {
@@ -85,6 +99,7 @@ void SplatFolder::fold_techniques(const SplatRecords& records, Film& film) {
       value[channel] = word;
       word *= weight;
     }
+    if (!std::isfinite(value[0] + value[1] + value[2])) continue;
     film.techniques()->add({technique >> 16, technique & 0xffff}, static_cast<std::size_t>(pixels[i]), value,
                            weight);
     if (own) pixels[i] = merged;

@@ -20,11 +20,13 @@ struct SplatRecords {
 /// Adds up what each path brought to each pixel before it goes to the film, which wants the squares of that.
 class SplatFolder {
 public:
-  /// Changes the records. The film uses splats.
-  void fold(const SplatRecords& records, Film& film);
+  /// Changes the records. The film uses splats. Returns the paths that brought a pixel what is not finite,
+  /// once for each such pixel; the film does without that.
+  std::vector<std::size_t> fold(const SplatRecords& records, Film& film);
 
   /// For records that tell techniques apart, before fold(): hands each to the film's techniques, weights it,
-  /// and takes out those to the paths' own pixels, which the film has already.
+  /// and takes out those to the paths' own pixels, which the film has already. What is not finite is left to
+  /// fold().
   static void fold_techniques(const SplatRecords& records, Film& film);
 
 private:

@@ -15,6 +15,8 @@ namespace {
 // that is a few percent. On a GPU, whose lanes are work-items, fewer keep the batches' vertices small.
 constexpr int least_paths_wide = 64, least_paths_scalar = 16;
 
+constexpr std::size_t counters_per_item = 2; // rays, shadow rays
+
 // Work-items of a launch: on CPUs a few per core, so that cores end together; elsewhere enough to fill every
 // unit's registers several times over.
 std::size_t work_items(const device::DeviceInfo& info) {
@@ -185,7 +187,7 @@ void Launcher::start(Flight& flight) {
   Buffers& to = flight.buffers;
   const bool batches = parts_.integrator != Integrator::path;
   const bool sums = parts_.integrator != Integrator::light;
-  reserve(to.counters, flight.items * 3 * sizeof(cl_uint), "counters");
+  reserve(to.counters, flight.items * counters_per_item * sizeof(cl_uint), "counters");
   if (sums) reserve(to.sums, static_cast<std::size_t>(launch.jobs) * sizeof(film::BlockSum), "sums");
   cl_uint index = first_launch_argument_ + 1;
   const auto set = [&](const auto& value) { kernel_.setArg(index++, value); };
@@ -234,7 +236,7 @@ void Launcher::read_back(Flight& flight) {
   }
   if (parts_.integrator != Integrator::light)
     read(from.sums.memory, flight.host_sums, static_cast<std::size_t>(flight.launch.jobs));
-  read(from.counters.memory, flight.host_counters, flight.items * 3);
+  read(from.counters.memory, flight.host_counters, flight.items * counters_per_item);
   device_.queue.flush();
 }
 
@@ -272,45 +274,59 @@ bool Launcher::overflowed(const Flight& flight) {
   return splats || vertices;
 }
 
-void Launcher::fold_sums(const Flight& flight, film::Film& film) {
+// Notes what was not finite among the given samples of a job's block.
+void Launcher::count_nonfinite(const Launch& launch, std::size_t job, std::uint64_t count, int sample,
+                               int samples) {
+  counts_.nonfinite += count;
+  if (counts_.first_nonfinite) return;
+  const std::int64_t place = launch.first_job + static_cast<std::int64_t>(job);
+  counts_.first_nonfinite = {place % pixels_,
+                             launch.first_sample + place / pixels_ * launch.block_samples + sample, samples};
+}
+
+void Launcher::fold_sums(const Flight& flight, std::size_t first_job, std::size_t jobs, film::Film& film) {
   const Launch& launch = flight.launch;
-  std::int64_t pixel = launch.first_job;
-  for (const film::BlockSum& sum : flight.host_sums) {
-    if (pixel == pixels_) pixel = 0;
-    film.add(static_cast<std::size_t>(pixel++), sum, static_cast<std::uint32_t>(launch.block_samples));
+  std::int64_t pixel = (launch.first_job + static_cast<std::int64_t>(first_job)) % pixels_;
+  for (std::size_t job = first_job; job < first_job + jobs; ++job) {
+    const film::BlockSum& sum = flight.host_sums[job];
+    film.add(static_cast<std::size_t>(pixel), sum, static_cast<std::uint32_t>(launch.block_samples));
+    if (++pixel == pixels_) pixel = 0;
+    if (sum.nonfinite > 0)
+      count_nonfinite(launch, job, static_cast<std::uint64_t>(sum.nonfinite), 0, launch.block_samples);
   }
 }
 
-void Launcher::fold_records(Flight& flight, film::Film& film) {
+void Launcher::fold_batch(const Flight& flight, std::size_t batch, film::Film& film) {
+  const auto batch_jobs = static_cast<std::size_t>(flight.batch_jobs);
+  const auto samples = static_cast<std::size_t>(flight.launch.block_samples);
+  const std::size_t first_job = batch * batch_jobs;
+  const std::size_t jobs = std::min(batch_jobs, static_cast<std::size_t>(flight.launch.jobs) - first_job);
+  if (!flight.host_sums.empty()) fold_sums(flight, first_job, jobs, film);
+
   const auto capacity = static_cast<std::size_t>(flight.record_capacity);
-  for (std::size_t batch = 0; batch < flight.batches; ++batch) {
-    film::SplatRecords records;
-    records.words = flight.host_records + batch * capacity * record_words(parts_);
-    records.capacity = capacity;
-    records.count = static_cast<std::size_t>(flight.host_record_counts[batch]);
-    records.paths = flight.batch_paths();
-    if (parts_.techniques) film::SplatFolder::fold_techniques(records, film);
-    folder_.fold(records, film);
-  }
+  film::SplatRecords records;
+  records.words = flight.host_records + batch * capacity * record_words(parts_);
+  records.capacity = capacity;
+  records.count = static_cast<std::size_t>(flight.host_record_counts[batch]);
+  records.paths = flight.batch_paths();
+  film.add_splatting_paths(jobs * samples);
+  if (parts_.techniques) film::SplatFolder::fold_techniques(records, film);
+  for (const std::size_t path : folder_.fold(records, film))
+    count_nonfinite(flight.launch, first_job + path / samples, 1, static_cast<int>(path % samples), 1);
 }
 
 void Launcher::collect(film::Film& film) {
   Flight flight = std::move(flights_.front());
   flights_.pop_front();
-  fold_sums(flight, film);
-  const std::uint64_t paths = static_cast<std::uint64_t>(flight.launch.jobs) *
-                              static_cast<std::uint64_t>(flight.launch.block_samples);
-  if (flight.batches > 0) {
-    film.use_splats();
-    fold_records(flight, film);
-    film.add_splatting_paths(paths);
-  }
+  if (flight.batches > 0) film.use_splats();
+  for (std::size_t batch = 0; batch < flight.batches; ++batch) fold_batch(flight, batch, film);
+  if (flight.batches == 0) fold_sums(flight, 0, flight.host_sums.size(), film);
   unmap(flight);
-  counts_.paths += paths;
+  counts_.paths += static_cast<std::uint64_t>(flight.launch.jobs) *
+                   static_cast<std::uint64_t>(flight.launch.block_samples);
   for (std::size_t item = 0; item < flight.items; ++item) {
-    counts_.rays += flight.host_counters[item * 3];
-    counts_.shadow_rays += flight.host_counters[item * 3 + 1];
-    counts_.nonfinite += flight.host_counters[item * 3 + 2];
+    counts_.rays += flight.host_counters[item * counters_per_item];
+    counts_.shadow_rays += flight.host_counters[item * counters_per_item + 1];
   }
   adapt(flight);
   spare_.push_back(std::move(flight.buffers));

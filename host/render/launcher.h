@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <vector>
 
 #include "device/program.h"
@@ -15,6 +16,7 @@ namespace phlux::render {
 
 struct Counts {
   std::uint64_t paths = 0, rays = 0, shadow_rays = 0, nonfinite = 0;
+  std::optional<Origin> first_nonfinite;
 };
 
 class Launcher {
@@ -71,8 +73,9 @@ private:
   void read_back(Flight& flight);
   [[nodiscard]] bool overflowed(const Flight& flight);
   void unmap(Flight& flight);
-  void fold_sums(const Flight& flight, film::Film& film);
-  void fold_records(Flight& flight, film::Film& film);
+  void fold_sums(const Flight& flight, std::size_t first_job, std::size_t jobs, film::Film& film);
+  void fold_batch(const Flight& flight, std::size_t batch, film::Film& film);
+  void count_nonfinite(const Launch& launch, std::size_t job, std::uint64_t count, int sample, int samples);
   void adapt(const Flight& flight);
 
   device::Device device_;

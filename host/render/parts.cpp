@@ -147,6 +147,9 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
   parts.techniques = settings.techniques;
   if (parts.techniques && parts.integrator == Integrator::path)
     throw UsageError("--contributions: a path from the eye is made in one way: use -i bidir or light");
+  if (settings.clamp) parts.clamp = *settings.clamp / lights.unit;
+  if (parts.clamp && parts.techniques)
+    throw UsageError("--clamp: what techniques bring is not clamped: leave out --contributions");
   parts.ambient = settings.ambient.has_value();
   if (parts.ambient && parts.integrator != Integrator::path)
     throw UsageError("--ambient: only paths from the eye can carry the ambient term: use -i path");
@@ -228,6 +231,7 @@ std::map<std::string, std::string> Parts::defines() const {
   }
   if (phong_lobe) macros["PHONG_TABLE_INTERVALS"] = std::to_string(reflectivity_intervals);
   if (techniques) macros["PHLUX_TECHNIQUES"] = "1";
+  if (clamp && integrator != Integrator::light) macros["PHLUX_CLAMP"] = fmt::format("{:a}f", *clamp);
   if (integrator == Integrator::bidir) {
     macros["PHLUX_BIDIR"] = "1";
     macros["PHLUX_WEIGHTS"] = weights == Weights::balance ? "WEIGHTS_BALANCE"

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,7 +35,8 @@ struct Parts {
   bool one_light = false, few_lights = false, few_materials = false, few_primitives = false; ///< no code
   Connect connect = Connect::mis;
   Weights weights = Weights::balance;
-  bool techniques = false; ///< contributions are recorded one by one
+  bool techniques = false;     ///< contributions are recorded one by one
+  std::optional<double> clamp; ///< most that a path brings to its own pixel, in units of the light table
   std::string strategy;
 
   /// Names for people, such as "spheres" or "light_planar", in a fixed order.

@@ -156,6 +156,8 @@ public:
   // Of the radiances that devices hand over.
   [[nodiscard]] double unit() const { return host_->lights.unit; }
 
+  [[nodiscard]] bool shines() const { return host_->lights.shines(); }
+
   Worker make(const device::Device& device, Statistics& statistics) {
     const int lanes = lanes_for(device.info, settings_);
     const Clock::time_point begin = Clock::now();
@@ -256,6 +258,8 @@ Statistics render(const scene::Scene& scene, const Settings& settings, film::Fil
   for (const device::Device& device : devices) workers.push_back(workshop.make(device, statistics));
   describe(statistics, devices, workers);
   film.set_unit(workshop.unit());
+  statistics.shines = workshop.shines();
+  if (settings.clamp) film.set_clamp(*settings.clamp);
   if (settings.techniques) film.use_techniques();
 
   Work work(scene.camera, settings, film, events);
@@ -267,6 +271,7 @@ Statistics render(const scene::Scene& scene, const Settings& settings, film::Fil
     statistics.rays += counts.rays;
     statistics.shadow_rays += counts.shadow_rays;
     statistics.nonfinite += counts.nonfinite;
+    if (!statistics.first_nonfinite) statistics.first_nonfinite = counts.first_nonfinite;
   }
   return statistics;
 } catch (const cl::Error& error) {

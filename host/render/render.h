@@ -24,6 +24,7 @@ struct Settings {
   Weights weights = Weights::balance; ///< bidir
   bool techniques = false; ///< light, bidir: the film keeps what each technique brings by itself as well
   std::optional<double> ambient;      ///< path: radiance of a control variate (CW 197, 2.2, reference 15)
+  std::optional<double> clamp;        ///< most radiance that a path brings to a pixel: a bias
   int samples_per_pixel = 4;          ///< ignored where a time or an error is asked for
   std::optional<double> time_limit;   ///< seconds of rendering
   std::optional<double> target_error; ///< mean relative standard error
@@ -47,14 +48,23 @@ struct Progress {
   std::uint64_t paths = 0;
 };
 
+/// Where a contribution came from that was not finite: the seed, this pixel (row by row from the top) and
+/// this sample, or one of so many from it, make it again.
+struct Origin {
+  std::int64_t pixel = 0, sample = 0;
+  int samples = 1;
+};
+
 struct Statistics {
   std::string device, driver;
   int lanes = 1;
   std::string traversal;          ///< brute or bvh
   std::vector<std::string> parts; ///< what the scene's kernel holds code for
   std::uint64_t paths = 0, rays = 0, shadow_rays = 0, nonfinite = 0;
+  std::optional<Origin> first_nonfinite;
   double seconds_setup = 0.0, seconds_build_kernels = 0.0, seconds_render = 0.0;
   bool kernels_from_cache = false;
+  bool shines = true; ///< some light of the scene has power
   bool interrupted = false;
 };
 

@@ -75,7 +75,7 @@ TEST_CASE("Options reach the files") {
   const Image image = place.image("out.exr");
   CHECK(image.width == 20);
   CHECK(image.height == 10);
-  CHECK(image.channels.size() == 6);
+  CHECK(image.channels.size() == 7);
   CHECK(mean(image.channels.at("variance.G")) > 0.0);
   CHECK(image.info.samples == 3.0);
   CHECK(image.info.seed == 7);

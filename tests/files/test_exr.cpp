@@ -30,7 +30,9 @@ const RenderInfo render_info{.version = "0.1.0",
                              .seed = std::numeric_limits<std::uint64_t>::max(),
                              .device = "a device",
                              .driver = "3.1",
-                             .seconds = 1.5};
+                             .seconds = 1.5,
+                             .clamp = 4.0,
+                             .clamped_share = 0.25};
 
 Film numbered_film() {
   Film film(3, 2);
@@ -67,7 +69,7 @@ TEST_CASE("An EXR file has the channels and attributes of the contract") {
   std::map<std::string, Imf::PixelType> channels;
   for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel)
     channels[channel.name()] = channel.channel().type;
-  CHECK(channels.size() == (moments ? 6 : 3));
+  CHECK(channels.size() == (moments ? 7 : 3));
   CHECK(channels.contains("variance.G") == moments);
   for (const auto& [name, type] : channels) CHECK(type == Imf::FLOAT);
 
@@ -77,6 +79,9 @@ TEST_CASE("An EXR file has the channels and attributes of the contract") {
   const auto number = [&](const char* name) {
     return header.typedAttribute<Imf::DoubleAttribute>(name).value();
   };
+  CHECK(text("bias") == "clamped");
+  CHECK(number("clamp") == 4.0);
+  CHECK(number("clampedShare") == 0.25);
   CHECK(text("version") == "0.1.0");
   CHECK(text("scene") == "scenes/box.xml");
   CHECK(text("integrator") == "path");

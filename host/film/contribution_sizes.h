@@ -1,0 +1,81 @@
+// How large contributions are: a histogram that tells what sums hide, namely whether a few of them made the
+// most of a variance.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace phlux::film {
+
+/// Contributions to a variance, relative to the squared mean radiance where they arrived: how many of each
+/// size, in quarters of an octave.
+class ContributionSizes {
+public:
+  /// size >= 0; it stands for `count` of them.
+  void add(double size, std::uint32_t count = 1) {
+    const auto bounded = static_cast<float>(std::min(size, double{std::numeric_limits<float>::max()}));
+    counts_[std::bit_cast<std::uint32_t>(bounded) >> dropped_bits] += count;
+  }
+  [[nodiscard]] double largest() const; ///< 0 without any
+  /// Share of the `count` largest in the sum of all; 0 without any.
+  [[nodiscard]] double share_of_largest(double count) const;
+  /// Index a of the tail, where P(size > x) falls as x^-a: Hill's estimate (1975) from at least the `count`
+  /// largest. Nothing where there are fewer, or all of a size.
+  [[nodiscard]] std::optional<double> tail_index(double count) const;
+
+private:
+  // The exponent of a float and two bits of its mantissa.
+  static constexpr unsigned dropped_bits = 21;
+  static constexpr std::size_t bins = 255 << 2; // of finite floats
+  static double lower_edge(std::size_t bin);
+  static double size_of(std::size_t bin); ///< the bin's middle; bin 0 holds zeros
+  std::array<std::uint64_t, bins> counts_{};
+};
+
+/// Running means of squares of tile_edge x tile_edge pixels: what a contribution is compared with where its
+/// own pixel has seen little.
+class TileMeans {
+public:
+  static constexpr int tile_edge = 16;
+
+  TileMeans(int width, int height);
+  [[nodiscard]] std::size_t count() const { return tiles_.size(); }
+  [[nodiscard]] std::size_t tile_of(std::size_t pixel) const {
+    // Quicker than a division, and as exact: the half keeps the quotient off the whole numbers.
+    const auto row = static_cast<std::uint32_t>((static_cast<double>(pixel) + 0.5) * rows_per_pixel_);
+    const std::uint32_t column = static_cast<std::uint32_t>(pixel) - row * width_;
+    return std::size_t{row / tile_edge} * tiles_across_ + column / tile_edge;
+  }
+  /// In pixels, x and y from the top left.
+  [[nodiscard]] std::array<int, 2> centre_of(std::size_t tile) const;
+
+  void add_samples(std::size_t tile, double sum, std::uint32_t samples) {
+    tiles_[tile].samples += samples;
+    tiles_[tile].sum += sum;
+    tiles_[tile].mean = tiles_[tile].sum / static_cast<double>(tiles_[tile].samples);
+  }
+  void add_splat(std::size_t tile, double sum) { tiles_[tile].splats += sum; }
+  /// Of the samples that began in the tile.
+  [[nodiscard]] double mean_of_samples(std::size_t tile) const { return tiles_[tile].mean; }
+  /// Of the splats, for one splatting path per pixel.
+  [[nodiscard]] double mean_of_splats(std::size_t tile) const {
+    return tiles_[tile].splats * tiles_[tile].one_by_pixels;
+  }
+
+private:
+  struct Tile {
+    double sum = 0.0, mean = 0.0, splats = 0.0, one_by_pixels = 0.0;
+    std::uint64_t samples = 0;
+  };
+  std::uint32_t width_, tiles_across_;
+  double rows_per_pixel_;
+  std::vector<Tile> tiles_;
+};
+
+} // namespace phlux::film

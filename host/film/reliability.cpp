@@ -1,0 +1,148 @@
+#include "film/reliability.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace phlux::film {
+namespace {
+
+constexpr double channels = 3.0;
+constexpr double top_part = 1e-3;
+constexpr double least_tail = 30.0;            // contributions for an index of the tail
+constexpr double most_understated = 0.1;       // of standard errors
+constexpr double largest_variance_error = 0.2; // a standard error is then good to 10%
+constexpr double infinite_variance = 2.0;      // index of the tail
+
+// Of a tile, or of the image: sums over pixels, each relative to the radiance there.
+struct Spread {
+  double pixels = 0.0, mean = 0.0, squares = 0.0, fourths = 0.0, variance = 0.0;
+  // Relative variance of `squares`, which is a sum of many, of which blocks are certain to be there.
+  [[nodiscard]] double relative_variance(double blocks) const {
+    if (!(squares > 0.0)) return 0.0;
+    const double of_equal_blocks = blocks > 0.0 ? 1.0 / blocks : 0.0;
+    return std::max(0.0, fourths / (squares * squares) - of_equal_blocks);
+  }
+};
+
+std::vector<Spread> spreads_of(const Film& film) {
+  std::vector<Spread> tiles(film.tiles().count());
+  const std::size_t pixels = film.pixels().size();
+  for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
+    Spread& tile = tiles[film.tiles().tile_of(pixel)];
+    tile.mean += film.spread(pixel).mean;
+    tile.pixels += 1.0;
+  }
+  const double samples_per_pixel = film.samples_per_pixel();
+  for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
+    Spread& tile = tiles[film.tiles().tile_of(pixel)];
+    const Film::Spread own = film.spread(pixel);
+    const double scale = std::max(own.mean, tile.mean / tile.pixels);
+    if (!(scale > 0.0)) continue;
+    tile.squares += own.squares / (scale * scale);
+    tile.fourths += own.fourths / (scale * scale * scale * scale);
+    tile.variance += own.squares / (channels * scale * scale * samples_per_pixel);
+  }
+  return tiles;
+}
+
+// Blocks of samples in a pixel; 0 where splats are a part of what there is, whose number is a chance itself.
+double blocks_per_pixel(const Film& film) {
+  if (film.splats()) return 0.0;
+  return static_cast<double>(film.contributors()) / static_cast<double>(film.pixels().size());
+}
+
+// Relative variance of a pixel's variance estimate, from all pixels of its tile.
+double pixel_relative_variance(const Spread& tile, double blocks) {
+  return tile.pixels * tile.relative_variance(blocks * tile.pixels);
+}
+
+// The tail is where the largest are: as many as the root of all, which go to infinity and leave out ever more
+// of what is not the tail. Sizes are squares.
+std::optional<double> tail_index(const Film& film) {
+  const double count = std::max(least_tail, std::sqrt(static_cast<double>(film.contributors())));
+  const std::optional<double> of_squares = film.sizes().tail_index(count);
+  return of_squares ? std::optional(2.0 * *of_squares) : std::nullopt;
+}
+
+// Slope of the largest contribution over the last two doublings.
+std::optional<double> growth_of(const std::vector<Growth>& history) {
+  constexpr std::size_t doublings = 2;
+  if (history.size() <= doublings) return std::nullopt;
+  const Growth &now = history.back(), &then = history[history.size() - 1 - doublings];
+  if (!(then.largest > 0.0)) return std::nullopt;
+  return std::log(now.largest / then.largest) /
+         std::log(static_cast<double>(now.samples) / static_cast<double>(then.samples));
+}
+
+void sum_tiles(Reliability& r, const Film& film) {
+  const std::vector<Spread> tiles = spreads_of(film);
+  const double blocks = blocks_per_pixel(film);
+  Spread all;
+  double lit_pixels = 0.0, worst = 0.0;
+  for (std::size_t i = 0; i < tiles.size(); ++i) {
+    const Spread& tile = tiles[i];
+    all.pixels += tile.pixels;
+    all.squares += tile.squares;
+    all.fourths += tile.fourths;
+    all.variance += tile.variance;
+    if (tile.mean > 0.0) {
+      lit_pixels += tile.pixels;
+      r.understated += tile.pixels * std::min(1.0, pixel_relative_variance(tile, blocks) / 8.0);
+    }
+    if (tile.variance <= worst) continue;
+    worst = tile.variance;
+    const auto [x, y] = film.tiles().centre_of(i);
+    r.worst_x = std::min(x, film.width() - 1);
+    r.worst_y = std::min(y, film.height() - 1);
+  }
+  r.variance = all.variance / all.pixels;
+  r.variance_error = std::sqrt(all.relative_variance(blocks * all.pixels));
+  if (lit_pixels > 0.0) r.understated /= lit_pixels;
+  if (all.variance > 0.0) r.worst_share = worst / all.variance;
+}
+
+std::vector<std::string> doubts(const Reliability& r, double samples_per_pixel) {
+  std::vector<std::string> result;
+  if (samples_per_pixel < least_samples)
+    return {fmt::format("{:.3g} samples per pixel are too few to tell", samples_per_pixel)};
+  if (!(r.variance > 0.0)) return {"no sample differs from another: what is rare has not been met"};
+  if (r.understated > most_understated)
+    result.push_back(fmt::format("it may be {:.0f}% too small", 100.0 * r.understated));
+  if (r.variance_error > largest_variance_error)
+    result.push_back(fmt::format("the variance rests on about {:.2g} samples",
+                                 1.0 / (r.variance_error * r.variance_error)));
+  // Of an infinite variance a part that does not fall with the samples is always due to a few of them.
+  if (r.tail_index && *r.tail_index <= infinite_variance && r.variance_error > 0.5 * largest_variance_error)
+    result.push_back(fmt::format("the variance may be infinite: contributions x grow rarer as x^-{:.2g} only",
+                                 *r.tail_index));
+  return result;
+}
+
+} // namespace
+
+Reliability reliability_of(const Film& film) {
+  Reliability r;
+  sum_tiles(r, film);
+  r.top_share = film.sizes().share_of_largest(std::ceil(top_part * static_cast<double>(film.samples())));
+  r.tail_index = tail_index(film);
+  r.growth = growth_of(film.history());
+  r.reasons = doubts(r, film.samples_per_pixel());
+  r.trusted = r.reasons.empty();
+  return r;
+}
+
+std::vector<float> reliability_map(const Film& film) {
+  const std::vector<Spread> tiles = spreads_of(film);
+  const double blocks = blocks_per_pixel(film);
+  std::vector<float> map(film.pixels().size());
+  for (std::size_t pixel = 0; pixel < map.size(); ++pixel) {
+    const Spread& tile = tiles[film.tiles().tile_of(pixel)];
+    if (tile.mean > 0.0)
+      map[pixel] = static_cast<float>(std::max(0.0, 1.0 - std::sqrt(pixel_relative_variance(tile, blocks))));
+  }
+  return map;
+}
+
+} // namespace phlux::film

@@ -1,0 +1,95 @@
+#include "render/advice.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "errors.h"
+#include "render/quiet_log.h"
+
+namespace phlux::render {
+namespace {
+
+constexpr int longest_edge = 64; // pixels of a trial's image
+constexpr double worth_saying = 2.0;
+
+struct Method {
+  const char* options;
+  const char* integrator;
+};
+constexpr Method methods[] = {{"-i path", "path"}, {"-i bidir", "bidir"}, {"-i light", "light"}};
+
+std::string own_options(const Settings& s) {
+  constexpr const char *connects[] = {"none", "light", "mis"}, *weights[] = {"balance", "power", "uniform"};
+  std::string text = "-i " + s.integrator;
+  if (s.integrator == "path") text += fmt::format(" --connect {}", connects[static_cast<int>(s.connect)]);
+  if (s.integrator == "bidir") text += fmt::format(" --weights {}", weights[static_cast<int>(s.weights)]);
+  return text;
+}
+
+bool is_default(const Settings& settings, const Method& method) {
+  return settings.integrator == method.integrator && settings.connect == Settings().connect &&
+         settings.weights == Settings().weights;
+}
+
+void shrink(scene::Camera& camera) {
+  const double scale =
+      std::min(1.0, static_cast<double>(longest_edge) / std::max(camera.width, camera.height));
+  camera.width = std::max(1, static_cast<int>(std::lround(scale * camera.width)));
+  camera.height = std::max(1, static_cast<int>(std::lround(scale * camera.height)));
+}
+
+Trial try_method(const scene::Scene& scene, const Settings& settings, const std::string& options) try {
+  film::Film film(scene.camera.width, scene.camera.height);
+  const Statistics statistics = render(scene, settings, film, {});
+  const auto samples = static_cast<double>(film.samples());
+  const film::Reliability reliability = film::reliability_of(film);
+  return {.options = options,
+          .refusal = {},
+          .cost = reliability.variance * statistics.seconds_render / samples,
+          .reliability = reliability};
+} catch (const UsageError& error) {
+  return {.options = options, .refusal = error.what(), .cost = 0.0, .reliability = {}};
+}
+
+std::string words_for(const std::vector<Trial>& trials, double seconds) {
+  const Trial &own = trials.front(), *best = nullptr;
+  for (const Trial& trial : trials)
+    if (&trial != &own && trial.refusal.empty() && trial.reliability.trusted && trial.cost > 0.0)
+      if (best == nullptr || trial.cost < best->cost) best = &trial;
+  if (best == nullptr) return fmt::format("no other method is to be trusted after {:.2g} s either", seconds);
+  const double times = own.cost / best->cost;
+  if (own.cost > 0.0 && times < worth_saying) return {};
+  // What is rare may not have been met in so short a time, and counts for nothing then.
+  return own.cost > 0.0 ? fmt::format("try {}: at least {:.1g} times as efficient in {:.2g} s", best->options,
+                                      times, seconds)
+                        : fmt::format("try {}: in {:.2g} s this method finds no light, and that one does",
+                                      best->options, seconds);
+}
+
+} // namespace
+
+Advice advise(scene::Scene scene, const Settings& settings, double seconds) {
+  const QuietLog quiet;
+  shrink(scene.camera);
+  Settings trial = settings;
+  trial.time_limit = seconds;
+  trial.target_error.reset();
+  trial.clamp.reset();
+  trial.techniques = false;
+  Advice advice;
+  advice.trials.push_back(try_method(scene, trial, own_options(settings)));
+  trial.connect = Settings().connect;
+  trial.weights = Settings().weights;
+  trial.ambient.reset();
+  for (const Method& method : methods) {
+    if (is_default(settings, method)) continue;
+    trial.integrator = method.integrator;
+    advice.trials.push_back(try_method(scene, trial, method.options));
+  }
+  advice.words = words_for(advice.trials, seconds);
+  return advice;
+}
+
+} // namespace phlux::render

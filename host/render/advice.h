@@ -1,0 +1,30 @@
+// What else to try where a render's error cannot be trusted: by trying it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "film/reliability.h"
+#include "render/render.h"
+
+namespace phlux::render {
+
+/// One method on a small image of the scene.
+struct Trial {
+  std::string options; ///< that choose it, such as "-i bidir"
+  std::string refusal; ///< why it cannot render the scene; the rest is empty then
+  double cost = 0.0;   ///< relative variance of one sample x seconds of one
+  film::Reliability reliability;
+};
+
+struct Advice {
+  std::vector<Trial> trials; ///< the render's own method first
+  std::string words;         ///< empty where there is nothing to say
+};
+
+/// Renders small images of the scene by the settings' method and by the others, each for `seconds` once its
+/// kernels are built, and says which of those that can be trusted is more than twice as efficient. The
+/// scene's film changes. @throws DeviceError
+[[nodiscard]] Advice advise(scene::Scene scene, const Settings& settings, double seconds);
+
+} // namespace phlux::render

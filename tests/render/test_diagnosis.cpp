@@ -1,0 +1,119 @@
+// What a render finds out about itself: clamped light, contributions that are not finite, and what would do
+// better.
+#include <catch2/catch.hpp>
+
+#include "errors.h"
+#include "kernel_copy.h"
+#include "render/advice.h"
+#include "render/scenes.h"
+
+using namespace phlux;
+using namespace phlux::test;
+
+namespace {
+
+double total(const film::Film& film) {
+  double sum = 0.0;
+  for (std::size_t pixel = 0; pixel < film.pixels().size(); ++pixel)
+    for (const double channel : film.mean(pixel)) sum += channel;
+  return sum;
+}
+
+} // namespace
+
+TEST_CASE("clamping takes away what it says, and nothing without being asked") {
+  const scene::Scene scene = shipped("caustic", 16, 12);
+  for (const std::string integrator : {"path", "light", "bidir"}) {
+    CAPTURE(integrator);
+    render::Settings with = settings(32);
+    with.integrator = integrator;
+    const Render whole = render_of(scene, with);
+    CHECK(whole.film.clamped_share() == 0.0);
+    with.clamp = 1.0;
+    const Render clamped = render_of(scene, with);
+    const double share = clamped.film.clamped_share();
+    CHECK(share > 0.01);
+    CHECK(share < 0.99);
+    CHECK(total(clamped.film) == Approx((1.0 - share) * total(whole.film)).epsilon(1e-5));
+    if (integrator != "path") continue;
+    for (std::size_t pixel = 0; pixel < clamped.film.pixels().size(); ++pixel)
+      for (const double channel : clamped.film.mean(pixel)) CHECK(channel <= 1.0 + 1e-6);
+  }
+  render::Settings with = settings(1);
+  with.integrator = "bidir";
+  with.techniques = true;
+  with.clamp = 1.0;
+  CHECK_THROWS_AS(render_of(scene, with), UsageError);
+}
+
+TEST_CASE("clamping is in radiance, whatever the unit of the light table") {
+  scene::Scene scene = shipped("caustic", 8, 6);
+  for (const std::string integrator : {"path", "light", "bidir"}) {
+    CAPTURE(integrator);
+    render::Settings with = settings(16);
+    with.integrator = integrator;
+    with.clamp = 1.0;
+    const double share = render_of(scene, with).film.clamped_share();
+    scene::Scene bright = scene;
+    for (scene::AreaEmitter& light : bright.area_emitters) light.radiance *= 0x1p90;
+    with.clamp = 0x1p90;
+    CHECK(render_of(bright, with).film.clamped_share() == Approx(share).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("contributions that are not finite are dropped, counted, and the first one's sample is named") {
+  struct Break {
+    const char *integrator, *file, *from, *to;
+  };
+  const std::vector<Break> breaks = {
+      {"path", "film.cl", "const Real total = radiance.x + radiance.y + radiance.z;",
+       "radiance.x = (job->pixel == 37) & (sample_number(list, *job) == 21) ? (Real)(NAN) : "
+       "radiance.x;\n"
+       "  const Real total = radiance.x + radiance.y + radiance.z;"},
+  };
+  for (const Break& b : breaks) {
+    CAPTURE(b.integrator);
+    const KernelCopy broken(b.file, b.from, b.to);
+    render::Settings with = settings(64);
+    with.integrator = b.integrator;
+    with.kernel_dir = broken.folder();
+    const Render image = render_of(shipped("cornell-box", 8, 8), with);
+    CHECK(image.statistics.nonfinite == 1);
+    REQUIRE(image.statistics.first_nonfinite);
+    CHECK(image.statistics.first_nonfinite->pixel == 37);
+    CHECK(image.statistics.first_nonfinite->sample == 16);
+    CHECK(image.statistics.first_nonfinite->samples == 16);
+    for (std::size_t pixel = 0; pixel < image.film.pixels().size(); ++pixel)
+      for (const double channel : image.film.mean(pixel)) CHECK(std::isfinite(channel));
+  }
+}
+
+TEST_CASE("splats and connections that are not finite are dropped, counted and named") {
+  // Path 0 of a batch of 64 x 16: sample 0 of the pixel that the batch begins with.
+  const KernelCopy broken(
+      "contributions.cl", "const Vec3 weighted = vec_scale(c.weight, c.value);",
+      "if (any_lane(m & (c.path == 0))) c.value.x = c.path == 0 ? (Real)(INFINITY) : c.value.x;\n"
+      "  const Vec3 weighted = vec_scale(c.weight, c.value);");
+  for (const std::string integrator : {"light", "bidir"}) {
+    CAPTURE(integrator);
+    render::Settings with = settings(16);
+    with.integrator = integrator;
+    with.kernel_dir = broken.folder();
+    const Render image = render_of(shipped("cornell-box", 8, 8), with);
+    CHECK(image.statistics.nonfinite > 0);
+    REQUIRE(image.statistics.first_nonfinite);
+    CHECK(image.statistics.first_nonfinite->pixel == 0);
+    CHECK(image.statistics.first_nonfinite->sample == 0);
+    CHECK(image.statistics.first_nonfinite->samples == 1);
+    for (std::size_t pixel = 0; pixel < image.film.pixels().size(); ++pixel)
+      for (const double channel : image.film.mean(pixel)) CHECK(std::isfinite(channel));
+  }
+}
+
+TEST_CASE("where path tracing cannot be trusted, trials say what can") {
+  render::Settings with = settings(16);
+  const render::Advice advice = render::advise(shipped("caustic", 32, 24), with, 0.5);
+  REQUIRE(advice.trials.size() == 3); // path is its own method
+  CHECK_FALSE(advice.trials[0].reliability.trusted);
+  CHECK_THAT(advice.words, Catch::Contains("try -i bidir") || Catch::Contains("try -i light"));
+}
