@@ -105,7 +105,7 @@ TimedRender render_for(const scene::Scene& scene, render::Settings settings, dou
 
 film::Film render_samples(const scene::Scene& scene, const render::Settings& settings,
                           const std::function<bool()>& interrupted) {
-  const QuietLog quiet;
+  const render::QuietLog quiet;
   film::Film film(scene.camera.width, scene.camera.height);
   bool stopped = false;
   render::Events events;
