@@ -11,6 +11,7 @@ namespace phlux::cli {
 namespace {
 
 constexpr double share_for_trials = 0.03; // of the render's time
+constexpr double gross = 0.3;             // part of a standard error that is likely to be missing
 constexpr double trials = 3.0, longest_trial = 1.0, shortest_trial = 0.2;
 
 // Seconds for one trial; 0: none.
@@ -46,8 +47,12 @@ void report(const Diagnosis& diagnosis, const film::Film& film, const render::St
                  100.0 * film.clamped_share());
   const film::Reliability& r = diagnosis.reliability;
   if (r.trusted || !statistics.shines || film.samples_per_pixel() < film::least_samples) return;
-  std::string text = fmt::format("the error estimate is not to be trusted: {}", fmt::join(r.reasons, "; "));
-  if (r.worst_share > 0.5) text += fmt::format("; most of it is near pixel ({}, {})", r.worst_x, r.worst_y);
+  const bool nearly =
+      r.reasons.size() == 1 && r.understated > film::most_understated && r.understated < gross;
+  std::string text = fmt::format("the error estimate is not {}to be trusted: {}", nearly ? "quite " : "",
+                                 fmt::join(r.reasons, "; "));
+  if (r.worst_share > 0.5)
+    text += fmt::format("; most of the variance is near pixel ({}, {})", r.worst_x, r.worst_y);
   spdlog::warn("{}", text);
   if (!diagnosis.advice.empty()) spdlog::warn("{}", diagnosis.advice);
 }

@@ -11,7 +11,6 @@ namespace {
 constexpr double channels = 3.0;
 constexpr double top_part = 1e-3;
 constexpr double least_tail = 30.0;            // contributions for an index of the tail
-constexpr double most_understated = 0.1;       // of standard errors
 constexpr double largest_variance_error = 0.2; // a standard error is then good to 10%
 constexpr double infinite_variance = 2.0;      // index of the tail
 

@@ -12,6 +12,8 @@ namespace phlux::film {
 
 /// Per pixel: fewer tell nothing of what is rare.
 inline constexpr double least_samples = 16.0;
+/// Part of standard errors that may be missing where they are trusted.
+inline constexpr double most_understated = 0.1;
 
 struct Reliability {
   bool trusted = false;

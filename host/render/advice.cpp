@@ -53,6 +53,12 @@ Trial try_method(const scene::Scene& scene, const Settings& settings, const std:
   return {.options = options, .refusal = error.what(), .cost = 0.0, .reliability = {}};
 }
 
+// To one digit: trials of seconds say no more.
+double rounded(double x) {
+  const double unit = std::pow(10.0, std::floor(std::log10(x)));
+  return std::round(x / unit) * unit;
+}
+
 std::string words_for(const std::vector<Trial>& trials, double seconds) {
   const Trial &own = trials.front(), *best = nullptr;
   for (const Trial& trial : trials)
@@ -62,10 +68,11 @@ std::string words_for(const std::vector<Trial>& trials, double seconds) {
   const double times = own.cost / best->cost;
   if (own.cost > 0.0 && times < worth_saying) return {};
   // What is rare may not have been met in so short a time, and counts for nothing then.
-  return own.cost > 0.0 ? fmt::format("try {}: at least {:.1g} times as efficient in {:.2g} s", best->options,
-                                      times, seconds)
-                        : fmt::format("try {}: in {:.2g} s this method finds no light, and that one does",
-                                      best->options, seconds);
+  if (!(own.cost > 0.0))
+    return fmt::format("try {}: in {:.2g} s this method finds no light, and that one does", best->options,
+                       seconds);
+  return fmt::format("try {}: at least {:g} times as efficient in {:.2g} s", best->options, rounded(times),
+                     seconds);
 }
 
 } // namespace
