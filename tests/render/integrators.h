@@ -13,6 +13,7 @@ struct Method {
   std::string integrator = "path";
   render::Weights weights = render::Weights::balance; ///< bidir
   render::Connect connect = render::Connect::mis;     ///< path
+  bool operator==(const Method&) const = default;
 };
 
 [[nodiscard]] std::string name_of(const Method& method);
