@@ -48,19 +48,18 @@ static inline void append_record(Output* output, Contribution c, Mask m) {
 
 // What is not finite goes to the host, which counts it and knows whose it was.
 static inline void add_contribution(Output* output, Contribution c, Mask m) {
-  const Vec3 weighted = vec_scale(c.weight, c.value);
+  Mask recorded = m;
 #ifdef PHLUX_BIDIR
+  const Vec3 weighted = vec_scale(c.weight, c.value);
   const Real total = vec_sum(weighted);
   const Mask to_own = m & c.own & (total - total == 0.0f);
   if (any_lane(to_own)) add_vec(output->radiance, c.path, weighted, to_own);
-#else
-  const Mask to_own = NO_LANES;
 #endif
-#ifdef PHLUX_TECHNIQUES
-  const Mask recorded = m;
-#else
-  const Mask recorded = m & !to_own;
-  c.value = weighted;
+#ifndef PHLUX_TECHNIQUES
+#ifdef PHLUX_BIDIR
+  recorded &= !to_own;
+#endif
+  c.value = vec_scale(c.weight, c.value);
 #endif
   if (any_lane(recorded)) append_record(output, c, recorded);
 }

@@ -72,7 +72,7 @@ public:
 
   /// Adds what one path brought to a pixel that it did not begin in. A pixel's radiance is the mean of its
   /// samples plus the sum of its splats / the number of splatting paths per pixel of the image. Sizes are
-  /// taken of one path in `sized_one_in` alone: of each they would cost a sixth of light tracing's time.
+  /// taken of one splat in `sized_one_in` alone: of each they would cost a sixth of light tracing's time.
   void add_splat(std::size_t pixel, std::array<double, 3> value, bool sized = true) {
     if (clamp_) clamp(value);
     Splats& sums = splats_[pixel];

@@ -72,12 +72,11 @@ std::vector<std::size_t> SplatFolder::fold(const SplatRecords& records, Film& fi
     if (i + ahead < records.count && pixels[i + ahead] != merged)
       film.expect_splat(static_cast<std::size_t>(pixels[i + ahead]));
     if (pixels[i] == merged) continue;
-    const std::size_t path = path_of(records, i);
     if (std::isfinite(red[i] + green[i] + blue[i]))
       film.add_splat(static_cast<std::size_t>(pixels[i]), {red[i], green[i], blue[i]},
-                     path % Film::sized_one_in == 0);
+                     i % Film::sized_one_in == 0);
     else
-      not_finite.push_back(path);
+      not_finite.push_back(path_of(records, i));
   }
   return not_finite;
 }

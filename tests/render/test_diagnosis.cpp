@@ -1,5 +1,7 @@
 // What a render finds out about itself: clamped light, contributions that are not finite, and what would do
 // better.
+#include <cmath>
+
 #include <catch2/catch.hpp>
 
 #include "errors.h"
@@ -17,6 +19,21 @@ double total(const film::Film& film) {
   for (std::size_t pixel = 0; pixel < film.pixels().size(); ++pixel)
     for (const double channel : film.mean(pixel)) sum += channel;
   return sum;
+}
+
+Render render_by(const KernelCopy& kernels, const std::string& integrator, int samples) {
+  render::Settings with = settings(samples);
+  with.integrator = integrator;
+  with.kernel_dir = kernels.folder();
+  return render_of(shipped("cornell-box", 8, 8), with);
+}
+
+void check_origin(const Render& image, std::int64_t pixel, std::int64_t sample, int samples) {
+  REQUIRE(image.statistics.first_nonfinite);
+  CHECK(image.statistics.first_nonfinite->pixel == pixel);
+  CHECK(image.statistics.first_nonfinite->sample == sample);
+  CHECK(image.statistics.first_nonfinite->samples == samples);
+  CHECK(std::isfinite(total(image.film)));
 }
 
 } // namespace
@@ -61,52 +78,26 @@ TEST_CASE("clamping is in radiance, whatever the unit of the light table") {
   }
 }
 
-TEST_CASE("contributions that are not finite are dropped, counted, and the first one's sample is named") {
-  struct Break {
-    const char *integrator, *file, *from, *to;
-  };
-  const std::vector<Break> breaks = {
-      {"path", "film.cl", "const Real total = radiance.x + radiance.y + radiance.z;",
-       "radiance.x = (job->pixel == 37) & (sample_number(list, *job) == 21) ? (Real)(NAN) : "
-       "radiance.x;\n"
-       "  const Real total = radiance.x + radiance.y + radiance.z;"},
-  };
-  for (const Break& b : breaks) {
-    CAPTURE(b.integrator);
-    const KernelCopy broken(b.file, b.from, b.to);
-    render::Settings with = settings(64);
-    with.integrator = b.integrator;
-    with.kernel_dir = broken.folder();
-    const Render image = render_of(shipped("cornell-box", 8, 8), with);
-    CHECK(image.statistics.nonfinite == 1);
-    REQUIRE(image.statistics.first_nonfinite);
-    CHECK(image.statistics.first_nonfinite->pixel == 37);
-    CHECK(image.statistics.first_nonfinite->sample == 16);
-    CHECK(image.statistics.first_nonfinite->samples == 16);
-    for (std::size_t pixel = 0; pixel < image.film.pixels().size(); ++pixel)
-      for (const double channel : image.film.mean(pixel)) CHECK(std::isfinite(channel));
-  }
+TEST_CASE("a sample that is not finite is dropped, counted, and its block is named") {
+  const KernelCopy broken("film.cl", "const Real total = radiance.x",
+                          "const Mask chosen = (job->pixel == 37) & (sample_number(list, *job) == 21);\n"
+                          "  radiance.x = chosen ? (Real)(NAN) : radiance.x;\n"
+                          "  const Real total = radiance.x");
+  const Render image = render_by(broken, "path", 64);
+  CHECK(image.statistics.nonfinite == 1);
+  check_origin(image, 37, 16, 16);
 }
 
-TEST_CASE("splats and connections that are not finite are dropped, counted and named") {
-  // Path 0 of a batch of 64 x 16: sample 0 of the pixel that the batch begins with.
-  const KernelCopy broken(
-      "contributions.cl", "const Vec3 weighted = vec_scale(c.weight, c.value);",
-      "if (any_lane(m & (c.path == 0))) c.value.x = c.path == 0 ? (Real)(INFINITY) : c.value.x;\n"
-      "  const Vec3 weighted = vec_scale(c.weight, c.value);");
+TEST_CASE("splats and connections that are not finite are dropped, counted, and their path is named") {
+  // Path 0 of a batch: sample 0 of the pixel that the batch begins with.
+  const KernelCopy broken("contributions.cl", "Mask recorded = m;",
+                          "Mask recorded = m;\n"
+                          "  c.value.x = c.path == 0 ? (Real)(INFINITY) : c.value.x;");
   for (const std::string integrator : {"light", "bidir"}) {
     CAPTURE(integrator);
-    render::Settings with = settings(16);
-    with.integrator = integrator;
-    with.kernel_dir = broken.folder();
-    const Render image = render_of(shipped("cornell-box", 8, 8), with);
+    const Render image = render_by(broken, integrator, 16);
     CHECK(image.statistics.nonfinite > 0);
-    REQUIRE(image.statistics.first_nonfinite);
-    CHECK(image.statistics.first_nonfinite->pixel == 0);
-    CHECK(image.statistics.first_nonfinite->sample == 0);
-    CHECK(image.statistics.first_nonfinite->samples == 1);
-    for (std::size_t pixel = 0; pixel < image.film.pixels().size(); ++pixel)
-      for (const double channel : image.film.mean(pixel)) CHECK(std::isfinite(channel));
+    check_origin(image, 0, 0, 1);
   }
 }
 
