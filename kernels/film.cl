@@ -12,7 +12,7 @@ typedef struct {
   Int job, pixel, block;
   Int samples; // done
   Vec3 sum, sum_of_squares;
-  Real nonfinite; // samples that were not finite: they count as black
+  Uint nonfinite; // samples that were not finite: they count as black
 #ifdef PHLUX_CLAMP
   Real clamped;
 #endif
@@ -27,7 +27,7 @@ static inline Job first_job(JobList list) {
   job.pixel = list.first_pixel + job.job - job.block * list.pixel_count;
   job.samples = (Int)(0);
   job.sum = job.sum_of_squares = vec_all((Real)(0.0f));
-  job.nonfinite = (Real)(0.0f);
+  job.nonfinite = (Uint)(0u);
 #ifdef PHLUX_CLAMP
   job.clamped = (Real)(0.0f);
 #endif
@@ -46,10 +46,10 @@ static inline void hand_over(JobList list, Job* job, __global float* sums, Mask 
   const Int slot = job->job * SUM_WORDS;
   scatter_vec(sums + SUM_RADIANCE, slot, job->sum, complete);
   scatter_vec(sums + SUM_SQUARES, slot, job->sum_of_squares, complete);
-  scatter_real(sums + SUM_NONFINITE, slot, job->nonfinite, complete);
+  scatter_real(sums + SUM_NONFINITE, slot, uint_to_real(job->nonfinite), complete);
   job->sum = vec_select(complete, vec_all((Real)(0.0f)), job->sum);
   job->sum_of_squares = vec_select(complete, vec_all((Real)(0.0f)), job->sum_of_squares);
-  job->nonfinite = complete ? (Real)(0.0f) : job->nonfinite;
+  job->nonfinite = complete ? (Uint)(0u) : job->nonfinite;
 #ifdef PHLUX_CLAMP
   scatter_real(sums + SUM_CLAMPED, slot, job->clamped, complete);
   job->clamped = complete ? (Real)(0.0f) : job->clamped;
@@ -69,7 +69,7 @@ static inline void add_sample(JobList list, Job* job, Vec3 radiance, __global fl
   const Real total = radiance.x + radiance.y + radiance.z;
   const Mask finite = total - total == 0.0f;
   const Mask counts = ended & finite;
-  job->nonfinite += (ended & !finite) ? (Real)(1.0f) : (Real)(0.0f);
+  job->nonfinite += (ended & !finite) ? (Uint)(1u) : (Uint)(0u);
 #ifdef PHLUX_CLAMP
   const Real scale = PHLUX_CLAMP / larger(vec_max(radiance), (Real)(PHLUX_CLAMP));
   job->clamped += counts ? (1.0f - scale) * total : (Real)(0.0f);
