@@ -126,15 +126,19 @@ TEST_CASE("A worse strategy has more variance, and more variance x cost") {
   REQUIRE(write_sampling_tables(options));
   const auto rows = rows_of(folder, "sampling.csv"), bare = rows_of(folder, "sampling-no-roulette.csv");
   for (const std::string& light : light_names())
-    for (const char* column : {"variance", "variance_times_cost", "variance_times_rays"}) {
+    for (const char* column : {"variance", "variance_times_rays"}) {
       CAPTURE(light, column);
       const double uniform = number(row_of(rows, "uniform", light), column),
                    cosine = number(row_of(rows, "cosine", light), column),
                    exact = number(row_of(rows, "exact", light), column);
       CHECK(uniform > 1.2 * cosine);
-      CHECK(cosine > 10 * exact);
+      CHECK(cosine > 30 * exact);
       CHECK(exact > number(row_of(bare, "exact", light), column)); // roulette costs variance
     }
+  // A sample of `exact` takes about twice as long, and what else a machine does changes that by less than 15.
+  for (const std::string& light : light_names())
+    CHECK(number(row_of(rows, "cosine", light), "variance_times_cost") >
+          number(row_of(rows, "exact", light), "variance_times_cost"));
   // Without roulette and cosine, `exact` has nothing left to vary; `lobe-rho` has.
   CHECK(number(row_of(bare, "exact", "constant"), "variance") < 1e-10);
   CHECK(number(row_of(bare, "lobe-rho", "constant"), "variance") > 1e-4);

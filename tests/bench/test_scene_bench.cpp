@@ -153,7 +153,10 @@ TEST_CASE("A scene that no method renders has no reference") {
 TEST_CASE("A render for a time keeps images on the way") {
   const scene::Scene scene = shipped("cornell-box", 16);
   const render::Settings settings = settings_of(mis, scene.defaults);
-  const TimedRender render = render_for(scene, settings, 0.2, {0.05, 0.1}, {});
+  TimedRender render;
+  // Where the machine has other work, no launch may end between two of the times: then once more.
+  for (int attempt = 0; attempt < 20 && render.on_the_way.size() < 2; ++attempt)
+    render = render_for(scene, settings, 0.2, {0.05, 0.1}, {});
   REQUIRE(render.on_the_way.size() == 2);
   CHECK(render.on_the_way[0].seconds >= 0.05);
   CHECK(render.on_the_way[1].image.samples[0] > render.on_the_way[0].image.samples[0]);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
+#include <fstream>
 #include <stdexcept>
 #include <thread>
 
@@ -33,6 +34,32 @@ void redirect(int descriptor, const std::filesystem::path& file) {
   ::_exit(127);
 }
 
+// Whether the program is there, no longer this process's copy, and has a handler of its own for SIGINT. True
+// of one that has ended.
+bool catches_interrupts(pid_t process) {
+  const std::filesystem::path folder = "/proc/" + std::to_string(process);
+  std::error_code ended;
+  const std::filesystem::path program = std::filesystem::read_symlink(folder / "exe", ended);
+  if (ended) return true;
+  if (!std::filesystem::equivalent(program, PHLUX_PROGRAM)) return false;
+  std::ifstream status(folder / "status");
+  std::string word;
+  while (status >> word && word != "SigCgt:") {
+  }
+  std::uint64_t caught = 0;
+  status >> std::hex >> caught;
+  return ((caught >> (SIGINT - 1)) & 1) != 0;
+}
+
+void interrupt(pid_t process, std::chrono::milliseconds after) {
+  using namespace std::chrono_literals;
+  const auto patience = std::chrono::steady_clock::now() + 60s;
+  while (!catches_interrupts(process) && std::chrono::steady_clock::now() < patience)
+    std::this_thread::sleep_for(5ms);
+  std::this_thread::sleep_for(after);
+  ::kill(process, SIGINT);
+}
+
 } // namespace
 
 bool Outcome::is_one_line_error() const {
@@ -45,10 +72,7 @@ Outcome run(const Invocation& invocation) {
   const pid_t process = ::fork();
   if (process < 0) throw std::runtime_error("cannot fork");
   if (process == 0) become(invocation, streams);
-  if (invocation.interrupt_after) {
-    std::this_thread::sleep_for(*invocation.interrupt_after);
-    ::kill(process, SIGINT);
-  }
+  if (invocation.interrupt_after) interrupt(process, *invocation.interrupt_after);
   int status = 0;
   if (::waitpid(process, &status, 0) != process) throw std::runtime_error("the program is lost");
   const int exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);

@@ -18,9 +18,10 @@ struct Outcome {
 
 struct Invocation {
   std::vector<std::string> arguments;
-  std::filesystem::path folder;                             ///< where it runs
-  std::map<std::string, std::string> environment;           ///< on top of this process's
-  std::optional<std::chrono::milliseconds> interrupt_after; ///< SIGINT is sent then
+  std::filesystem::path folder;                   ///< where it runs
+  std::map<std::string, std::string> environment; ///< on top of this process's
+  /// SIGINT is sent that long after the program is ready for it.
+  std::optional<std::chrono::milliseconds> interrupt_after;
 };
 
 /// Waits for its end. Standard output and error are no terminals.

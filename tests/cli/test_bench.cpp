@@ -268,7 +268,7 @@ TEST_CASE("phlux bench scenes goes on where it was interrupted") {
   REQUIRE(first.size() == 5);
 
   const auto both = scenes_command({"furnace-sphere", "cornell-box"});
-  const Outcome stopped = run({both, folder.path(), {}, std::chrono::milliseconds(700)});
+  const Outcome stopped = run({both, folder.path(), {}, std::chrono::milliseconds(300)});
   CAPTURE(stopped.err, stopped.out);
   CHECK(stopped.exit_code == 130);
   CHECK(rows_of("furnace-sphere") == first);
@@ -362,7 +362,7 @@ TEST_CASE("phlux bench stability goes on where it was interrupted") {
   REQUIRE(first.size() == 2);
 
   std::vector<std::string> both = stability_command({"10,.1", "10,.01"}, fast);
-  const Outcome stopped = run({both, folder.path(), {}, std::chrono::milliseconds(300)});
+  const Outcome stopped = run({both, folder.path(), {}, std::chrono::milliseconds(100)});
   CAPTURE(stopped.err, stopped.out);
   CHECK(stopped.exit_code == 130);
   CHECK(rows() == first);

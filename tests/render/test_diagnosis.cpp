@@ -103,8 +103,12 @@ TEST_CASE("splats and connections that are not finite are dropped, counted, and 
 
 TEST_CASE("where path tracing cannot be trusted, trials say what can") {
   render::Settings with = settings(16);
-  const render::Advice advice = render::advise(shipped("caustic", 32, 24), with, 0.5);
+  const auto bidir = Catch::Contains("try -i bidir"), light = Catch::Contains("try -i light");
+  render::Advice advice;
+  // A machine with other work needs longer for as many samples.
+  for (double seconds = 0.5; seconds <= 8 && !(bidir || light).match(advice.words); seconds *= 2)
+    advice = render::advise(shipped("caustic", 32, 24), with, seconds);
   REQUIRE(advice.trials.size() == 3); // path is its own method
   CHECK_FALSE(advice.trials[0].reliability.trusted);
-  CHECK_THAT(advice.words, Catch::Contains("try -i bidir") || Catch::Contains("try -i light"));
+  CHECK_THAT(advice.words, bidir || light);
 }
