@@ -1,17 +1,13 @@
 #include "bench/method.h"
 
 #include <algorithm>
-#include <array>
 
 namespace phlux::bench {
 namespace {
 
-const std::array<std::string, 3> connects = {"none", "light", "mis"};
-const std::array<std::string, 3> weights = {"balance", "power", "uniform"};
 const std::string default_strategy = "exact";
 
-template<class Names>
-auto index_of(const Names& names, const std::string& name) {
+auto index_of(const std::vector<std::string>& names, const std::string& name) {
   return std::ranges::find(names, name) - names.begin();
 }
 
@@ -25,10 +21,11 @@ std::string Method::name() const {
 std::vector<Method> all_methods(const std::vector<std::string>& strategies, bool quick) {
   std::vector<Method> methods;
   for (const std::string& strategy : strategies) {
-    for (const std::string& connect : connects) methods.push_back({"path", strategy, connect});
+    for (const std::string& connect : render::connect_names()) methods.push_back({"path", strategy, connect});
     methods.push_back({"light", strategy, "-"});
-    for (const std::string& weight : weights)
-      if (!quick || weight == weights.front()) methods.push_back({"bidir", strategy, weight});
+    for (const std::string& weights : render::weights_names())
+      if (!quick || weights == render::weights_names().front())
+        methods.push_back({"bidir", strategy, weights});
   }
   return methods;
 }
@@ -38,9 +35,9 @@ render::Settings settings_of(const Method& method, const scene::RenderDefaults& 
   settings.integrator = method.integrator;
   settings.strategy = method.strategy;
   if (method.integrator == "path")
-    settings.connect = static_cast<render::Connect>(index_of(connects, method.variant));
+    settings.connect = static_cast<render::Connect>(index_of(render::connect_names(), method.variant));
   if (method.integrator == "bidir")
-    settings.weights = static_cast<render::Weights>(index_of(weights, method.variant));
+    settings.weights = static_cast<render::Weights>(index_of(render::weights_names(), method.variant));
   settings.max_depth = defaults.max_depth;
   settings.rr_depth = defaults.rr_depth;
   return settings;

@@ -1,17 +1,17 @@
 #include "render/advice.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "errors.h"
 #include "render/quiet_log.h"
+#include "scene/image_size.h"
 
 namespace phlux::render {
 namespace {
 
-constexpr int longest_edge = 64; // pixels of a trial's image
+constexpr int longest_side = 64; // pixels of a trial's image
 constexpr double worth_saying = 2.0;
 
 struct Method {
@@ -21,23 +21,15 @@ struct Method {
 constexpr Method methods[] = {{"-i path", "path"}, {"-i bidir", "bidir"}, {"-i light", "light"}};
 
 std::string own_options(const Settings& s) {
-  constexpr const char *connects[] = {"none", "light", "mis"}, *weights[] = {"balance", "power", "uniform"};
   std::string text = "-i " + s.integrator;
-  if (s.integrator == "path") text += fmt::format(" --connect {}", connects[static_cast<int>(s.connect)]);
-  if (s.integrator == "bidir") text += fmt::format(" --weights {}", weights[static_cast<int>(s.weights)]);
+  if (s.integrator == "path") text += " --connect " + connect_names()[static_cast<std::size_t>(s.connect)];
+  if (s.integrator == "bidir") text += " --weights " + weights_names()[static_cast<std::size_t>(s.weights)];
   return text;
 }
 
 bool is_default(const Settings& settings, const Method& method) {
   return settings.integrator == method.integrator && settings.connect == Settings().connect &&
          settings.weights == Settings().weights;
-}
-
-void shrink(scene::Camera& camera) {
-  const double scale =
-      std::min(1.0, static_cast<double>(longest_edge) / std::max(camera.width, camera.height));
-  camera.width = std::max(1, static_cast<int>(std::lround(scale * camera.width)));
-  camera.height = std::max(1, static_cast<int>(std::lround(scale * camera.height)));
 }
 
 Trial try_method(const scene::Scene& scene, const Settings& settings, const std::string& options) try {
@@ -79,7 +71,7 @@ std::string words_for(const std::vector<Trial>& trials, double seconds) {
 
 Advice advise(scene::Scene scene, const Settings& settings, double seconds) {
   const QuietLog quiet;
-  shrink(scene.camera);
+  scene::shrink_image(scene.camera, longest_side);
   Settings trial = settings;
   trial.time_limit = seconds;
   trial.target_error.reset();

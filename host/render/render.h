@@ -40,6 +40,10 @@ struct Settings {
 
 /// Names that `--strategy` takes, in the order in which help lists them.
 [[nodiscard]] const std::vector<std::string>& strategy_names();
+/// Names of the values of these types, in their order, as options take them.
+[[nodiscard]] const std::vector<std::string>& connect_names();
+[[nodiscard]] const std::vector<std::string>& weights_names();
+[[nodiscard]] const std::vector<std::string>& traversal_names();
 
 struct Progress {
   double samples_done = 0.0;           ///< mean samples per pixel so far

@@ -1,0 +1,20 @@
+#include "render/render.h"
+
+namespace phlux::render {
+
+const std::vector<std::string>& connect_names() {
+  static const std::vector<std::string> names = {"none", "light", "mis"};
+  return names;
+}
+
+const std::vector<std::string>& weights_names() {
+  static const std::vector<std::string> names = {"balance", "power", "uniform"};
+  return names;
+}
+
+const std::vector<std::string>& traversal_names() {
+  static const std::vector<std::string> names = {"auto", "brute", "bvh"};
+  return names;
+}
+
+} // namespace phlux::render

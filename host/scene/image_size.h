@@ -1,0 +1,23 @@
+// How large a scene's image is.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/scene.h"
+
+namespace phlux::scene {
+
+/// Makes an image whose longer side has more than `longest_side` pixels so much smaller, in its proportions
+/// but for rounding.
+inline void shrink_image(Camera& camera, int longest_side) {
+  const int side = std::max(camera.width, camera.height);
+  if (side <= longest_side) return;
+  const auto scaled = [&](int pixels) {
+    return std::max(1, static_cast<int>(std::lround(static_cast<double>(pixels) * longest_side / side)));
+  };
+  camera.width = scaled(camera.width);
+  camera.height = scaled(camera.height);
+}
+
+} // namespace phlux::scene
