@@ -185,7 +185,7 @@ Timings time_in_turns(const ArithmeticKernels& kernels, const FormulaGroup& grou
 void write_arithmetic_table(const ArithmeticOptions& options) {
   CsvFile table(options.folder, "arithmetic.csv", fmt::format("{}", fmt::join(arithmetic_columns(), ",")));
   const device::Device device = device::open_devices(options.devices).front();
-  const int lanes = options.lanes != 0 ? options.lanes : device.info.lanes;
+  const int lanes = options.lanes_on(device.info);
   const ArithmeticKernels kernels(device, kernel_files(options.kernel_dir), lanes);
   const std::size_t values = std::size_t{1} << (options.quick ? 15 : 18);
   StatusLine status;
@@ -211,7 +211,7 @@ void write_arithmetic_table(const ArithmeticOptions& options) {
 void measure_arithmetic(const ArithmeticOptions& options) {
   write_arithmetic_table(options);
   const device::Device device = device::open_devices(options.devices).front();
-  const int lanes = options.lanes != 0 ? options.lanes : device.info.lanes;
+  const int lanes = options.lanes_on(device.info);
   fmt::print("{}\n", (options.folder / "arithmetic.csv").string());
   std::fflush(stdout);
   write_provenance(options.folder, "arithmetic",

@@ -2,21 +2,16 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "bench/formulas.h"
-#include "device/device.h"
+#include "bench/options.h"
 #include "device/program.h"
 
 namespace phlux::bench {
 
-struct ArithmeticOptions {
-  std::filesystem::path folder;     ///< of arithmetic.csv
-  std::vector<std::string> devices; ///< --device specifications; the first one is measured
-  int lanes = 0;                    ///< WIDTH; 0: what suits the device
-  std::filesystem::path kernel_dir; ///< empty: the embedded kernels
+struct ArithmeticOptions : CommonOptions {
   bool quick = false;
   std::uint32_t seed = 1;
 };

@@ -173,8 +173,8 @@ void make_figures(const FiguresOptions& options) {
   std::fflush(stdout);
   const device::DeviceInfo device = device::open_devices(options.devices).front().info;
   write_provenance(options.folder, "figures",
-                   {"phlux bench figures", device, options.lanes != 0 ? options.lanes : device.lanes,
-                    "nothing is timed", std::to_string(options.seed)});
+                   {"phlux bench figures", device, options.lanes_on(device), "nothing is timed",
+                    std::to_string(options.seed)});
   draw_charts(options.folder, figures_script());
   fmt::print("{}\n", (options.folder / "figure-{1..7}.{csv,svg,png}").string());
 }

@@ -3,17 +3,12 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
-#include <string>
-#include <vector>
+
+#include "bench/options.h"
 
 namespace phlux::bench {
 
-struct FiguresOptions {
-  std::filesystem::path folder;     ///< of figure-1.csv to figure-7.csv, and the drawings
-  std::vector<std::string> devices; ///< --device specifications; the first one is used
-  int lanes = 0;                    ///< WIDTH; 0: what suits the device
-  std::filesystem::path kernel_dir; ///< empty: the embedded kernels
+struct FiguresOptions : CommonOptions {
   std::uint32_t seed = 1;
 };
 
@@ -25,8 +20,8 @@ struct FigureSums {
 /// Computes every figure's data and writes the tables. @throws DeviceError, WriteError
 FigureSums write_figure_tables(const FiguresOptions& options);
 
-/// The tables, then SVG and PNG files beside them and the report. @throws DeviceError, WriteError, also when the drawings
-/// cannot be made: the tables are there then
+/// The tables, then SVG and PNG files beside them and the report. @throws DeviceError, WriteError, also when
+/// the drawings cannot be made: the tables are there then
 void make_figures(const FiguresOptions& options);
 
 } // namespace phlux::bench

@@ -163,7 +163,7 @@ void measure_scene(const PrecisionOptions& options, const std::filesystem::path&
                    const std::string& scene, const Method& method, const device::DeviceInfo& device,
                    CsvFile& table, StatusLine& status) {
   const Setup setup{options, load_at_size(file, largest_side), method};
-  const int native = options.lanes != 0 ? options.lanes : device.lanes;
+  const int native = options.lanes_on(device);
   std::vector<int> widths = {1};
   if (native != 1) widths.push_back(native);
   try {
@@ -286,7 +286,7 @@ bool measure_precision(const PrecisionOptions& options) try {
   status.clear();
   fmt::print("{}\n", (options.folder / "precision.csv").string());
   std::fflush(stdout);
-  const int lanes = options.lanes != 0 ? options.lanes : device.info.lanes;
+  const int lanes = options.lanes_on(device.info);
   std::string command =
       fmt::format("phlux bench precision{} --width {}", options.quick ? " --quick" : "", lanes);
   for (const auto& file : options.scenes) command += " --scene " + file.filename().string();

@@ -8,15 +8,12 @@
 #include <vector>
 
 #include "bench/image_estimates.h"
+#include "bench/options.h"
 #include "film/film.h"
 
 namespace phlux::bench {
 
-struct PrecisionOptions {
-  std::filesystem::path folder;              ///< of precision.csv
-  std::vector<std::string> devices;          ///< --device specifications; the first one is measured
-  int lanes = 0;                             ///< WIDTH beside 1; 0: what suits the device
-  std::filesystem::path kernel_dir;          ///< empty: the embedded kernels
+struct PrecisionOptions : CommonOptions {    ///< lanes: beside 1
   std::vector<std::filesystem::path> scenes; ///< empty: those that ship, with those of scenes/stability
   bool quick = false;                        ///< path tracing of scenes/ alone, fewer samples
   std::uint64_t seed = 1;

@@ -1,7 +1,6 @@
 #include "bench/rays.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <functional>
@@ -20,6 +19,7 @@
 #include "bench/moments.h"
 #include "bench/provenance.h"
 #include "bench/scripts.h"
+#include "clock.h"
 #include "device/program.h"
 #include "errors.h"
 #include "render/device_scene.h"
@@ -28,12 +28,11 @@ namespace phlux::bench {
 namespace {
 
 using scene::Vec3;
-using Clock = std::chrono::steady_clock;
 
 double seconds_of(const std::function<void()>& work) {
   const Clock::time_point begin = Clock::now();
   work();
-  return std::chrono::duration<double>(Clock::now() - begin).count();
+  return seconds_since(begin);
 }
 
 // ---- The device
@@ -178,7 +177,7 @@ void measure_rays(const RaysOptions& options) {
   const device::Device device = device::open_devices(options.devices).front();
   const device::KernelFiles files =
       options.kernel_dir.empty() ? device::KernelFiles() : device::KernelFiles(options.kernel_dir);
-  const int lanes = options.lanes != 0 ? options.lanes : device.info.lanes;
+  const int lanes = options.lanes_on(device.info);
   for (const std::uint64_t triangles : options.triangles) {
     const scene::Scene scene = knot_scene(triangles);
     render::HostScene host = render::prepare(scene, options.traversal, lanes);

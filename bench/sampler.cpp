@@ -1,7 +1,6 @@
 #include "bench/sampler.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -9,6 +8,8 @@
 #include <boost/math/special_functions/beta.hpp>
 #include <boost/math/special_functions/gamma.hpp>
 #include <fmt/format.h>
+
+#include "clock.h"
 
 namespace phlux::bench {
 namespace {
@@ -137,11 +138,11 @@ Sampler::Run Sampler::run(const Subject& subject, std::uint64_t samples, std::ui
       static_cast<cl_int>(block_samples), static_cast<cl_int>(subject.roulette),
       static_cast<cl_int>(subject.light), cl_float{centre}, device_sums, device_counts);
   cl::Event done;
-  const auto begin = std::chrono::steady_clock::now();
+  const Clock::time_point begin = Clock::now();
   device.queue.enqueueNDRangeKernel(kernel_, cl::NullRange, cl::NDRange(items_), cl::NDRange(local_), nullptr,
                                     &done);
   done.wait();
-  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
+  const double wall_seconds = seconds_since(begin);
   device.queue.enqueueReadBuffer(device_sums, CL_TRUE, 0, sums.size() * sizeof(float), sums.data());
   device.queue.enqueueReadBuffer(device_counts, CL_TRUE, 0, counts.size() * sizeof(cl_uint), counts.data());
 
@@ -156,7 +157,7 @@ Sampler::Run Sampler::run(const Subject& subject, std::uint64_t samples, std::ui
   run.sums.count = items_ * lanes * block_count * block_samples;
   run.sums.centre = static_cast<double>(centre);
   run.seconds = seconds_of(done);
-  run.wall_seconds = wall.count();
+  run.wall_seconds = wall_seconds;
   return run;
 } catch (const cl::Error& error) {
   program_.fail(error);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <map>
@@ -20,6 +19,7 @@
 #include "bench/scripts.h"
 #include "bench/settings.h"
 #include "bench/status_line.h"
+#include "clock.h"
 #include "render/render.h"
 
 namespace phlux::bench {
@@ -67,10 +67,6 @@ std::vector<Case> cases_of(const SamplingOptions& options) {
 std::vector<Light> lights_of(const SamplingOptions& options) {
   if (!options.lights.empty()) return options.lights;
   return {Light::constant, Light::mirror_disk, Light::horizon_sky};
-}
-
-int lanes_of(const SamplingOptions& options, const device::Device& device) {
-  return options.lanes != 0 ? options.lanes : device.info.lanes;
 }
 
 std::vector<Unit> units_of(const std::vector<Case>& cases, const std::vector<Light>& lights) {
@@ -267,11 +263,10 @@ std::string command_of(const SamplingOptions& options) {
   return command + fmt::format(" --seed {}", options.seed);
 }
 
-std::string progress_text(std::size_t done, std::size_t all, std::size_t done_now,
-                          std::chrono::steady_clock::time_point begin) {
+std::string progress_text(std::size_t done, std::size_t all, std::size_t done_now, Clock::time_point begin) {
   const std::string text = fmt::format("{} of {} measurements", done, all);
   if (done_now == 0) return text;
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const double seconds = seconds_since(begin);
   const double left = seconds / static_cast<double>(done_now) * static_cast<double>(all - done);
   return fmt::format("{}  {} left", text, clock_text(left));
 }
@@ -310,7 +305,7 @@ std::vector<Case> sampling_cases(bool quick) {
 bool write_sampling_tables(const SamplingOptions& options) {
   make_folder(options.folder);
   const device::Device device = device::open_devices(options.devices).front();
-  const int lanes = lanes_of(options, device);
+  const int lanes = options.lanes_on(device.info);
   const auto strategies = strategies_of(options);
   std::vector<Unit> units = units_of(cases_of(options), lights_of(options));
   const std::size_t all = units.size();
@@ -329,7 +324,7 @@ bool write_sampling_tables(const SamplingOptions& options) {
   if (units.empty()) return true;
   std::vector<Sampler> samplers = build_samplers(device, files, strategies, lanes);
   StatusLine status;
-  const auto begin = std::chrono::steady_clock::now();
+  const Clock::time_point begin = Clock::now();
   for (std::size_t i = 0; i < units.size(); ++i) {
     if (options.interrupted && options.interrupted()) return false;
     status.show(progress_text(all - units.size() + i, all, i, begin));
@@ -343,7 +338,7 @@ bool write_sampling_tables(const SamplingOptions& options) {
 bool measure_sampling(const SamplingOptions& options) {
   if (!write_sampling_tables(options)) return false;
   const device::Device device = device::open_devices(options.devices).front();
-  const int lanes = lanes_of(options, device);
+  const int lanes = options.lanes_on(device.info);
   fmt::print("{}, WIDTH {}\n", device.info.name, lanes);
   print_summary(strategies_of(options), SavedTable(options.folder, tables[0], sampling_columns()));
   print_left_out(strategies_of(options), cases_of(options));

@@ -2,21 +2,17 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "bench/options.h"
 #include "bench/sampler.h"
 
 namespace phlux::bench {
 
-struct SamplingOptions {
-  std::filesystem::path folder;         ///< of the tables
-  std::vector<std::string> devices;     ///< --device specifications; the first one is measured
-  int lanes = 0;                        ///< WIDTH; 0: what suits the device
-  std::filesystem::path kernel_dir;     ///< empty: the embedded kernels
+struct SamplingOptions : CommonOptions {
   std::vector<std::string> strategies;  ///< empty: all
   std::vector<Case> cases;              ///< empty: the grid
   std::vector<Light> lights;            ///< empty: all

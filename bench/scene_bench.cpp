@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <numeric>
 
@@ -14,8 +13,6 @@
 
 namespace phlux::bench {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr std::uint64_t first_trial_seed = 1'000'000;
 constexpr double trial_share = 1.0 / 400; // of the scene's time, for one render of a trial
@@ -32,10 +29,6 @@ constexpr double suspect_growth = 2.0;
 constexpr double significant = 1e-4;
 // Of the mean: what sums of float32 may be off by, whatever their noise.
 constexpr double rounding = 1e-5;
-
-double seconds_since(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
-}
 
 std::vector<double> doubling_times(double seconds) {
   std::vector<double> times;

@@ -2,7 +2,6 @@
 // the methods take turns.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -11,6 +10,7 @@
 
 #include "bench/method.h"
 #include "bench/reference.h"
+#include "clock.h"
 
 namespace phlux::bench {
 
@@ -88,7 +88,7 @@ private:
 
   const scene::Scene& scene_;
   const SceneBenchSettings& settings_;
-  std::chrono::steady_clock::time_point begin_;
+  Clock::time_point begin_;
   std::vector<Trial> trials_;
   double overhead_ = 0; ///< seconds of a round of one method beyond those asked for
 };

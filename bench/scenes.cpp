@@ -1,8 +1,6 @@
 #include "bench/scenes.h"
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <iterator>
@@ -20,14 +18,14 @@
 #include "bench/scripts.h"
 #include "bench/status_line.h"
 #include "bench/timed_render.h"
+#include "clock.h"
 #include "device/device.h"
 #include "errors.h"
+#include "scene/image_size.h"
 #include "scene_file/load.h"
 
 namespace phlux::bench {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr double default_seconds = 120, quick_seconds = 11; // a scene
 constexpr double default_total = 17 * 60, quick_total = 90;
@@ -59,7 +57,7 @@ struct SceneRun {
 };
 
 SceneRun load(const std::filesystem::path& file, const Run& run) {
-  const int side = run.options.largest_side.value_or(run.options.quick ? quick_side : default_side);
+  const int side = run.options.side.value_or(run.options.quick ? quick_side : default_side);
   SceneRun result{file.stem().string(), load_at_size(file, side), {}};
   Fingerprint fingerprint;
   fingerprint.add(text_of(file));
@@ -166,21 +164,13 @@ struct SceneResults {
   std::vector<MethodResult> methods;
 };
 
-SceneBenchSettings bench_settings(const ScenesOptions& options) {
-  SceneBenchSettings settings;
-  settings.devices = options.devices;
-  settings.lanes = options.lanes;
-  settings.kernel_dir = options.kernel_dir;
-  settings.seed = options.seed;
-  settings.least_rounds = options.quick ? 5 : 10;
-  settings.trial_renders = options.quick ? 3 : 6;
-  settings.interrupted = options.interrupted;
-  return settings;
+SceneBenchSettings settings_for(const ScenesOptions& options) {
+  return bench_settings(options, options.quick ? 3 : 6);
 }
 
 SceneResults measure(const Run& run, const SceneRun& scene, const std::vector<Method>& methods,
                      Tables& tables, const std::function<void(const std::string&)>& report) {
-  SceneBenchSettings settings = bench_settings(run.options);
+  SceneBenchSettings settings = settings_for(run.options);
   settings.seconds = run.seconds_left;
   settings.report = report;
   SceneBench bench(scene.scene, settings);
@@ -206,29 +196,15 @@ void check_names(const std::vector<std::filesystem::path>& files) {
                                    other->second.string()));
 }
 
-double seconds_for_each(const ScenesOptions& options, std::size_t scenes) {
-  const double total = options.quick ? quick_total : default_total;
+double seconds_for_each(const ScenesOptions& options, double total, std::size_t scenes) {
   return options.seconds.value_or(
       std::min(options.quick ? quick_seconds : default_seconds, total / static_cast<double>(scenes)));
-}
-
-// Asked for a time, scenes get it; else building kernels is a part of what all may take.
-double seconds_left_for_each(const ScenesOptions& options, double seconds, double building,
-                             std::size_t scenes) {
-  if (options.seconds) return seconds;
-  const double total = options.quick ? quick_total : default_total;
-  return std::clamp((total - building) / static_cast<double>(scenes), seconds / 4, seconds);
 }
 
 std::string command_of(const ScenesOptions& options) {
   std::string command = "phlux bench scenes";
   if (options.quick) command += " --quick";
-  if (options.seconds) command += fmt::format(" --seconds {}", *options.seconds);
-  if (options.largest_side) command += fmt::format(" --side {}", *options.largest_side);
-  if (options.lanes != 0) command += fmt::format(" --width {}", options.lanes);
-  if (options.seed != 1) command += fmt::format(" --seed {}", options.seed);
-  if (options.strategies != std::vector<std::string>{"exact"})
-    for (const std::string& strategy : options.strategies) command += " --strategy " + strategy;
+  command += text_of_amount(options) + text_of_strategies(options);
   for (const auto& scene : options.scenes) command += " --scene " + scene.filename().string();
   return command;
 }
@@ -252,9 +228,8 @@ void measure_all(const Run& run, const std::vector<SceneRun>& scenes, Tables& ta
     const auto later = std::count_if(methods_of.begin() + static_cast<std::ptrdiff_t>(i) + 1,
                                      methods_of.end(), [](const auto& those) { return !those.empty(); });
     const SceneResults results = measure(run, scenes[i], methods, tables, [&](const std::string& what) {
-      const double spent = std::chrono::duration<double>(Clock::now() - begin).count();
-      const double left =
-          std::max(0.0, run.seconds_left - spent) + run.seconds_left * static_cast<double>(later);
+      const double left = std::max(0.0, run.seconds_left - seconds_since(begin)) +
+                          run.seconds_left * static_cast<double>(later);
       status.show(fmt::format("scene {} of {}, {}: {}  {} left", i + 1, scenes.size(), scenes[i].name, what,
                               clock_text(left)));
     });
@@ -286,15 +261,7 @@ void finish(const Run& run, const Done& done) {
 
 scene::Scene load_at_size(const std::filesystem::path& file, int largest_side) {
   scene::Scene scene = scene_file::load(file);
-  scene::Camera& camera = scene.camera;
-  const int side = std::max(camera.width, camera.height);
-  if (side > largest_side) {
-    const auto scaled = [&](int pixels) {
-      return std::max(1, static_cast<int>(std::lround(static_cast<double>(pixels) * largest_side / side)));
-    };
-    camera.width = scaled(camera.width);
-    camera.height = scaled(camera.height);
-  }
+  scene::shrink_image(scene.camera, largest_side);
   return scene;
 }
 
@@ -329,13 +296,17 @@ bool measure_scenes(const ScenesOptions& options) {
     done.programs = files.size() * methods.size();
     std::vector<std::function<scene::Scene()>> loads;
     for (const auto& file : files) loads.emplace_back([&file] { return scene_file::load(file); });
-    done.programs_built = build_programs(loads, methods, bench_settings(options));
+    done.programs_built = build_programs(loads, methods, settings_for(options));
   }
   const device::Device device = device::open_devices(options.devices).front();
-  const double seconds = seconds_for_each(options, files.size());
-  const double building = std::chrono::duration<double>(Clock::now() - begin).count();
-  const Run run{options, device.info, options.lanes != 0 ? options.lanes : device.info.lanes,
-                methods, seconds,     seconds_left_for_each(options, seconds, building, files.size())};
+  const double total = options.quick ? quick_total : default_total;
+  const double seconds = seconds_for_each(options, total, files.size());
+  const Run run{options,
+                device.info,
+                options.lanes_on(device.info),
+                methods,
+                seconds,
+                seconds_left_for_each(options, seconds, total, seconds_since(begin), files.size())};
   std::vector<SceneRun> scenes;
   for (const auto& file : files) scenes.push_back(load(file, run));
   if (!runs_to_end([&] { measure_all(run, scenes, tables, done); }, options.interrupted)) {

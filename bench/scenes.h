@@ -2,30 +2,17 @@
 // report.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
-#include <functional>
-#include <optional>
-#include <string>
 #include <vector>
 
+#include "bench/comparison.h"
 #include "scene/scene.h"
 
 namespace phlux::bench {
 
-struct ScenesOptions {
-  std::filesystem::path folder;
-  std::vector<std::string> devices;          ///< --device specifications; the first one is measured
-  int lanes = 0;                             ///< WIDTH; 0: what suits the device
-  std::filesystem::path kernel_dir;          ///< empty: the embedded kernels
+/// Absent seconds: what keeps all within 17 minutes, or 90 s when quick. Absent side: 128, or 64.
+struct ScenesOptions : ComparisonOptions {
   std::vector<std::filesystem::path> scenes; ///< empty: those that ship with phlux
-  std::vector<std::string> strategies = {"exact"};
-  bool quick = false;              ///< fewer and shorter renders, and of bidir's weights balance alone
-  std::optional<double> seconds;   ///< for each scene; absent: what keeps all within 17 minutes, or 90 s
-  std::optional<int> largest_side; ///< pixels; absent: 128, 64 when quick
-  std::uint64_t seed = 1;
-  bool build_ahead = false;          ///< on all processors; only in a process that has not used OpenCL yet
-  std::function<bool()> interrupted; ///< may be empty
 };
 
 /// Writes scenes.csv (the columns of the contract, then those that say how they were measured), the doubling

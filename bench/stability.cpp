@@ -1,7 +1,6 @@
 #include "bench/stability.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 
 #include <fmt/format.h>
@@ -18,17 +17,17 @@
 #include "bench/stability_scene.h"
 #include "bench/status_line.h"
 #include "bench/timed_render.h"
+#include "clock.h"
 #include "device/device.h"
 
 namespace phlux::bench {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr double default_seconds = 20, quick_seconds = 10; // a cell
 constexpr double default_total = 13 * 60, quick_total = 90;
 constexpr int default_side = 48, quick_side = 32;
 constexpr double reference_share = 0.15; // of a cell's time
+constexpr int trial_renders = 2;         // who makes the reference is known
 // Whatever its rivals do in a cell, bidir balance is known to have a technique for every path of the scene.
 const Method reference_method{"bidir", "exact", "balance"};
 
@@ -37,22 +36,6 @@ std::vector<std::string> columns() {
   std::vector<std::string> all = result_columns();
   all.emplace_back("clock"); // of variance_times_seconds
   return all;
-}
-
-double seconds_since(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
-}
-
-SceneBenchSettings bench_settings(const StabilityOptions& options) {
-  SceneBenchSettings settings;
-  settings.devices = options.devices;
-  settings.lanes = options.lanes;
-  settings.kernel_dir = options.kernel_dir;
-  settings.seed = options.seed;
-  settings.least_rounds = options.quick ? 5 : 10;
-  settings.trial_renders = 2; // who makes the reference is known
-  settings.interrupted = options.interrupted;
-  return settings;
 }
 
 std::vector<Method> methods_of(const StabilityOptions& options) {
@@ -150,7 +133,7 @@ void print(const Run& run, const CellRun& cell, const std::vector<MethodResult>&
 void measure(const Run& run, const CellRun& cell, const std::vector<Method>& methods, ResultTable& table,
              StatusLine& status, const std::function<void(const std::string&)>& report) {
   const Clock::time_point begin = Clock::now();
-  SceneBenchSettings settings = bench_settings(run.options);
+  SceneBenchSettings settings = bench_settings(run.options, trial_renders);
   settings.seconds = run.seconds_left;
   settings.report = report;
   ReferenceImage reference = reference_of(cell, settings, run.options.folder / "references");
@@ -198,21 +181,7 @@ std::string command_of(const StabilityOptions& options) {
   for (const StabilityCell& cell : options.cells)
     command += fmt::format(" --cell {},{}", number_text(cell.exponent), number_text(cell.light_radius));
   for (const std::string& variant : options.variants) command += fmt::format(" --method '{}'", variant);
-  if (options.strategies != std::vector<std::string>{"exact"})
-    for (const std::string& strategy : options.strategies) command += " --strategy " + strategy;
-  if (options.seconds) command += fmt::format(" --seconds {}", *options.seconds);
-  if (options.side) command += fmt::format(" --side {}", *options.side);
-  if (options.lanes != 0) command += fmt::format(" --width {}", options.lanes);
-  if (options.seed != 1) command += fmt::format(" --seed {}", options.seed);
-  return command;
-}
-
-// Asked for a time, cells get it; else building kernels is a part of what all may take.
-double seconds_left_for_each(const StabilityOptions& options, double seconds, double building,
-                             std::size_t cells) {
-  if (options.seconds) return seconds;
-  const double total = options.quick ? quick_total : default_total;
-  return std::clamp((total - building) / static_cast<double>(cells), seconds / 4, seconds);
+  return command + text_of_strategies(options) + text_of_amount(options);
 }
 
 // One program for all cells: they differ in numbers alone.
@@ -223,7 +192,7 @@ void build_kernels(const StabilityOptions& options, const StabilityCell& cell,
   std::vector<Method> all = methods;
   if (std::ranges::count(all, reference_method) == 0) all.push_back(reference_method);
   (void)build_programs({[&] { return stability_scene(cell.exponent, cell.light_radius, 1); }}, all,
-                       bench_settings(options));
+                       bench_settings(options, trial_renders));
 }
 
 } // namespace
@@ -260,11 +229,12 @@ bool measure_stability(const StabilityOptions& options) {
   const double seconds = options.seconds.value_or(options.quick ? quick_seconds : default_seconds);
   const Run run{options,
                 device.info,
-                options.lanes != 0 ? options.lanes : device.info.lanes,
+                options.lanes_on(device.info),
                 options.side.value_or(options.quick ? quick_side : default_side),
                 methods,
                 seconds,
-                seconds_left_for_each(options, seconds, seconds_since(begin), cells.size())};
+                seconds_left_for_each(options, seconds, options.quick ? quick_total : default_total,
+                                      seconds_since(begin), cells.size())};
   std::vector<CellRun> runs;
   for (const StabilityCell& cell : cells) runs.push_back(cell_run(run, cell));
   if (!runs_to_end([&] { measure_all(run, runs, table); }, options.interrupted)) {

@@ -2,14 +2,10 @@
 // parameters; where its variance is suspect, and which method is the best.
 #pragma once
 
-#include <cstdint>
-#include <filesystem>
-#include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "bench/method.h"
+#include "bench/comparison.h"
 
 namespace phlux::bench {
 
@@ -20,20 +16,10 @@ struct StabilityCell {
   bool operator==(const StabilityCell&) const = default;
 };
 
-struct StabilityOptions {
-  std::filesystem::path folder;
-  std::vector<std::string> devices;  ///< --device specifications; the first one is measured
-  int lanes = 0;                     ///< WIDTH; 0: what suits the device
-  std::filesystem::path kernel_dir;  ///< empty: the embedded kernels
+/// Seconds are a cell's; absent: 20, or 10 when quick, which takes nine cells. Absent side: 48, or 32.
+struct StabilityOptions : ComparisonOptions {
   std::vector<StabilityCell> cells;  ///< empty: stability_cells()
   std::vector<std::string> variants; ///< names of methods with the default strategy; empty: all
-  std::vector<std::string> strategies = {"exact"};
-  bool quick = false;            ///< nine cells, fewer and shorter renders, of bidir's weights balance alone
-  std::optional<double> seconds; ///< for each cell; absent: 20, or 10 when quick
-  std::optional<int> side;       ///< pixels; absent: 48, 32 when quick
-  std::uint64_t seed = 1;
-  bool build_ahead = false;          ///< on all processors; only in a process that has not used OpenCL yet
-  std::function<bool()> interrupted; ///< may be empty
 };
 
 /// The grid that is measured where no cells are named.

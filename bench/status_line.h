@@ -1,8 +1,9 @@
 // What a measurement that takes minutes shows while it runs.
 #pragma once
 
-#include <chrono>
 #include <string>
+
+#include "clock.h"
 
 namespace phlux::bench {
 
@@ -22,7 +23,6 @@ public:
   void clear();
 
 private:
-  using Clock = std::chrono::steady_clock;
   bool terminal_, shown_ = false;
   Clock::time_point next_;
 };

@@ -207,7 +207,7 @@ void add_scenes(CLI::App& bench, std::optional<Command>& command) {
   add_value(app, "--side", "N", "pixels of an image's longer side at most; default: 128, or 64 with --quick",
             [options](const std::string& text) {
               constexpr std::uint64_t most = 4096;
-              options->largest_side = static_cast<int>(whole_number("--side", text, 1, most));
+              options->side = static_cast<int>(whole_number("--side", text, 1, most));
             });
   add_value(app, "--seed", "N", "of the first round; default: 1", [options](const std::string& text) {
     constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();

@@ -1,11 +1,11 @@
 #include <algorithm>
-#include <chrono>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "cli/commands.h"
+#include "clock.h"
 #include "device/device.h"
 #include "files/json.h"
 #include "files/output.h"
@@ -144,9 +144,9 @@ int verify(const VerifyOptions& options) {
   if (!options.kernel_dir.empty()) settings.kernels = device::KernelFiles(options.kernel_dir);
   fmt::print("{} ({}, driver {}), WIDTH {}\n", device.info.name, device.info.platform, device.info.driver,
              settings.lanes);
-  const auto start = std::chrono::steady_clock::now();
+  const Clock::time_point start = Clock::now();
   Report report = verify::run(device, settings);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds = seconds_since(start);
   verify::write_failures(report);
   print_strategies(report);
   print_model(report);

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "clock.h"
 #include "device/binary_cache.h"
 #include "errors.h"
 
@@ -158,10 +159,7 @@ std::string first_error(const std::string& log, const std::string& text) {
 
 BuiltProgram build(const Device& device, const KernelFiles& files, const ProgramSource& source,
                    const std::function<void()>& slow) {
-  const auto start = std::chrono::steady_clock::now();
-  const auto elapsed = [&] {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  };
+  const Clock::time_point start = Clock::now();
   const Watcher watcher(slow);
   const std::string text = expand(files, source);
   const std::string key = cache_key(device, text);
@@ -171,14 +169,14 @@ BuiltProgram build(const Device& device, const KernelFiles& files, const Program
     const bool known = records.load(key).has_value();
     const auto program = build_text(device, name, text);
     if (!known) records.store(key, {1});
-    return {program, known, elapsed()};
+    return {program, known, seconds_since(start)};
   }
   const BinaryCache cache(binary_cache_folder());
   if (const auto binary = cache.load(key))
-    if (const auto program = build_binary(device, *binary)) return {*program, true, elapsed()};
+    if (const auto program = build_binary(device, *binary)) return {*program, true, seconds_since(start)};
   const auto program = build_text(device, name, text);
   cache.store(key, binary_of(program));
-  return {program, false, elapsed()};
+  return {program, false, seconds_since(start)};
 }
 
 } // namespace phlux::device

@@ -10,17 +10,13 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "clock.h"
 #include "device/program.h"
 #include "errors.h"
 #include "render/launcher.h"
 
 namespace phlux::render {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
-}
 
 // Launches in flight on a device: one runs while the results of the one before are folded in.
 constexpr std::size_t launches_in_flight = 2;

@@ -1,0 +1,23 @@
+// What every measurement is told.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "device/device.h"
+
+namespace phlux::bench {
+
+struct CommonOptions {
+  std::filesystem::path folder;     ///< of tables, charts and the report
+  std::vector<std::string> devices; ///< --device specifications; the first one is measured
+  int lanes = 0;                    ///< WIDTH; 0: what suits the device
+  std::filesystem::path kernel_dir; ///< empty: the embedded kernels
+
+  [[nodiscard]] int lanes_on(const device::DeviceInfo& device) const {
+    return lanes != 0 ? lanes : device.lanes;
+  }
+};
+
+} // namespace phlux::bench
