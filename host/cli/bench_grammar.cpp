@@ -21,9 +21,8 @@ namespace phlux::cli {
 namespace {
 
 const char* const default_folder = "bench-results";
-// What every measurement has: a folder, a device and a width.
-template<class Options>
-void add_common(CLI::App& app, Options& options) {
+
+void add_common(CLI::App& app, bench::CommonOptions& options) {
   options.folder = default_folder;
   add_value(
       app, "--out", "DIR",
@@ -32,20 +31,69 @@ void add_common(CLI::App& app, Options& options) {
         if (text.empty()) throw UsageError("--out '': must be a folder's name");
         options.folder = text;
       });
-  add_value(app, "--device", "SPEC", "P:D as `phlux devices` lists them, cpu, gpu, or a part of a name",
-            [&options](const std::string& text) { options.devices = {text}; });
-  add_value(app, "--width", "N", "lanes of a work item: 1, 4, 8 or 16; default: what suits the device",
-            [&options](const std::string& text) {
-              const std::vector<std::string> widths = {"1", "4", "8", "16"};
-              options.lanes = std::stoi(widths[choice("--width", text, widths)]);
-            });
-  add_value(app, "--kernel-dir", "FOLDER",
-            "kernel sources to use instead of the built-in ones, while developing",
-            [&options](const std::string& text) {
-              if (!std::filesystem::is_directory(text))
-                throw UsageError(fmt::format("--kernel-dir {}: must be a folder of kernel files", text));
-              options.kernel_dir = text;
-            });
+  add_one_device(app, options.devices, options.lanes, options.kernel_dir);
+}
+
+template<class Seed>
+void add_seed(CLI::App& app, const std::string& of, Seed& seed) {
+  add_value(app, "--seed", "N", "of " + of + "; default: 1", [&seed](const std::string& text) {
+    constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
+    seed = static_cast<Seed>(whole_number("--seed", text, 0, most));
+  });
+}
+
+void add_scene_files(CLI::App& app, const std::string& defaults, std::vector<std::filesystem::path>& files) {
+  add_values(app, "--scene", "FILE.xml", "only this one; may be repeated; default: " + defaults,
+             [&files](const std::string& text) { files.emplace_back(text); });
+}
+
+// In place of those that are there.
+void add_strategies(CLI::App& app, std::vector<std::string>& strategies) {
+  const auto named = std::make_shared<bool>(false);
+  add_values(app, "--strategy", "NAME", "how directions are sampled; may be repeated; default: exact",
+             [&strategies, named](const std::string& text) {
+               const auto& names = render::strategy_names();
+               if (!*named) strategies.clear();
+               *named = true;
+               strategies.push_back(names[choice("--strategy", text, names)]);
+             });
+}
+
+// How long methods are compared, and on how large images.
+void add_amount(CLI::App& app, bench::ComparisonOptions& options, const std::string& seconds,
+                const std::string& side) {
+  add_value(app, "--seconds", "S", seconds,
+            [&options](const std::string& text) { options.seconds = positive_number("--seconds", text); });
+  add_value(app, "--side", "N", side, [&options](const std::string& text) {
+    constexpr std::uint64_t most = 4096;
+    options.side = static_cast<int>(whole_number("--side", text, 1, most));
+  });
+  add_seed(app, "the first round", options.seed);
+  app.footer("What the folder holds of the same settings is not measured again: an interrupted run goes on.");
+}
+
+template<class Options>
+void measure_by(void (*measure)(const Options&), CLI::App& app, std::optional<Command>& command,
+                const std::shared_ptr<Options>& options) {
+  app.final_callback([=, &command] {
+    command = [=] {
+      measure(*options);
+      return 0;
+    };
+  });
+}
+
+// For a measurement that says whether it came to its end, and that an interrupt ends.
+template<class Options>
+void measure_by(bool (*measure)(const Options&), CLI::App& app, std::optional<Command>& command,
+                const std::shared_ptr<Options>& options) {
+  app.final_callback([=, &command] {
+    command = [=] {
+      const InterruptGuard guard;
+      options->interrupted = [&guard] { return guard.requested(); };
+      return measure(*options) ? 0 : interrupted_exit_code;
+    };
+  });
 }
 
 std::vector<std::string> split(const std::string& text) {
@@ -67,17 +115,8 @@ void add_rays(CLI::App& bench, std::optional<Command>& command) {
               for (const std::string& part : split(text))
                 options->triangles.push_back(whole_number("--triangles", part, least, most));
             });
-  add_value(app, "--traversal", "NAME", "brute (every shape), bvh or auto; default: auto",
-            [options](const std::string& text) {
-              options->traversal =
-                  static_cast<render::Traversal>(choice("--traversal", text, {"auto", "brute", "bvh"}));
-            });
-  app.final_callback([&command, options] {
-    command = [options] {
-      bench::measure_rays(*options);
-      return 0;
-    };
-  });
+  add_traversal(app, options->traversal);
+  measure_by(bench::measure_rays, app, command, options);
 }
 
 bench::Case case_of(const std::string& text) {
@@ -120,17 +159,8 @@ void add_sampling(CLI::App& bench, std::optional<Command>& command) {
                options->lights.push_back(
                    static_cast<bench::Light>(choice("--integrand", text, bench::light_names())));
              });
-  add_value(app, "--seed", "N", "of the random numbers; default: 1", [options](const std::string& text) {
-    constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
-    options->seed = static_cast<std::uint32_t>(whole_number("--seed", text, 0, most));
-  });
-  app.final_callback([&command, options] {
-    command = [options] {
-      const InterruptGuard interrupt;
-      options->interrupted = [&interrupt] { return interrupt.requested(); };
-      return bench::measure_sampling(*options) ? 0 : interrupted_exit_code;
-    };
-  });
+  add_seed(app, "the random numbers", options->seed);
+  measure_by(bench::measure_sampling, app, command, options);
 }
 
 void add_arithmetic(CLI::App& bench, std::optional<Command>& command) {
@@ -139,12 +169,7 @@ void add_arithmetic(CLI::App& bench, std::optional<Command>& command) {
   const auto options = std::make_shared<bench::ArithmeticOptions>();
   add_common(app, *options);
   app.add_flag("--quick", options->quick, "fewer values");
-  app.final_callback([&command, options] {
-    command = [options] {
-      bench::measure_arithmetic(*options);
-      return 0;
-    };
-  });
+  measure_by(bench::measure_arithmetic, app, command, options);
 }
 
 void add_precision(CLI::App& bench, std::optional<Command>& command) {
@@ -152,18 +177,10 @@ void add_precision(CLI::App& bench, std::optional<Command>& command) {
       "precision", "Float32 against float64: its error against noise, and its speed: precision.csv");
   const auto options = std::make_shared<bench::PrecisionOptions>();
   add_common(app, *options);
-  add_values(app, "--scene", "FILE.xml",
-             "only this one; may be repeated; default: those that ship, with those of scenes/stability",
-             [options](const std::string& text) { options->scenes.emplace_back(text); });
+  add_scene_files(app, "those that ship, with those of scenes/stability", options->scenes);
   app.add_flag("--quick", options->quick, "path tracing alone, without scenes/stability; fewer samples");
   app.footer("--width N is measured beside 1. The device must have doubles.");
-  app.final_callback([&command, options] {
-    command = [options] {
-      const InterruptGuard guard;
-      options->interrupted = [&guard] { return guard.requested(); };
-      return bench::measure_precision(*options) ? 0 : interrupted_exit_code;
-    };
-  });
+  measure_by(bench::measure_precision, app, command, options);
 }
 
 void add_figures(CLI::App& bench, std::optional<Command>& command) {
@@ -173,55 +190,21 @@ void add_figures(CLI::App& bench, std::optional<Command>& command) {
   add_common(app, *options);
   app.footer(
       "The drawings need python3-matplotlib; without it the tables are written and the exit code is 5.");
-  app.final_callback([&command, options] {
-    command = [options] {
-      bench::make_figures(*options);
-      return 0;
-    };
-  });
-}
-
-// In place of those that are there.
-void add_strategies(CLI::App& app, std::vector<std::string>& strategies) {
-  const auto named = std::make_shared<bool>(false);
-  add_values(app, "--strategy", "NAME", "how directions are sampled; may be repeated; default: exact",
-             [&strategies, named](const std::string& text) {
-               const auto& names = render::strategy_names();
-               if (!*named) strategies.clear();
-               *named = true;
-               strategies.push_back(names[choice("--strategy", text, names)]);
-             });
+  measure_by(bench::make_figures, app, command, options);
 }
 
 void add_scenes(CLI::App& bench, std::optional<Command>& command) {
   CLI::App& app = *bench.add_subcommand(
       "scenes", "Every method on every scene: variance, time, convergence: scenes.csv and index.html");
   const auto options = std::make_shared<bench::ScenesOptions>();
+  options->build_ahead = true;
   add_common(app, *options);
-  add_values(app, "--scene", "FILE.xml", "only this one; may be repeated; default: those that ship",
-             [options](const std::string& text) { options->scenes.emplace_back(text); });
+  add_scene_files(app, "those that ship", options->scenes);
   add_strategies(app, options->strategies);
   app.add_flag("--quick", options->quick, "under two minutes for the scenes that ship; coarser");
-  add_value(app, "--seconds", "S", "for each scene; default: 120, or 11 with --quick, less for many scenes",
-            [options](const std::string& text) { options->seconds = positive_number("--seconds", text); });
-  add_value(app, "--side", "N", "pixels of an image's longer side at most; default: 128, or 64 with --quick",
-            [options](const std::string& text) {
-              constexpr std::uint64_t most = 4096;
-              options->side = static_cast<int>(whole_number("--side", text, 1, most));
-            });
-  add_value(app, "--seed", "N", "of the first round; default: 1", [options](const std::string& text) {
-    constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
-    options->seed = whole_number("--seed", text, 0, most);
-  });
-  app.footer("What the folder holds of the same settings is not measured again: an interrupted run goes on.");
-  app.final_callback([&command, options] {
-    command = [options] {
-      const InterruptGuard guard;
-      options->interrupted = [&guard] { return guard.requested(); };
-      options->build_ahead = true;
-      return bench::measure_scenes(*options) ? 0 : interrupted_exit_code;
-    };
-  });
+  add_amount(app, *options, "for each scene; default: 120, or 11 with --quick, less for many scenes",
+             "pixels of an image's longer side at most; default: 128, or 64 with --quick");
+  measure_by(bench::measure_scenes, app, command, options);
 }
 
 bench::StabilityCell cell_of(const std::string& text) {
@@ -236,6 +219,7 @@ void add_stability(CLI::App& bench, std::optional<Command>& command) {
   CLI::App& app = *bench.add_subcommand(
       "stability", "Where each method fails, over a lobe's exponent and a light's size: stability.csv");
   const auto options = std::make_shared<bench::StabilityOptions>();
+  options->build_ahead = true;
   add_common(app, *options);
   app.add_flag("--quick", options->quick, "nine cells and five methods in under two minutes; coarser");
   add_values(app, "--cell", "N,RADIUS",
@@ -248,27 +232,10 @@ void add_stability(CLI::App& bench, std::optional<Command>& command) {
                options->variants.push_back(names[choice("--method", text, names)]);
              });
   add_strategies(app, options->strategies);
-  add_value(app, "--seconds", "S",
-            "for each cell; default: 20, or 10 with --quick, less where building kernels took long",
-            [options](const std::string& text) { options->seconds = positive_number("--seconds", text); });
-  add_value(app, "--side", "N", "pixels of an image's side; default: 48, or 32 with --quick",
-            [options](const std::string& text) {
-              constexpr std::uint64_t most = 4096;
-              options->side = static_cast<int>(whole_number("--side", text, 1, most));
-            });
-  add_value(app, "--seed", "N", "of the first round; default: 1", [options](const std::string& text) {
-    constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
-    options->seed = whole_number("--seed", text, 0, most);
-  });
-  app.footer("What the folder holds of the same settings is not measured again: an interrupted run goes on.");
-  app.final_callback([&command, options] {
-    command = [options] {
-      const InterruptGuard guard;
-      options->interrupted = [&guard] { return guard.requested(); };
-      options->build_ahead = true;
-      return bench::measure_stability(*options) ? 0 : interrupted_exit_code;
-    };
-  });
+  add_amount(app, *options,
+             "for each cell; default: 20, or 10 with --quick, less where building kernels took long",
+             "pixels of an image's side; default: 48, or 32 with --quick");
+  measure_by(bench::measure_stability, app, command, options);
 }
 
 } // namespace

@@ -29,19 +29,19 @@ void add_method(CLI::App& app, RenderOptions& options) {
               options.strategy =
                   render::strategy_names()[choice("--strategy", text, render::strategy_names())];
             });
-  add_value(
-      app, "--connect", "NAME",
-      "path only, what reaches the lights: none (hits), light (light samples) or mis "
-      "(both, weighted); default: mis",
-      [&](const std::string& text) {
-        options.connect = static_cast<render::Connect>(choice("--connect", text, {"none", "light", "mis"}));
-      });
+  add_value(app, "--connect", "NAME",
+            "path only, what reaches the lights: none (hits), light (light samples) or mis "
+            "(both, weighted); default: mis",
+            [&](const std::string& text) {
+              options.connect =
+                  static_cast<render::Connect>(choice("--connect", text, render::connect_names()));
+            });
   add_value(app, "--weights", "NAME",
             "bidir only, how the ways to make a path share its light: balance, power or uniform; default: "
             "balance",
             [&](const std::string& text) {
               options.weights =
-                  static_cast<render::Weights>(choice("--weights", text, {"balance", "power", "uniform"}));
+                  static_cast<render::Weights>(choice("--weights", text, render::weights_names()));
             });
   add_value(
       app, "--ambient", "L",
@@ -95,31 +95,15 @@ void add_device(CLI::App& app, RenderOptions& options) {
              "P:D as `phlux devices` lists them, cpu, gpu, all, or a part of a name; may be "
              "repeated",
              [&](const std::string& text) { options.devices.push_back(text); });
-  add_value(app, "--width", "N",
-            "paths that one work item traces at a time: 1, 4, 8 or 16; default: what suits the "
-            "device",
-            [&](const std::string& text) {
-              const std::vector<std::string> widths = {"1", "4", "8", "16"};
-              options.lanes = std::stoi(widths[choice("--width", text, widths)]);
-            });
+  add_width(app, "paths that one work item traces at a time", options.lanes);
   add_value(app, "--precision", "NAME",
             "what kernels compute in: single, or double, one path at a time and only where the device has "
             "doubles; default: single",
             [&](const std::string& text) {
               options.double_precision = choice("--precision", text, {"single", "double"}) == 1;
             });
-  add_value(app, "--traversal", "NAME", "brute (every shape), bvh or auto; default: auto",
-            [&](const std::string& text) {
-              options.traversal =
-                  static_cast<render::Traversal>(choice("--traversal", text, {"auto", "brute", "bvh"}));
-            });
-  add_value(app, "--kernel-dir", "FOLDER",
-            "kernel sources to use instead of the built-in ones, while developing",
-            [&](const std::string& text) {
-              if (!std::filesystem::is_directory(text))
-                throw UsageError(fmt::format("--kernel-dir {}: must be a folder of kernel files", text));
-              options.kernel_dir = text;
-            });
+  add_traversal(app, options.traversal);
+  add_kernel_dir(app, options.kernel_dir);
 }
 
 void add_files(CLI::App& app, RenderOptions& options) {

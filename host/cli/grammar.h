@@ -1,31 +1,22 @@
 // How the command line's options are declared, whichever the command.
 #pragma once
 
+#include <filesystem>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
 #include "cli/command_line.h"
+#include "render/render.h"
 
 namespace phlux::cli {
 
 // The help's second column starts at first_column and ends at last_column.
 inline constexpr std::size_t first_column = 30, last_column = 100;
 
-inline std::string wrapped(const std::string& text) {
-  std::string lines;
-  std::size_t column = first_column;
-  std::istringstream words(text);
-  for (std::string word; words >> word; column += word.size() + 1) {
-    if (!lines.empty()) lines += column + word.size() > last_column ? '\n' : ' ';
-    if (lines.ends_with('\n')) column = first_column;
-    lines += word;
-  }
-  return lines;
-}
+[[nodiscard]] std::string wrapped(const std::string& text);
 
 // An option with one value, which `set` is given as text; when repeated, the last one counts, as scripts
 // expect.
@@ -53,6 +44,15 @@ CLI::Option* add_values(CLI::App& app, const std::string& names, const std::stri
       ->type_name(value)
       ->allow_extra_args(false);
 }
+
+// --width, --traversal and --kernel-dir, which several commands have.
+void add_width(CLI::App& app, const std::string& what, int& lanes);
+void add_traversal(CLI::App& app, render::Traversal& traversal);
+void add_kernel_dir(CLI::App& app, std::filesystem::path& folder);
+
+// --device for one device, --width and --kernel-dir.
+void add_one_device(CLI::App& app, std::vector<std::string>& devices, int& lanes,
+                    std::filesystem::path& kernel_dir);
 
 /// `phlux bench`, with all that it measures. @throws UsageError while parsing
 void add_bench(CLI::App& program, std::optional<Command>& command);

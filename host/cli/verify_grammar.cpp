@@ -28,30 +28,13 @@ void add_amount(CLI::App& app, VerifyOptions& options) {
             });
 }
 
-void add_device(CLI::App& app, VerifyOptions& options) {
-  add_value(app, "--device", "SPEC", "P:D as `phlux devices` lists them, cpu, gpu, or a part of a name",
-            [&options](const std::string& text) { options.devices = {text}; });
-  add_value(app, "--width", "N", "lanes of a work item: 1, 4, 8 or 16; default: what suits the device",
-            [&options](const std::string& text) {
-              const std::vector<std::string> widths = {"1", "4", "8", "16"};
-              options.lanes = std::stoi(widths[choice("--width", text, widths)]);
-            });
-  add_value(app, "--kernel-dir", "FOLDER",
-            "kernel sources to use instead of the built-in ones, while developing",
-            [&options](const std::string& text) {
-              if (!std::filesystem::is_directory(text))
-                throw UsageError(fmt::format("--kernel-dir {}: must be a folder of kernel files", text));
-              options.kernel_dir = text;
-            });
-}
-
 } // namespace
 
 void add_verify(CLI::App& program, std::optional<Command>& command) {
   CLI::App& app =
       *program.add_subcommand("verify", "Proves that the reflectance model's functions agree on a device");
   const auto options = std::make_shared<VerifyOptions>();
-  add_device(app, *options);
+  add_one_device(app, options->devices, options->lanes, options->kernel_dir);
   add_amount(app, *options);
   add_value(app, "--json", "FILE", "every figure, as JSON", [options](const std::string& text) {
     if (text.empty()) throw UsageError("--json '': must be a file name");
