@@ -14,6 +14,7 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
+import numpy as np
 
 # A role has one colour in light and one in dark. No two roles share a light colour: in an SVG the colour is the role.
 ROLES = {
@@ -42,6 +43,9 @@ SERIES = (
 )
 MARKERS = "osD^vP*Xph<>"
 DASHES = ("-", (0, (5, 1.6)), (0, (1.4, 1.2)))
+
+# Methods in the order in which tables and charts list them, and take colours.
+VARIANTS = ["path none", "path light", "path mis", "light", "bidir balance", "bidir power", "bidir uniform"]
 
 SEQUENTIAL = "viridis"  # heat maps keep their colours in both themes
 DIVERGING = "RdBu_r"
@@ -161,6 +165,15 @@ def read(folder, name):
     with open(os.path.join(folder, name), newline="", encoding="utf-8") as file:
         return [SimpleNamespace(**{column: value_of(text) for column, text in row.items()})
                 for row in csv.DictReader(file)]
+
+
+def variant_of(row):
+    """The one of VARIANTS that a row is about."""
+    return row.integrator if row.connect_or_weights == "-" else f"{row.integrator} {row.connect_or_weights}"
+
+
+def srgb(linear):
+    return np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
 
 
 def section(folder, name, *, title, order, text=(), summary=None, charts=(), tables=()):

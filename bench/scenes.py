@@ -10,7 +10,6 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-VARIANTS = ["path none", "path light", "path mis", "light", "bidir balance", "bidir power", "bidir uniform"]
 MARKERS = "osD^vPX*<>ph"
 DASHES = ["-", (0, (5, 1.6)), (0, (1.4, 1.2)), (0, (6, 1.4, 1.4, 1.4))]
 
@@ -20,14 +19,14 @@ class Method:
 
     def __init__(self, row, strategies):
         self.row = row
-        self.variant = row.integrator if row.connect_or_weights == "-" else f"{row.integrator} {row.connect_or_weights}"
+        self.variant = style.variant_of(row)
         self.strategy = row.strategy
         self.key = (row.integrator, row.strategy, row.connect_or_weights)
         self.name = self.variant if len(strategies) == 1 else f"{self.variant}, {row.strategy}"
         self.sound = row.verdict == "sound"
         self.refused = row.verdict == "refused"
         self.verdict = row.verdict
-        self.variant_number = VARIANTS.index(self.variant) if self.variant in VARIANTS else len(VARIANTS)
+        self.variant_number = style.VARIANTS.index(self.variant)
         self.strategy_number = strategies.index(row.strategy)
 
     @property
@@ -188,8 +187,7 @@ def draw_times(scene, methods, theme):
 def tone(image, exposure):
     linear = np.clip(image * exposure, 0, None)
     bright = linear > 0.6  # a shoulder, as in the previews
-    linear = np.where(bright, 0.6 + 0.4 * (1 - np.exp(-(linear - 0.6) / 0.4)), linear)
-    return np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
+    return style.srgb(np.where(bright, 0.6 + 0.4 * (1 - np.exp(-(linear - 0.6) / 0.4)), linear))
 
 
 def sheet(images, draw, right=0.0):

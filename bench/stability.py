@@ -15,7 +15,6 @@ from matplotlib.colors import LogNorm
 from matplotlib.patches import Patch, PathPatch, Rectangle
 from matplotlib.path import Path
 
-VARIANTS = ["path none", "path light", "path mis", "light", "bidir balance", "bidir power", "bidir uniform"]
 CLEAR_MARGIN = 1.05  # two times that are nearer are a tie, whatever the variances' errors
 
 
@@ -24,13 +23,13 @@ class Entry:
 
     def __init__(self, row, strategies):
         self.row = row
-        self.variant = row.integrator if row.connect_or_weights == "-" else f"{row.integrator} {row.connect_or_weights}"
+        self.variant = style.variant_of(row)
         self.method = self.variant if len(strategies) == 1 else f"{self.variant}, {row.strategy}"
         self.place = (row.exponent, row.light_radius)
         self.sound = row.verdict == "sound"
         self.suspect = row.verdict == "suspect"
         self.refused = row.verdict == "refused"
-        self.number = VARIANTS.index(self.variant) + len(VARIANTS) * strategies.index(row.strategy)
+        self.number = style.VARIANTS.index(self.variant) + len(style.VARIANTS) * strategies.index(row.strategy)
 
     @property
     def cost(self):
@@ -230,8 +229,7 @@ def image_file(folder, place):
 
 
 def tone(image):
-    linear = np.clip(1.4 * image, 0, 1)
-    return np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
+    return style.srgb(np.clip(1.4 * image, 0, 1))
 
 
 def draw_scene(atlas, folder, places, theme):
