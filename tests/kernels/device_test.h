@@ -6,8 +6,8 @@
 #pragma once
 
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <map>
@@ -19,6 +19,7 @@
 #include <catch2/catch.hpp>
 
 #include "device/program.h"
+#include "tested_kernels.h"
 
 namespace device_test {
 
@@ -44,11 +45,9 @@ inline std::size_t thinned(std::size_t count, std::size_t factor = 64) {
   return test_device().info.platform == "Oclgrind" ? count / factor + 1 : count;
 }
 
-/// The kernels under test: the embedded ones, or those of the folder PHLUX_TEST_KERNELS, to see that a test
-/// fails when they are wrong.
 inline phlux::device::KernelFiles kernel_files() {
-  const char* folder = std::getenv("PHLUX_TEST_KERNELS");
-  return folder == nullptr ? phlux::device::KernelFiles() : phlux::device::KernelFiles(folder);
+  const std::filesystem::path folder = phlux::test::tested_kernels();
+  return folder.empty() ? phlux::device::KernelFiles() : phlux::device::KernelFiles(folder);
 }
 
 /// The text of a file of tests/kernels.

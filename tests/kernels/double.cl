@@ -1,13 +1,5 @@
 #include "frames.h"
 
-__kernel void turns(__global const Real* turns, __global Real* cosine, __global Real* sine) {
-  const size_t i = get_global_id(0);
-  Real c, s;
-  cos_sin_turns(turns[i], &c, &s);
-  cosine[i] = c;
-  sine[i] = s;
-}
-
 __kernel void signs_and_ints(__global const Real* x, __global const Real* sign, __global const Int* whole,
                              __global Real* product, __global Int* carried) {
   const size_t i = get_global_id(0);

@@ -104,14 +104,6 @@ __kernel void masks(__global const Real* a, __global const Real* b, __global Sel
   selections[i] = s;
 }
 
-__kernel void turns(__global const Real* turns, __global Real* cosine, __global Real* sine) {
-  const size_t i = get_global_id(0);
-  Real c, s;
-  cos_sin_turns(turns[i], &c, &s);
-  cosine[i] = c;
-  sine[i] = s;
-}
-
 __kernel void packs(__global const Int* chosen, __global const Real* real, __global const Int* whole,
                     __global const Real* old, __global int* count, __global Int* rank, __global Real* packed,
                     __global Int* packed_int, __global Vec3* packed_vec, __global Real* unpacked,

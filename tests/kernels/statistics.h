@@ -9,13 +9,15 @@
 #include <boost/math/special_functions/erf.hpp>
 #include <boost/math/special_functions/gamma.hpp>
 
+#include "sidak.h"
+
 namespace device_test {
 
 inline constexpr double false_alarm_rate = 1e-3;
 
 /// The level at which one of many questions must be asked.
 inline double one_of(std::size_t questions) {
-  return -std::expm1(std::log1p(-false_alarm_rate) / static_cast<double>(questions));
+  return phlux::test::level_of_each(false_alarm_rate, questions);
 }
 
 /// Pearson's chi-square of observed counts against expected ones; cells that expect few are pooled.

@@ -10,8 +10,8 @@ using namespace device_test;
 
 namespace {
 
-const Program* program_in_double() {
-  if (test_device().info.doubles) return &program_of("double.cl", {1}, {{"PHLUX_DOUBLE", "1"}});
+const Program* program_in_double(const std::string& file = "double.cl") {
+  if (test_device().info.doubles) return &program_of(file, {1}, {{"PHLUX_DOUBLE", "1"}});
   WARN("the device has no doubles");
   return nullptr;
 }
@@ -23,7 +23,7 @@ struct Vec3 {
 } // namespace
 
 TEST_CASE("doubles: cosine and sine of turns to 1e-15, over the whole circle") {
-  const Program* program = program_in_double();
+  const Program* program = program_in_double("turns.cl");
   if (!program) return;
   std::vector<double> turns;
   for (int i = 0; i < 1000; ++i) turns.push_back((i + 1.0 / 3) / 1000);

@@ -359,7 +359,7 @@ TEST_CASE("lanes: cos_sin_turns is right to 2 ulp of the larger of the two, and 
   for (const Variant v : variants) {
     CAPTURE(v);
     std::vector<float> cosine(turns.size()), sine(turns.size());
-    program_of("lanes.cl", v).run("turns", turns.size(), turns, out(cosine), out(sine));
+    program_of("turns.cl", v).run("turns", turns.size(), turns, out(cosine), out(sine));
     double of_larger = 0, of_own = 0;
     for (std::size_t i = 0; i < turns.size(); ++i) {
       // Reduced exactly to an eighth of a turn, where the host's functions are right to a fraction of float's

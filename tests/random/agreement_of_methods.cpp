@@ -10,6 +10,7 @@
 
 #include "random/repeated_render.h"
 #include "render/welch.h"
+#include "sidak.h"
 
 namespace phlux::test {
 namespace {
@@ -23,14 +24,9 @@ constexpr double negligible_radiance = 1e-9;
 constexpr int growth = 8; // of the samples from one stage to the next
 
 struct Worst {
-  double p = 1; // corrected
+  double p = 1; // corrected for how many there are
   std::size_t quantity = 0;
 };
-
-// Sidak: the chance that one of `tests` has this p or less.
-double corrected(double p, std::size_t tests) {
-  return p < 1 ? -std::expm1(static_cast<double>(tests) * std::log1p(-p)) : 1;
-}
 
 // The least p of all tests of two methods, as it would be of one test of the scene. The few tests of the
 // image as a whole and the many of its tiles have each half of the false alarms.
@@ -41,7 +37,7 @@ Worst worst_of(const RepeatedMeans& a, const RepeatedMeans& b, std::size_t pairs
     if (std::max(a.mean[q], b.mean[q]) < negligible) continue;
     const double p = welch_p(a.mean[q], a.variance[q] / renders, b.mean[q], b.variance[q] / renders, renders);
     const std::size_t alike = q < of_image ? of_image : a.mean.size() - of_image;
-    const double of_all = corrected(p, 2 * alike * pairs);
+    const double of_all = least_p_of(p, 2 * alike * pairs);
     if (of_all < worst.p) worst = {of_all, q};
   }
   return worst;
@@ -76,8 +72,8 @@ public:
   SceneAgreement run() {
     std::vector<bool> all(methods_.size(), true);
     render(all, 0);
-    result_.dark = std::ranges::all_of(
-        means_, [](const RepeatedMeans& means) { return overall(means).mean == 0; });
+    result_.dark =
+        std::ranges::all_of(means_, [](const RepeatedMeans& means) { return overall(means).mean == 0; });
     for (std::size_t i = 0; i < methods_.size(); ++i)
       for (std::size_t j = i + 1; j < methods_.size(); ++j) add_pair(i, j);
     for (std::size_t stage = 0; stage < false_alarms.size() && look_closer_; ++stage) {

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <map>
 
 #include <fmt/format.h>
 
 #include "render/schedule.h"
+#include "tested_kernels.h"
 
 namespace phlux::test {
 namespace {
@@ -20,8 +20,8 @@ int part_of(int pixel, int length, int parts) {
 }
 
 device::KernelFiles kernel_files() {
-  const char* folder = std::getenv("PHLUX_TEST_KERNELS");
-  return folder != nullptr ? device::KernelFiles(folder) : device::KernelFiles();
+  const std::filesystem::path folder = tested_kernels();
+  return folder.empty() ? device::KernelFiles() : device::KernelFiles(folder);
 }
 
 // The scenes of a family have the same kernels; building anew what the driver has kept takes 80 ms each time.

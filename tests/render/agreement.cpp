@@ -8,6 +8,8 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include "sidak.h"
+
 namespace phlux::test {
 namespace {
 
@@ -15,11 +17,6 @@ constexpr std::size_t channel_count = 3;
 
 double two_sided_p(double z) {
   return std::erfc(z / std::numbers::sqrt2);
-}
-
-// Sidak: the level of each of `tests` independent tests, for `rate` of all of them.
-double level_of_each(double rate, std::size_t tests) {
-  return -std::expm1(std::log1p(-rate) / static_cast<double>(tests));
 }
 
 struct Value {

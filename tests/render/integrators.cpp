@@ -6,6 +6,8 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include "sidak.h"
+
 namespace phlux::test {
 std::string name_of(const Method& method) {
   if (method.connect != render::Connect::mis)
@@ -55,7 +57,7 @@ void check_methods(const Repeated& image, const Repeated& reference, int side, d
       agreement_of_pixels(tiles(image.image, side), tiles(reference.image, side), tolerance);
   INFO(pixels.message);
   CHECK(pixels.agrees);
-  const double level = -std::expm1(std::log1p(-false_alarm_rate) / 3);
+  const double level = level_of_each(false_alarm_rate, 3);
   for (std::size_t c = 0; c < 3; ++c) {
     const double a = image.mean.mean[0][c], b = reference.mean.mean[0][c];
     const double p = welch_p(a, image.mean.variance[0][c], b, reference.mean.variance[0][c], image.renders);

@@ -1,7 +1,6 @@
 #include "render/scenes.h"
 
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 
 #include <glm/geometric.hpp>
@@ -9,6 +8,7 @@
 
 #include "scene_file/load.h"
 #include "temporary_folder.h"
+#include "tested_kernels.h"
 
 namespace phlux::test {
 
@@ -120,7 +120,7 @@ render::Settings settings(int samples, int max_depth) {
   render::Settings result;
   result.samples_per_pixel = samples;
   result.max_depth = max_depth;
-  if (const char* folder = std::getenv("PHLUX_TEST_KERNELS"); folder != nullptr) result.kernel_dir = folder;
+  result.kernel_dir = tested_kernels();
   return result;
 }
 

@@ -45,8 +45,8 @@ struct Render {
   render::Statistics statistics;
 };
 
-/// `samples` samples a pixel; the path's depth as given (-1: unbounded). Kernels come from the folder that
-/// the environment variable PHLUX_TEST_KERNELS names, where it is set: to see that a broken kernel is found.
+/// `samples` samples a pixel of the tested kernels (tested_kernels.h); the path's depth as given (-1:
+/// unbounded).
 [[nodiscard]] render::Settings settings(int samples, int max_depth = -1);
 [[nodiscard]] Render render_of(const scene::Scene& scene, const render::Settings& settings);
 
