@@ -1,8 +1,8 @@
 // Formulas that the kernels use, and others that they could: `phlux bench arithmetic` measures what each errs by and
 // costs. Each is a kernel of the same arguments (MEASURE below).
 #include "frames.h"
-#include "lanes.h"
 #include "random_directions.h"
+#include "vectors.h"
 
 #define TWO_PI 6.2831853f
 #define LN_2 0.693147181f

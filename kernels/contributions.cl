@@ -4,8 +4,8 @@
 #ifndef PHLUX_CONTRIBUTIONS_CL
 #define PHLUX_CONTRIBUTIONS_CL
 
-#include "lanes.h"
 #include "scene_data.h"
+#include "vectors.h"
 
 // Light that `path` brings to `pixel`: `value` x `weight`, made by s light and t eye vertices (technique, s << 16 | t).
 // A pixel's radiance is the sum of them over all paths / the number of paths per pixel.

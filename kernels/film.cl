@@ -3,9 +3,9 @@
 #ifndef PHLUX_FILM_CL
 #define PHLUX_FILM_CL
 
-#include "lanes.h"
 #include "launch.h"
 #include "scene_data.h"
+#include "vectors.h"
 
 // The job that each lane is at.
 typedef struct {

@@ -2,7 +2,7 @@
 #ifndef PHLUX_FRAMES_H
 #define PHLUX_FRAMES_H
 
-#include "lanes.h"
+#include "vectors.h"
 
 typedef struct {
   Vec3 x, y, z;

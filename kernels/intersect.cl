@@ -3,8 +3,8 @@
 #ifndef PHLUX_INTERSECT_CL
 #define PHLUX_INTERSECT_CL
 
-#include "lanes.h"
 #include "scene_data.h"
+#include "vectors.h"
 
 typedef struct {
   Vec3 origin, direction; // unit direction

@@ -14,9 +14,9 @@
 #define PHLUX_PHONG_CL
 
 #include "frames.h"
-#include "lanes.h"
 #include "random.h"
 #include "random_directions.h"
+#include "vectors.h"
 
 #define STRATEGY_UNIFORM 1
 #define STRATEGY_THETA_PHI 2

@@ -3,7 +3,7 @@
 #ifndef PHLUX_RANDOM_DIRECTIONS_H
 #define PHLUX_RANDOM_DIRECTIONS_H
 
-#include "lanes.h"
+#include "vectors.h"
 
 static inline Vec3 polar_direction(Real sine, Real cosine, Real turns) {
   Real cos_phi, sin_phi;

@@ -1,8 +1,8 @@
 // Rays alone, for measuring traversal: each lane takes rays lane, lane + stride, ... from arrays of eight floats each
 // (origin, direction, distance, unused).
-#include "lanes.h"
 #include "scene.cl"
 #include "traverse.cl"
+#include "vectors.h"
 
 static inline Ray ray_at(const __global float* rays, Int index, Real* distance) {
   const Int words = index * 8;

@@ -3,8 +3,8 @@
 #ifndef PHLUX_SCENE_CL
 #define PHLUX_SCENE_CL
 
-#include "lanes.h"
 #include "scene_data.h"
+#include "vectors.h"
 
 // A scene with few of something keeps that table in registers' reach (lanes.h).
 #ifdef LANES_PERMUTE

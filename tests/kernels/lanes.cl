@@ -1,4 +1,4 @@
-#include "lanes.h"
+#include "vectors.h"
 
 typedef struct {
   int a;
