@@ -1,0 +1,24 @@
+// What `phlux bench` leaves behind: tables, as text, and charts.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/program.h"
+
+/// Of every table of methods, after what names the scene.
+inline const char* const method_columns =
+    ",integrator,strategy,connect_or_weights,device,samples_per_pixel,seconds,relmse,variance_per_sample,"
+    "variance_standard_error,top_share,seconds_per_sample,variance_times_seconds,";
+
+[[nodiscard]] std::vector<std::string> lines_of(const std::string& text);
+[[nodiscard]] std::vector<std::string> split(const std::string& line);
+[[nodiscard]] long columns_of(const std::string& line);
+[[nodiscard]] std::string value_of(const std::string& row, const std::vector<std::string>& columns,
+                                   const std::string& name);
+
+/// Whether the charts are there; without matplotlib they cannot be, and the exit code says so.
+[[nodiscard]] bool has_charts(const Outcome& outcome);
+
+/// The file of a scene that ships.
+[[nodiscard]] std::string shipped(const std::string& name);
