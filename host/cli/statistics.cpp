@@ -10,7 +10,7 @@ nlohmann::ordered_json value_or_null(const std::optional<T>& value) {
 
 nlohmann::ordered_json reliability_json(const film::Reliability& r, const film::Film& film) {
   auto history = nlohmann::ordered_json::array();
-  for (const film::Growth& then : film.history())
+  for (const film::Growth& then : film.evidence().history())
     history.push_back({{"samples", then.samples}, {"largest", then.largest}});
   return {{"trusted", r.trusted},
           {"reasons", r.reasons},

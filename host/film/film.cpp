@@ -23,15 +23,19 @@ double variance_of_mean_of(double sum, double sum_of_squares, double n) {
 
 } // namespace
 
-Film::Film(int width, int height) : width_(width), height_(height), tiles_(width, height) {
+Film::Film(int width, int height) : width_(width), height_(height), evidence_(width, height) {
   assert(width > 0 && height > 0);
   pixels_.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-  next_growth_ = 16 * pixels_.size(); // earlier, many pixels are without samples
 }
 
 void Film::add(std::size_t pixel, const BlockSum& block, std::uint32_t samples) {
   assert(pixel < pixels_.size());
   Pixel& sums = pixels_[pixel];
+  const double block_sum = std::accumulate(block.radiance, block.radiance + channel_count, 0.0);
+  const double mean_before =
+      sums.samples > 0
+          ? std::accumulate(sums.sum.begin(), sums.sum.end(), 0.0) / static_cast<double>(sums.samples)
+          : block_sum / samples; // a pixel that shows a lamp would stand out else
   sums.samples += samples;
   double square = 0.0;
   for (std::size_t channel = 0; channel < channel_count; ++channel) {
@@ -42,42 +46,23 @@ void Film::add(std::size_t pixel, const BlockSum& block, std::uint32_t samples) 
     square += std::max(0.0, sum_of_squares - 2.0 * mean * sum + samples * mean * mean);
   }
   sums.sum_of_fourths += square * square;
-  count_block(pixel, block, square, samples);
+  evidence_.add_block(pixel, square, block_sum, samples, mean_before);
   if (clamp_) clamped_ += block.clamped; // else no device writes it
   own_samples_ += samples;
   ++blocks_;
-  if (splats_.empty()) note_growth();
-}
-
-// Sizes are relative to what the pixel had seen before, so that a firefly is not measured by itself, or to
-// its tile's mean, whichever is more.
-void Film::count_block(std::size_t pixel, const BlockSum& block, double square, std::uint32_t samples) {
-  const std::size_t tile = tiles_.tile_of(pixel);
-  const double sum = std::accumulate(block.radiance, block.radiance + channel_count, 0.0);
-  tiles_.add_samples(tile, sum, samples);
-  const Pixel& own = pixels_[pixel];
-  const auto earlier = static_cast<double>(own.samples - samples);
-  const double before = earlier > 0.0 ? (std::accumulate(own.sum.begin(), own.sum.end(), 0.0) - sum) / earlier
-                                      : sum / samples; // a pixel that shows a lamp would stand out else
-  const double mean =
-      std::max(before, tiles_.mean_of_samples(tile)) + tiles_.mean_of_splats(tile) * pixels_per_path_;
-  if (mean > 0.0) sizes_.add(square / (mean * mean));
+  if (splats_.empty()) evidence_.note_growth(this->samples());
 }
 
 void Film::count_splat(std::size_t pixel, double square, double sum) {
-  const std::size_t tile = tiles_.tile_of(pixel);
-  tiles_.add_splat(tile, sized_one_in * sum);
   const std::array<double, 3>& splats = splats_[pixel].sum;
   const double before = std::accumulate(splats.begin(), splats.end(), 0.0) - sum;
-  const double mean =
-      std::max(before, tiles_.mean_of_splats(tile)) * pixels_per_path_ + tiles_.mean_of_samples(tile);
-  if (mean > 0.0) sizes_.add(square / (mean * mean), sized_one_in);
+  evidence_.add_splat(pixel, square, sum, sized_one_in, before);
 }
 
 void Film::add_splatting_paths(std::uint64_t paths) {
   splatting_paths_ += paths;
-  pixels_per_path_ = static_cast<double>(pixels_.size()) / static_cast<double>(splatting_paths_);
-  note_growth();
+  evidence_.set_splatting_paths(splatting_paths_);
+  evidence_.note_growth(samples());
 }
 
 void Film::clamp(std::array<double, 3>& value) {
@@ -110,13 +95,6 @@ Film::Spread Film::spread(std::size_t pixel) const {
   }
   if (!splats_.empty()) spread.fourths += splats_[pixel].sum_of_fourths;
   return spread;
-}
-
-// At each doubling of the samples.
-void Film::note_growth() {
-  if (samples() < next_growth_) return;
-  next_growth_ = 2 * samples();
-  history_.push_back({samples(), sizes_.largest()});
 }
 
 double Film::splatting_paths_per_pixel() const {

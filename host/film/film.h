@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "film/contribution_sizes.h"
+#include "film/evidence.h"
 #include "film/techniques.h"
 
 namespace phlux::film {
@@ -34,12 +34,6 @@ struct Pixel {
 struct alignas(64) Splats {
   std::array<double, 3> sum{}, sum_of_squares{};
   double sum_of_fourths = 0.0; ///< of the squared sum over channels of the squares
-};
-
-/// The largest contribution to the variance so far, relative as in ContributionSizes.
-struct Growth {
-  std::uint64_t samples = 0;
-  double largest = 0.0;
 };
 
 /// Sums stay exact to about 2^-53 times the number of blocks, so that no sample count stalls them (MATH.md
@@ -120,8 +114,7 @@ public:
   [[nodiscard]] std::uint64_t samples() const { return own_samples_ > 0 ? own_samples_ : splatting_paths_; }
   /// Independent sums that the variance is made from: blocks of samples, and paths that splat.
   [[nodiscard]] std::uint64_t contributors() const { return blocks_ + splatting_paths_; }
-  [[nodiscard]] const ContributionSizes& sizes() const { return sizes_; }
-  [[nodiscard]] const TileMeans& tiles() const { return tiles_; }
+  [[nodiscard]] const Evidence& evidence() const { return evidence_; }
 
   /// What is known of a pixel's variance; sums over its channels, in units.
   struct Spread {
@@ -130,12 +123,9 @@ public:
     double fourths = 0.0; ///< of the squares of those
   };
   [[nodiscard]] Spread spread(std::size_t pixel) const;
-  [[nodiscard]] const std::vector<Growth>& history() const { return history_; }
 
 private:
   void clamp(std::array<double, 3>& value);
-  void note_growth();
-  void count_block(std::size_t pixel, const BlockSum& block, double square, std::uint32_t samples);
   void count_splat(std::size_t pixel, double square, double sum);
   [[nodiscard]] double splatting_paths_per_pixel() const;
   [[nodiscard]] double mean_in_units(std::size_t pixel, std::size_t channel) const;
@@ -148,11 +138,7 @@ private:
   std::vector<Pixel> pixels_;
   std::vector<Splats> splats_; ///< empty where nothing splats
   std::uint64_t splatting_paths_ = 0, own_samples_ = 0, blocks_ = 0;
-  double pixels_per_path_ = 0.0; ///< of the splatting paths so far
-  ContributionSizes sizes_;
-  TileMeans tiles_;
-  std::vector<Growth> history_;
-  std::uint64_t next_growth_;   ///< samples at which the history goes on
+  Evidence evidence_;
   std::optional<double> clamp_; ///< in units
   double clamped_ = 0.0;        ///< of blocks, in units, sum over channels
   double clamped_of_splats_ = 0.0;

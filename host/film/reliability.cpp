@@ -26,16 +26,16 @@ struct Spread {
 };
 
 std::vector<Spread> spreads_of(const Film& film) {
-  std::vector<Spread> tiles(film.tiles().count());
+  std::vector<Spread> tiles(film.evidence().tiles().count());
   const std::size_t pixels = film.pixels().size();
   for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
-    Spread& tile = tiles[film.tiles().tile_of(pixel)];
+    Spread& tile = tiles[film.evidence().tiles().tile_of(pixel)];
     tile.mean += film.spread(pixel).mean;
     tile.pixels += 1.0;
   }
   const double samples_per_pixel = film.samples_per_pixel();
   for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
-    Spread& tile = tiles[film.tiles().tile_of(pixel)];
+    Spread& tile = tiles[film.evidence().tiles().tile_of(pixel)];
     const Film::Spread own = film.spread(pixel);
     const double scale = std::max(own.mean, tile.mean / tile.pixels);
     if (!(scale > 0.0)) continue;
@@ -61,7 +61,7 @@ double pixel_relative_variance(const Spread& tile, double blocks) {
 // of what is not the tail. Sizes are squares.
 std::optional<double> tail_index(const Film& film) {
   const double count = std::max(least_tail, std::sqrt(static_cast<double>(film.contributors())));
-  const std::optional<double> of_squares = film.sizes().tail_index(count);
+  const std::optional<double> of_squares = film.evidence().sizes().tail_index(count);
   return of_squares ? std::optional(2.0 * *of_squares) : std::nullopt;
 }
 
@@ -92,7 +92,7 @@ void sum_tiles(Reliability& r, const Film& film) {
     }
     if (tile.variance <= worst) continue;
     worst = tile.variance;
-    const auto [x, y] = film.tiles().centre_of(i);
+    const auto [x, y] = film.evidence().tiles().centre_of(i);
     r.worst_x = std::min(x, film.width() - 1);
     r.worst_y = std::min(y, film.height() - 1);
   }
@@ -124,9 +124,10 @@ std::vector<std::string> doubts(const Reliability& r, double samples_per_pixel) 
 Reliability reliability_of(const Film& film) {
   Reliability r;
   sum_tiles(r, film);
-  r.top_share = film.sizes().share_of_largest(std::ceil(top_part * static_cast<double>(film.samples())));
+  r.top_share =
+      film.evidence().sizes().share_of_largest(std::ceil(top_part * static_cast<double>(film.samples())));
   r.tail_index = tail_index(film);
-  r.growth = growth_of(film.history());
+  r.growth = growth_of(film.evidence().history());
   r.reasons = doubts(r, film.samples_per_pixel());
   r.trusted = r.reasons.empty();
   return r;
@@ -137,7 +138,7 @@ std::vector<float> reliability_map(const Film& film) {
   const double blocks = blocks_per_pixel(film);
   std::vector<float> map(film.pixels().size());
   for (std::size_t pixel = 0; pixel < map.size(); ++pixel) {
-    const Spread& tile = tiles[film.tiles().tile_of(pixel)];
+    const Spread& tile = tiles[film.evidence().tiles().tile_of(pixel)];
     if (tile.mean > 0.0)
       map[pixel] = static_cast<float>(std::max(0.0, 1.0 - std::sqrt(pixel_relative_variance(tile, blocks))));
   }

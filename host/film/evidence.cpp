@@ -1,0 +1,39 @@
+#include "film/evidence.h"
+
+#include <algorithm>
+
+namespace phlux::film {
+
+Evidence::Evidence(int width, int height)
+    : tiles_(width, height), pixels_(static_cast<double>(width) * height),
+      next_growth_(16 * static_cast<std::uint64_t>(pixels_)) {} // earlier, many pixels are without samples
+
+void Evidence::add_block(std::size_t pixel, double square, double sum, std::uint32_t samples,
+                         double mean_before) {
+  const std::size_t tile = tiles_.tile_of(pixel);
+  tiles_.add_samples(tile, sum, samples);
+  const double mean =
+      std::max(mean_before, tiles_.mean_of_samples(tile)) + tiles_.mean_of_splats(tile) * pixels_per_path_;
+  if (mean > 0.0) sizes_.add(square / (mean * mean));
+}
+
+void Evidence::add_splat(std::size_t pixel, double square, double sum, std::uint32_t count,
+                         double sum_before) {
+  const std::size_t tile = tiles_.tile_of(pixel);
+  tiles_.add_splat(tile, count * sum);
+  const double mean =
+      std::max(sum_before, tiles_.mean_of_splats(tile)) * pixels_per_path_ + tiles_.mean_of_samples(tile);
+  if (mean > 0.0) sizes_.add(square / (mean * mean), count);
+}
+
+void Evidence::set_splatting_paths(std::uint64_t paths) {
+  pixels_per_path_ = pixels_ / static_cast<double>(paths);
+}
+
+void Evidence::note_growth(std::uint64_t samples) {
+  if (samples < next_growth_) return;
+  next_growth_ = 2 * samples;
+  history_.push_back({samples, sizes_.largest()});
+}
+
+} // namespace phlux::film

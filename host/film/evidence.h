@@ -1,0 +1,46 @@
+// What a film notes of contributions beside their sums, to tell whether its error estimate can be believed.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "film/contribution_sizes.h"
+
+namespace phlux::film {
+
+/// The largest contribution to the variance so far, relative as in ContributionSizes.
+struct Growth {
+  std::uint64_t samples = 0;
+  double largest = 0.0;
+};
+
+/// Sizes are relative to what the pixel had seen before, so that a firefly is not measured by itself, or to
+/// its tile's mean, whichever is more. Sums are over channels.
+class Evidence {
+public:
+  Evidence(int width, int height);
+
+  /// A block that brought `sum` to a pixel whose samples had this mean before.
+  void add_block(std::size_t pixel, double square, double sum, std::uint32_t samples, double mean_before);
+  /// A splat that stands for `count` of them, onto a pixel that splats had brought `sum_before`.
+  void add_splat(std::size_t pixel, double square, double sum, std::uint32_t count, double sum_before);
+  /// Of the whole image, so far.
+  void set_splatting_paths(std::uint64_t paths);
+  /// Notes the largest at each doubling of the image's samples.
+  void note_growth(std::uint64_t samples);
+
+  [[nodiscard]] const ContributionSizes& sizes() const { return sizes_; }
+  [[nodiscard]] const TileMeans& tiles() const { return tiles_; }
+  [[nodiscard]] const std::vector<Growth>& history() const { return history_; }
+
+private:
+  ContributionSizes sizes_;
+  TileMeans tiles_;
+  std::vector<Growth> history_;
+  double pixels_;
+  double pixels_per_path_ = 0.0; // of the splatting paths so far
+  std::uint64_t next_growth_;    // samples at which the history goes on
+};
+
+} // namespace phlux::film
