@@ -22,12 +22,17 @@ double trial_seconds(const render::Statistics& statistics, bool insist) {
   return seconds < shortest_trial ? 0.0 : std::min(seconds, longest_trial);
 }
 
+// Whether the error cannot be trusted though the image could be other than black.
+bool doubtful(const film::Reliability& reliability, const render::Statistics& statistics) {
+  return !reliability.trusted && statistics.shines;
+}
+
 } // namespace
 
 Diagnosis diagnose(const film::Film& film, const render::Statistics& statistics,
                    const render::Settings& settings, scene::Scene&& scene, bool insist) {
   Diagnosis diagnosis{.reliability = film::reliability_of(film), .advice = {}};
-  if (diagnosis.reliability.trusted || statistics.interrupted || !statistics.shines) return diagnosis;
+  if (!doubtful(diagnosis.reliability, statistics) || statistics.interrupted) return diagnosis;
   if (const double seconds = trial_seconds(statistics, insist); seconds > 0.0)
     diagnosis.advice = render::advise(std::move(scene), settings, seconds).words;
   return diagnosis;
@@ -46,7 +51,7 @@ void report(const Diagnosis& diagnosis, const film::Film& film, const render::St
     spdlog::warn("--clamp {:g}: the image is biased: {:.3g}% of its light was taken away", *settings.clamp,
                  100.0 * film.clamped_share());
   const film::Reliability& r = diagnosis.reliability;
-  if (r.trusted || !statistics.shines || film.samples_per_pixel() < film::least_samples) return;
+  if (!doubtful(r, statistics) || film.samples_per_pixel() < film::least_samples) return;
   const bool nearly =
       r.reasons.size() == 1 && r.understated > film::most_understated && r.understated < gross;
   std::string text = fmt::format("the error estimate is not {}to be trusted: {}", nearly ? "quite " : "",
