@@ -10,7 +10,7 @@
 #include "film/film.h"
 #include "film/splat_records.h"
 #include "render/device_scene.h"
-#include "render/schedule.h"
+#include "render/launch_plan.h"
 
 namespace phlux::render {
 
@@ -32,7 +32,9 @@ public:
   void warm_up();
 
   /// Jobs that the next launch should have to last about Settings::launch_seconds, given how many are left.
-  [[nodiscard]] std::int64_t wanted_jobs(std::int64_t left, int block_samples) const;
+  [[nodiscard]] std::int64_t wanted_jobs(std::int64_t left, int block_samples) const {
+    return planner_.wanted_jobs(left, block_samples);
+  }
   void enqueue(const Launch& launch);
   [[nodiscard]] std::size_t in_flight() const { return flights_.size(); }
   /// Waits for the oldest launch, and repeats it as often as it lacked room. @throws DeviceError when its
@@ -53,47 +55,30 @@ private:
   };
   struct Flight {
     Launch launch;
-    std::size_t items = 0, batches = 0;
-    int batch_jobs = 0, rows = 0, record_capacity = 0; // record_capacity: per batch
+    LaunchPlan plan;
     Buffers buffers;
     cl::Event kernel_done, read;
     std::vector<film::BlockSum> host_sums;
     std::vector<cl_uint> host_counters;
     std::vector<cl_int> host_record_counts;
     float* host_records = nullptr; // mapped
-    [[nodiscard]] std::size_t batch_paths() const {
-      return static_cast<std::size_t>(batch_jobs) * static_cast<std::size_t>(launch.block_samples);
-    }
   };
-  [[nodiscard]] int batch_jobs(int block_samples) const;
   void start(Flight& flight);
-  void plan(Flight& flight) const;
-  [[nodiscard]] std::size_t scratch_bytes_per_item(const Flight& flight) const;
   void reserve(Buffer& buffer, std::size_t bytes, const char* what) const;
   void read_back(Flight& flight);
-  [[nodiscard]] bool overflowed(const Flight& flight);
   void unmap(Flight& flight);
   void fold_sums(const Flight& flight, std::size_t first_job, std::size_t jobs, film::Film& film);
   void fold_batch(const Flight& flight, std::size_t batch, film::Film& film);
   void count_nonfinite(const Launch& launch, std::size_t job, std::uint64_t count, int sample, int samples);
-  void adapt(const Flight& flight);
 
   device::Device device_;
   DeviceScene scene_;
   cl::Kernel kernel_;
   cl_uint first_launch_argument_;
   Parts parts_;
-  int lanes_;
-  std::size_t local_size_;
+  Planner planner_;
   int sky_light_; // index of the constant light
   std::int64_t pixels_;
-  double launch_seconds_;
-  std::size_t units_;             // compute units
-  std::size_t first_items_;       // work-items of the first launch
-  std::size_t items_;             // work-items of a full launch
-  double paths_per_second_ = 0.0; // as measured; 0: not yet
-  double records_per_path_ = 2.0; // that there is room for
-  double rows_per_path_ = 6.0;    // of a lane: steps of a subpath that there is room for
   std::deque<Flight> flights_;
   std::vector<Buffers> spare_;
   film::SplatFolder folder_;

@@ -1,0 +1,133 @@
+#include "render/launch_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "scene_data.h"
+
+namespace phlux::render {
+namespace {
+
+// A lane that has run out of paths idles until its work-item (or its batch) ends: with this many paths each,
+// that is a few percent. On a GPU, whose lanes are work-items, fewer keep the batches' vertices small.
+constexpr int least_paths_wide = 64, least_paths_scalar = 16;
+
+// Work-items of a launch: on CPUs a few per core, so that cores end together; elsewhere enough to fill every
+// unit's registers several times over.
+std::size_t work_items(const device::DeviceInfo& info) {
+  return static_cast<std::size_t>(info.compute_units) * (info.type == "cpu" ? 4 : 4096);
+}
+
+// Jobs of one lane that amount to its least number of paths.
+int least_lane_jobs(int lanes, int block_samples) {
+  const int paths = lanes == 1 ? least_paths_scalar : least_paths_wide;
+  return (paths + block_samples - 1) / block_samples;
+}
+
+int vertex_words(const Parts& parts) {
+  return parts.anisotropic ? VERTEX_WORDS_MOST : parts.smooth_normals ? VERTEX_TANGENT : VERTEX_GEOMETRIC;
+}
+
+// Of what a bidirectional work-item keeps: kernels/lanes.h's Scalar.
+std::size_t scalar_bytes(const Parts& parts) {
+  return parts.double_precision ? sizeof(cl_double) : sizeof(cl_float);
+}
+
+} // namespace
+
+std::size_t record_words(const Parts& parts) {
+  return parts.techniques ? RECORD_TECHNIQUE + 1 : RECORD_VALUE + 3;
+}
+
+Planner::Planner(const device::DeviceInfo& device, const Parts& parts, double launch_seconds)
+    : device_(device), parts_(parts), launch_seconds_(launch_seconds), local_size_(parts.lanes == 1 ? 64 : 1),
+      units_(device.compute_units), first_items_(std::max(work_items(device) / 64, units_)),
+      items_(work_items(device)) {}
+
+int Planner::batch_jobs(int block_samples) const {
+  return parts_.lanes * least_lane_jobs(parts_.lanes, block_samples);
+}
+
+std::int64_t Planner::wanted_jobs(std::int64_t left, int block_samples) const {
+  const std::int64_t least = batch_jobs(block_samples);
+  // Before anything is measured, one batch per work-item: what a launch of that takes is known after it.
+  std::int64_t jobs = static_cast<std::int64_t>(first_items_) * least;
+  if (paths_per_second_ > 0)
+    jobs = static_cast<std::int64_t>(paths_per_second_ * launch_seconds_ / block_samples);
+  // The kernel counts jobs, and words of their sums, in int; a launch's records must fit a buffer.
+  std::int64_t largest = std::numeric_limits<cl_int>::max() / 8;
+  if (parts_.integrator != Integrator::path) {
+    const double bytes_per_job =
+        (records_per_path_ + 1) * block_samples * static_cast<double>(record_words(parts_) * sizeof(float));
+    largest = std::min(largest, static_cast<std::int64_t>(static_cast<double>(device_.largest_buffer) /
+                                                          (4 * bytes_per_job)));
+  }
+  const std::int64_t lanes = parts_.lanes;
+  jobs = std::clamp(jobs, lanes, std::min(std::max(left, lanes), largest));
+  // Whole batches, so that batches are the same however the work is cut.
+  return parts_.integrator == Integrator::path ? jobs : (jobs + least - 1) / least * least;
+}
+
+// See divide_scratch in kernels/bidir.cl.
+std::size_t Planner::scratch_bytes_per_item(const LaunchPlan& plan) const {
+  const auto vertices = static_cast<std::size_t>(plan.rows) * static_cast<std::size_t>(parts_.lanes);
+  return (2 * vertices * static_cast<std::size_t>(vertex_words(parts_)) +
+          SCRATCH_WORDS_PER_PATH * plan.batch_paths) *
+         scalar_bytes(parts_);
+}
+
+LaunchPlan Planner::plan(const Launch& launch) const {
+  LaunchPlan plan;
+  plan.local_size = local_size_;
+  const auto round_up = [&](std::size_t items) {
+    return (items + local_size_ - 1) / local_size_ * local_size_;
+  };
+  const auto jobs = static_cast<std::size_t>(launch.jobs), lanes = static_cast<std::size_t>(parts_.lanes);
+  const auto per_batch = static_cast<std::size_t>(batch_jobs(launch.block_samples));
+  if (parts_.integrator == Integrator::path) {
+    // As many work-items as give each lane its least number of paths, but one for every unit where there is
+    // work for it.
+    const std::size_t full = jobs / per_batch, most = (jobs + lanes - 1) / lanes;
+    plan.items = round_up(std::clamp(std::max(full, std::min(most, units_)), std::size_t{1}, items_));
+    return plan;
+  }
+  plan.batch_jobs = static_cast<int>(per_batch);
+  plan.batch_paths = per_batch * static_cast<std::size_t>(launch.block_samples);
+  plan.batches = (jobs + per_batch - 1) / per_batch;
+  plan.items = std::clamp(plan.batches, std::size_t{1}, items_);
+  const double lane_paths = static_cast<double>(plan.batch_paths) / parts_.lanes;
+  plan.rows = static_cast<int>(std::ceil(rows_per_path_ * lane_paths));
+  plan.record_capacity =
+      static_cast<int>(std::ceil(records_per_path_ * lane_paths)) * parts_.lanes + parts_.lanes;
+  if (parts_.integrator == Integrator::bidir) {
+    // Two launches are in flight, and other tables want room.
+    const std::size_t room = std::min(device_.largest_buffer / 2, device_.global_memory / 8);
+    const std::size_t fit = room / scratch_bytes_per_item(plan);
+    plan.items =
+        std::clamp(plan.items, std::size_t{1}, std::max(fit / local_size_ * local_size_, local_size_));
+  }
+  plan.items = round_up(plan.items);
+  if (parts_.integrator == Integrator::bidir) plan.scratch_bytes = plan.items * scratch_bytes_per_item(plan);
+  return plan;
+}
+
+bool Planner::overflowed(const LaunchPlan& plan, const std::vector<cl_int>& record_counts) {
+  if (plan.batches == 0) return false;
+  const int most = std::ranges::max(record_counts);
+  const bool splats = most > plan.record_capacity - parts_.lanes;
+  const bool vertices = std::ranges::min(record_counts) < 0;
+  const auto paths = static_cast<double>(plan.batch_paths);
+  if (splats) records_per_path_ = std::max(records_per_path_, 1.25 * most / paths);
+  if (vertices) rows_per_path_ = std::max(rows_per_path_, 2 * plan.rows / (paths / parts_.lanes));
+  return splats || vertices;
+}
+
+void Planner::note_time(std::int64_t paths, double seconds) {
+  if (seconds <= 0) return;
+  const double rate = static_cast<double>(paths) / seconds;
+  // Grow by no more than 4 times at once: a first launch may have been unrepresentative.
+  paths_per_second_ = paths_per_second_ > 0 ? std::min(rate, 4 * paths_per_second_) : rate;
+}
+
+} // namespace phlux::render
