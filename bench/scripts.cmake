@@ -1,5 +1,5 @@
 # Puts the Python programs into phlux_bench, so that the installed program needs no file beside it.
-foreach(script chart_style figures rays report scenes sampling arithmetic stability precision)
+foreach(script chart_style figures rays report scenes sampling arithmetic stability precision remedies)
   set(embedded_script ${PROJECT_BINARY_DIR}/embedded_${script}.cpp)
   add_custom_command(
     OUTPUT ${embedded_script}

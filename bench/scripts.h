@@ -23,5 +23,7 @@ namespace phlux::bench {
 [[nodiscard]] std::string_view stability_script();
 /// bench/precision.py
 [[nodiscard]] std::string_view precision_script();
+/// bench/remedies.py
+[[nodiscard]] std::string_view remedies_script();
 
 } // namespace phlux::bench

@@ -28,14 +28,15 @@ static inline Mask begin_trails(Starts* starts, Walk* walk, Trail* trail, int ro
 // ---- Light subpaths
 
 // The density with which a light sample at the vertex would have found the point that the light subpath set out from,
-// `distance` away: a light without a surface counts as light_sample says.
-static inline Real density_of_start(const Scene* scene, const Walk* walk, Vertex v, Real distance) {
-  const Real choice = light_probability(scene, walk->light);
+// `distance` away, in the lanes of m: a light without a surface counts as light_sample says.
+static inline Real density_of_start(const Scene* scene, const Walk* walk, Vertex v, Real distance, Mask m) {
+  const Vec3 lit = v.point.position;
+  const Real choice = probability_for(scene, lit, v.point.normal, walk->light, m);
   const Int kind = light_kind(scene, walk->light);
   Real density = choice;
 #ifdef PHLUX_EMISSION
   const Mask surface = LIGHT_IS(kind, LIGHT_PLANAR) | LIGHT_IS(kind, LIGHT_SPHERE);
-  density = surface ? light_density(scene, v.point.position, walk->light, distance, walk->light_cosine) : density;
+  density = surface ? light_density(scene, lit, walk->light, choice, distance, walk->light_cosine) : density;
 #endif
 #if defined(PHLUX_LIGHT_POINT) || defined(PHLUX_LIGHT_SPOT)
   const Mask pointlike = LIGHT_IS(kind, LIGHT_POINT) | LIGHT_IS(kind, LIGHT_SPOT);
@@ -60,8 +61,8 @@ static inline Ratios arrived_from_light(const Scene* scene, const Walk* walk, Ve
   const Mask first = walk->edges == 1;
   if (!any_lane(first)) return later;
   const Real emission = LIGHT_REAL(scene, walk->light, emission_density);
-  const Ratios start =
-      ratios_from_light(density_of_start(scene, walk, v, distance), emission, cosine, is_hittable(scene, walk->light));
+  const Ratios start = ratios_from_light(density_of_start(scene, walk, v, distance, first), emission, cosine,
+                                         is_hittable(scene, walk->light));
   Ratios r;
   r.edge = first ? start.edge : later.edge;
   r.rest = first ? start.rest : later.rest;
@@ -139,8 +140,10 @@ static inline void add_hit_light(Bidir* b, const Walk* walk, SurfacePoint point,
   const Real cosine = -vec_dot(point.normal, walk->ray.direction);
   const Real emission = LIGHT_REAL(scene, light, emission_density);
   const Real seen = PHONG_PI * emission * distance * distance / cosine;
-  const Real sampled = light_density(scene, walk->ray.origin, light, distance, cosine);
-  const Real weight = weight_of_hit(walk->ratios, walk->edges == 1 ? seen : sampled, emission);
+  const Mask sampled = emits & (walk->edges > 1);
+  const Real choice = probability_for(scene, walk->ray.origin, walk->normal, light, sampled);
+  const Real found = light_density(scene, walk->ray.origin, light, choice, distance, cosine);
+  const Real weight = weight_of_hit(walk->ratios, sampled ? found : seen, emission);
   const Vec3 value = vec_mul(walk->throughput, LIGHT_VEC3(scene, light, power));
   add_contribution(&b->output,
                    to_own_pixel(walk->path, walk->sequence.pixel, value, weight, TECHNIQUE(0, walk->edges + 1)), emits);
@@ -225,7 +228,26 @@ typedef struct {
   Trail light, eye;
   Int light_index, eye_index;
   Int light_count; // of vertices that the eye's can be joined to without making too long a path
+  Uint word, step; // whose further words decide on roulette
 } Pair;
+
+// Long paths can be made by many connections, each of which is expected to bring its share: where there are more than
+// PHLUX_CONNECTIONS of one length, so many are made on average.
+static inline Real connection_probability(const Pair* pair) {
+#ifdef PHLUX_CONNECTIONS
+  return smaller(PHLUX_CONNECTIONS / (to_real(pair->light_index + pair->eye_index) + 1.0f), (Real)(1.0f));
+#else
+  return (Real)(1.0f);
+#endif
+}
+static inline Mask is_made(const Pair* pair) {
+#ifdef PHLUX_CONNECTIONS
+  const Uint number = int_to_uint(pair->light_index << 16 | pair->eye_index);
+  return uniform_real(further_word(pair->word, pair->step, number)) < connection_probability(pair);
+#else
+  return ALL_LANES;
+#endif
+}
 
 static inline Int joinable(const Bidir* b, const Pair* pair) {
   return min(pair->light.length, b->limits.edges - 2 - pair->eye_index);
@@ -237,8 +259,14 @@ static inline Mask take_pairs(const Bidir* b, Batch* batch, Pair* pair, Mask pai
     const Mask starting = take_paths(batch, &pair->path, !pairing);
     if (!any_lane(starting)) break;
     RandomSequence sequence;
+    sequence.seed = b->seed;
     find_path(b->list, batch, pair->path, &sequence);
     pair->pixel = starting ? sequence.pixel : pair->pixel;
+#ifdef PHLUX_CONNECTIONS
+    const RandomWords words = random_words(sequence, (Uint)(DIMENSION_CONNECTIONS), 0);
+    pair->word = starting ? words.x : pair->word;
+    pair->step = starting ? words.y : pair->step;
+#endif
     const Trail light = load_trail(&b->light, pair->path), eye = load_trail(&b->eye, pair->path);
     pair->light.first = starting ? light.first : pair->light.first;
     pair->light.length = starting ? light.length : pair->light.length;
@@ -252,14 +280,18 @@ static inline Mask take_pairs(const Bidir* b, Batch* batch, Pair* pair, Mask pai
   return pairing;
 }
 
-// Moves the lanes of m to their next pairs; returns those that have one.
+// Moves the lanes of m to their next pairs that are made; returns those that have one.
 static inline Mask next_pair(const Bidir* b, Pair* pair, Mask m) {
-  pair->light_index += m ? (Int)(1) : (Int)(0);
-  const Mask next_eye = m & (pair->light_index >= pair->light_count);
-  pair->light_index = next_eye ? (Int)(0) : pair->light_index;
-  pair->eye_index += next_eye ? (Int)(1) : (Int)(0);
-  pair->light_count = joinable(b, pair);
-  return m & (pair->eye_index < pair->eye.length) & (pair->light_count > 0);
+  Mask pairing = m;
+  for (Mask moving = m; any_lane(moving); moving &= pairing & !is_made(pair)) {
+    pair->light_index += moving ? (Int)(1) : (Int)(0);
+    const Mask next_eye = moving & (pair->light_index >= pair->light_count);
+    pair->light_index = next_eye ? (Int)(0) : pair->light_index;
+    pair->eye_index += next_eye ? (Int)(1) : (Int)(0);
+    pair->light_count = joinable(b, pair);
+    pairing &= (pair->eye_index < pair->eye.length) & (pair->light_count > 0);
+  }
+  return pairing;
 }
 
 // Connects an eye vertex and a light vertex in the lanes of m.
@@ -278,7 +310,8 @@ static inline void connect(Bidir* b, const Pair* pair, Joint eye, Joint light, M
   const Vec3 eye_fixed = eye.vertex.fixed, light_fixed = light.vertex.fixed;
   const Vec3 reflected = vec_mul(vec_mul(eye.throughput, material_eval(at_eye, eye_fixed, to_light)),
                                  vec_mul(light.throughput, material_eval(at_light, light_fixed, to_eye)));
-  const Vec3 value = vec_scale(to_light.z * adjoint_cosine(light.vertex, to_eye, light_cosine) / distance2, reflected);
+  const Real geometry = to_light.z * adjoint_cosine(light.vertex, to_eye, light_cosine) / distance2;
+  const Vec3 value = vec_scale(geometry / connection_probability(pair), reflected);
   const Real light_side = connection_side(light.ratios, material_density(at_eye, eye_fixed, to_light),
                                           material_density(at_light, to_eye, light_fixed), distance2, light_cosine);
   const Real eye_side = connection_side(eye.ratios, material_density(at_light, light_fixed, to_eye),
@@ -292,7 +325,7 @@ static inline void connect(Bidir* b, const Pair* pair, Joint eye, Joint light, M
 static inline void connect_subpaths(Bidir* b, Batch batch) {
   Pair pair;
   pair.path = (Int)(0);
-  pair.pixel = (Uint)(0u);
+  pair.pixel = pair.word = pair.step = (Uint)(0u);
   pair.light.first = pair.light.length = pair.eye.first = pair.eye.length = (Int)(0);
   pair.light_index = pair.eye_index = pair.light_count = (Int)(0);
   Mask pairing = NO_LANES;

@@ -5,6 +5,9 @@
 #define PHLUX_LIGHTS_CL
 
 #include "phong.cl"
+#ifdef PHLUX_LIGHT_TREE
+#include "light_tree.cl"
+#endif
 #include "random.h"
 #include "surface.cl"
 
@@ -18,7 +21,8 @@
 
 #if PHLUX_CONNECT != CONNECT_NONE || defined(PHLUX_LIGHTS_EMIT)
 
-// The light for one random word (the other decides between the two lights of the cell), by the alias method.
+// The light for one random word (the other decides between the two lights of the cell), by the alias method: what light
+// paths set out from.
 static inline Int choose_light(const Scene* scene, Uint cell_word, Uint alias_word) {
 #ifdef PHLUX_LIGHT_CHOICE
   const Int cell = uint_to_int(mul_hi(cell_word, (Uint)((uint)scene->light_count)));
@@ -37,11 +41,37 @@ static inline Int light_kind(const Scene* scene, Int light) {
 #endif
 }
 
+// The probability of choose_light.
 static inline Real light_probability(const Scene* scene, Int light) {
 #ifdef PHLUX_LIGHT_CHOICE
   return LIGHT_REAL(scene, light, probability);
 #else
   return (Real)(1.0f);
+#endif
+}
+
+// The probability with which light_sample chooses a light for a point with that normal, in the lanes of m.
+static inline Real probability_for(const Scene* scene, Vec3 lit, Vec3 normal, Int light, Mask m) {
+  const Real by_power = light_probability(scene, light);
+#ifdef PHLUX_LIGHT_TREE
+  const Int leaf = LIGHT_INT(scene, light, node);
+  const Mask placed = leaf >= 0;
+  const Real in_tree = scene->light_tree_probability * tree_probability(scene, lit, normal, leaf, m & placed);
+  return placed ? SHARE_BY_POWER * by_power + (1.0f - SHARE_BY_POWER) * in_tree : by_power;
+#else
+  return by_power;
+#endif
+}
+
+// The light that light_sample chooses there. Where there is a tree, lights that are in it mostly give way to what the
+// tree chooses; some do not, as a light that promises much may be behind a wall.
+static inline Int choose_light_for(const Scene* scene, Vec3 lit, Vec3 normal, Uint word, Uint other_word) {
+  const Int light = choose_light(scene, word, other_word);
+#ifdef PHLUX_LIGHT_TREE
+  const Mask by_tree = uniform_real(further_word(word, other_word, (Uint)(0u))) >= SHARE_BY_POWER;
+  return choose_from_tree(scene, lit, normal, word, other_word, by_tree & (LIGHT_INT(scene, light, node) >= 0), light);
+#else
+  return light;
 #endif
 }
 
@@ -133,6 +163,7 @@ typedef struct {
   Vec3 radiance; // arriving along it is radiance / density; intensity or irradiance of a light without a surface
   Real density;  // distance^2 (point, spot) or 1 (directional) stands for a light without a surface
   Int light;
+  Real choice;   // the probability of choosing the light
   Mask hittable; // a ray along a sampled direction of the surface could find this light as well
   Mask valid;    // something arrives: the light faces the point
 } LightSample;
@@ -145,10 +176,10 @@ static inline Real one_minus_cone_cosine(SphereShape sphere, Real distance2) {
 }
 #endif
 
-// Density with which light_sample at `lit` would have chosen the point of `light` that lies `distance` away, where the
-// light's normal makes an angle of `cosine` with the way back; without meaning in lanes whose light has no surface.
-static inline Real light_density(const Scene* scene, Vec3 lit, Int light, Real distance, Real cosine) {
-  const Real choice = light_probability(scene, light);
+// Density with which light_sample at `lit`, where `light` is chosen with probability `choice`, would have found the
+// point of it that lies `distance` away, where the light's normal makes an angle of `cosine` with the way back; without
+// meaning in lanes whose light has no surface.
+static inline Real light_density(const Scene* scene, Vec3 lit, Int light, Real choice, Real distance, Real cosine) {
   Real density = choice * distance * distance / (cosine * LIGHT_REAL(scene, light, area));
 #ifdef PHLUX_LIGHT_SPHERE
   const Mask is_sphere = LIGHT_IS(light_kind(scene, light), LIGHT_SPHERE);
@@ -180,7 +211,7 @@ static inline void sample_planar_light(const Scene* scene, LightSample* s, Place
   const Ray ray = ray_between(lit, place, &distance);
   const Real cosine = -vec_dot(place.normal, ray.direction);
   const Real by_area = distance * distance / (cosine * LIGHT_REAL(scene, s->light, area));
-  keep_surface_sample(s, ray, distance, cosine, light_probability(scene, s->light) * by_area, m);
+  keep_surface_sample(s, ray, distance, cosine, s->choice * by_area, m);
 }
 #endif
 
@@ -214,7 +245,7 @@ static inline void sample_sphere_light(const Scene* scene, LightSample* s, Place
   const Real cosine = -vec_dot(place.normal, ray.direction);
   const Real by_area = distance * distance / (cosine * LIGHT_REAL(scene, s->light, area));
   const Real density = in_cone ? (0.5f * PHONG_INV_PI) / cone : by_area;
-  keep_surface_sample(s, ray, distance, cosine, light_probability(scene, s->light) * density, m);
+  keep_surface_sample(s, ray, distance, cosine, s->choice * density, m);
 }
 #endif
 
@@ -222,7 +253,7 @@ static inline void sample_sphere_light(const Scene* scene, LightSample* s, Place
 static inline void sample_point_light(const Scene* scene, LightSample* s, Place lit, Int kind, Mask m) {
   Real distance;
   const Ray ray = ray_to_point(lit, LIGHT_VEC3(scene, s->light, position), &distance);
-  const Real density = distance * distance * light_probability(scene, s->light);
+  const Real density = distance * distance * s->choice;
 #ifdef PHLUX_LIGHT_SPOT
   const Real cosine = -vec_dot(LIGHT_VEC3(scene, s->light, direction), ray.direction);
   const Real falloff = kind == LIGHT_SPOT ? spot_falloff(scene, s->light, cosine) : (Real)(1.0f);
@@ -251,7 +282,8 @@ static inline void aim_to_infinity(LightSample* s, Place lit, Vec3 direction, Re
 static inline LightSample light_sample(const Scene* scene, SurfacePoint point, RandomWords words) {
   const Place lit = place_of(point);
   LightSample s;
-  s.light = choose_light(scene, words.x, words.y);
+  s.light = choose_light_for(scene, lit.position, lit.normal, words.x, words.y);
+  s.choice = probability_for(scene, lit.position, lit.normal, s.light, ALL_LANES);
   s.ray.origin = lit.position;
   s.ray.direction = lit.normal;
   s.distance = (Real)(0.0f);
@@ -270,15 +302,14 @@ static inline LightSample light_sample(const Scene* scene, SurfacePoint point, R
   sample_point_light(scene, &s, lit, kind, LIGHT_IS(kind, LIGHT_POINT) | LIGHT_IS(kind, LIGHT_SPOT));
 #endif
 #ifdef PHLUX_LIGHT_DIRECTIONAL
-  aim_to_infinity(&s, lit, vec_scale((Real)(-1.0f), LIGHT_VEC3(scene, s.light, direction)),
-                  light_probability(scene, s.light), LIGHT_IS(kind, LIGHT_DIRECTIONAL));
+  aim_to_infinity(&s, lit, vec_scale((Real)(-1.0f), LIGHT_VEC3(scene, s.light, direction)), s.choice,
+                  LIGHT_IS(kind, LIGHT_DIRECTIONAL));
 #endif
 #ifdef PHLUX_LIGHT_CONSTANT
   {
     const Mask m = LIGHT_IS(kind, LIGHT_CONSTANT);
     const Vec3 upward = cosine_direction(uniform_real(words.z), uniform_real(words.w));
-    aim_to_infinity(&s, lit, from_frame(point.frame, upward),
-                    light_probability(scene, s.light) * upward.z * PHONG_INV_PI, m);
+    aim_to_infinity(&s, lit, from_frame(point.frame, upward), s.choice * upward.z * PHONG_INV_PI, m);
     s.hittable = s.hittable | m;
   }
 #endif

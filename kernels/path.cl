@@ -14,6 +14,7 @@ typedef struct {
   Ray ray;
   Vec3 throughput, radiance;
   Int edges;        // of the path so far
+  Vec3 normal;      // of the surface where the ray starts
   Real density;     // of ray.direction, per solid angle where the ray starts
   Real sky_density; // with which light_sample chooses that direction for a constant light
   RandomSequence sequence;
@@ -21,7 +22,7 @@ typedef struct {
 
 static inline Path no_path(uint2 seed) {
   Path path;
-  path.ray.origin = path.ray.direction = path.throughput = path.radiance = vec_all((Real)(0.0f));
+  path.ray.origin = path.ray.direction = path.throughput = path.radiance = path.normal = vec_all((Real)(0.0f));
   path.edges = (Int)(0);
   path.density = path.sky_density = (Real)(0.0f);
   path.sequence.pixel = path.sequence.sample = (Uint)(0u);
@@ -60,8 +61,10 @@ static inline void add_emission(const Scene* scene, Path* path, Hit hit, Surface
 #endif
 #if PHLUX_CONNECT == CONNECT_MIS
   const Real cosine = -vec_dot(point.normal, path->ray.direction);
-  const Real other = light_density(scene, path->ray.origin, light, hit.distance, cosine);
-  const Real weight = path->edges == 1 ? (Real)(1.0f) : path->density / (path->density + other);
+  const Mask sampled = emits & (path->edges > 1);
+  const Real choice = probability_for(scene, path->ray.origin, path->normal, light, sampled);
+  const Real other = light_density(scene, path->ray.origin, light, choice, hit.distance, cosine);
+  const Real weight = sampled ? path->density / (path->density + other) : (Real)(1.0f);
   arriving = vec_scale(weight, arriving);
 #endif
   path->radiance = vec_select(counts, vec_add(path->radiance, arriving), path->radiance);
@@ -121,6 +124,7 @@ static inline Mask reflect(Path* path, Vertex v, int roulette_edges, float ambie
   path->radiance = vec_select(m, vec_add(path->radiance, variate), path->radiance);
 #endif
   path->throughput = vec_select(goes_on, vec_mul(path->throughput, sample.weight), path->throughput);
+  path->normal = v.point.normal;
   path->density = sample.density;
   path->sky_density = sample.direction.z * PHONG_INV_PI;
   path->ray.origin = step_off(v.point.position, v.point.normal, v.point.error, direction);

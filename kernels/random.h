@@ -56,6 +56,15 @@ static inline RandomWords random_words(RandomSequence sequence, Uint dimension, 
   return philox(counter, sequence.seed);
 }
 
+// Further words from two of random_words, one for each number: for many choices of small weight each. The finishing
+// steps of MurmurHash3 over a Weyl sequence.
+static inline Uint further_word(Uint first, Uint step, Uint number) {
+  Uint h = first + (step | 1u) * number;
+  h = (h ^ (h >> 16)) * 0x85ebca6bu;
+  h = (h ^ (h >> 13)) * 0xc2b2ae35u;
+  return h ^ (h >> 16);
+}
+
 // Uniform in the open interval (0, 1): 2^23 equidistant values, the outer ones 2^-24 from the ends.
 static inline Real uniform_real(Uint word) {
   return fma(uint_to_real(word >> 9), (Real)(1.1920928955078125e-07f), (Real)(5.9604644775390625e-08f));

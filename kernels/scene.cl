@@ -37,6 +37,10 @@ typedef struct {
   const __global float* nodes;
   int root;
 #endif
+#ifdef PHLUX_LIGHT_TREE
+  const __global LightNodeRecord* light_nodes;
+  float light_tree_probability; // with which choose_light gives one of its lights
+#endif
 #ifdef PHLUX_PHONG_LOBE
   const __global float* reflectivity;
 #endif
@@ -121,6 +125,15 @@ typedef struct {
 #define SCENE_BVH_PARAMETERS
 #define SCENE_BVH_SET
 #endif
+#ifdef PHLUX_LIGHT_TREE
+#define SCENE_LIGHT_TREE_PARAMETERS , const __global LightNodeRecord *light_nodes, float light_tree_probability
+#define SCENE_LIGHT_TREE_SET                                                                                           \
+  scene.light_nodes = light_nodes;                                                                                     \
+  scene.light_tree_probability = light_tree_probability;
+#else
+#define SCENE_LIGHT_TREE_PARAMETERS
+#define SCENE_LIGHT_TREE_SET
+#endif
 #ifdef PHLUX_PHONG_LOBE
 #define SCENE_LOBE_PARAMETERS , const __global float* reflectivity
 #define SCENE_LOBE_SET scene.reflectivity = reflectivity;
@@ -168,8 +181,8 @@ typedef struct {
 #define SCENE_PARAMETERS                                                                                               \
   const __global CameraRecord *camera, const __global PrimitiveRecord *primitives,                                     \
       const __global MaterialRecord *materials, const __global LightRecord *lights,                                    \
-      int light_count SCENE_PLANAR_PARAMETERS SCENE_SPHERE_PARAMETERS SCENE_BVH_PARAMETERS SCENE_LOBE_PARAMETERS       \
-          SCENE_NORMAL_PARAMETERS
+      int light_count SCENE_PLANAR_PARAMETERS SCENE_SPHERE_PARAMETERS SCENE_BVH_PARAMETERS SCENE_LIGHT_TREE_PARAMETERS \
+          SCENE_LOBE_PARAMETERS SCENE_NORMAL_PARAMETERS
 #define SCENE_FROM_PARAMETERS                                                                                          \
   Scene scene;                                                                                                         \
   scene.camera = camera;                                                                                               \
@@ -177,7 +190,7 @@ typedef struct {
   scene.materials = materials;                                                                                         \
   scene.lights = lights;                                                                                               \
   scene.light_count = light_count;                                                                                     \
-  SCENE_PLANAR_SET SCENE_SPHERE_SET SCENE_BVH_SET SCENE_LOBE_SET SCENE_NORMAL_SET SCENE_MATERIALS_LOAD                 \
-      SCENE_LIGHTS_LOAD SCENE_PRIMITIVES_LOAD SCENE_PLANARS_LOAD SCENE_SPHERES_LOAD
+  SCENE_PLANAR_SET SCENE_SPHERE_SET SCENE_BVH_SET SCENE_LIGHT_TREE_SET SCENE_LOBE_SET SCENE_NORMAL_SET                 \
+      SCENE_MATERIALS_LOAD SCENE_LIGHTS_LOAD SCENE_PRIMITIVES_LOAD SCENE_PLANARS_LOAD SCENE_SPHERES_LOAD
 
 #endif

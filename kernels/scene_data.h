@@ -67,12 +67,23 @@ typedef struct {
   float direction[3];
   float cutoff, inv_transition; // spot: cutoff and 1 / (cutoff - beam width) in radians
   float probability;            // of being selected
-  float
-      emission_density; // of a light path's first edge, the selection included: per area and projected solid angle
-                        // (planar, sphere), per solid angle (point, spot), per area (directional), per both (constant)
+  // Of a light path's first edge, the selection included: per area and projected solid angle (planar, sphere), per
+  // solid angle (point, spot), per area (directional), per both (constant).
+  float emission_density;
   float alias_threshold;
   int alias;
+  int node; // its leaf in the tree of lights; -1: not in it
 } LightRecord;
+
+// A node of the tree of lights (light_tree.cl). Node 0 is the root; siblings are 2 k and 2 k + 1, for k > 0; there is
+// no node 1.
+typedef struct {
+  float center[3], half_size[3]; // of a box that holds the node's lights
+  float axis[3], cos_spread;     // of a cone that holds their normals; cos_spread -1: any direction
+  float intensity;               // the sum of the most that each sends in any direction, the tree's being 1
+  int parent;
+  int child; // the first of two; a leaf: ~light
+} LightNodeRecord;
 
 // The pinhole: the direction through film position (x, y) in [0, 1]^2, y downwards, is
 // forward + (1 - 2 (x + principal_x)) left + (1 - 2 (y + principal_y)) up, not normalised.
@@ -84,8 +95,8 @@ typedef struct {
   int width, height;
 } CameraRecord;
 
-// What a device hands over for a job (film::BlockSum): sums over its samples of radiance, of its squares, of what was not
-// finite and of what clamping took away.
+// What a device hands over for a job (film::BlockSum): sums over its samples of radiance, of its squares, of what was
+// not finite and of what clamping took away.
 enum SumWords { SUM_RADIANCE = 0, SUM_SQUARES = 3, SUM_NONFINITE = 6, SUM_CLAMPED = 7, SUM_WORDS = 8 };
 
 // A record of a splat: arrays of one word each. The last two only where each technique is wanted by itself; the

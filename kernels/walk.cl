@@ -10,11 +10,12 @@
 #endif
 
 // Purposes of random words. Eye subpaths: dimension 0 is the place in the pixel, then two for every edge. Light
-// subpaths: two for the first edge, then one for every edge.
+// subpaths: two for the first edge, then one for every edge. One for the roulette of connections.
 #define DIMENSION_REFLECTION(edges) int_to_uint(2 * (edges))
 #define DIMENSION_LIGHT(edges) int_to_uint(2 * (edges) + 1)
 #define DIMENSION_EMISSION 0x40000000u
 #define DIMENSION_LIGHT_PATH(edges) int_to_uint((edges) + 0x40000001)
+#define DIMENSION_CONNECTIONS 0x60000000u
 
 typedef struct {
   Ray ray;
@@ -24,6 +25,7 @@ typedef struct {
   RandomSequence sequence;
 #ifdef PHLUX_BIDIR
   Ratios ratios;
+  Vec3 normal;       // of the surface where the ray starts
   Int light;         // that it left, if it is a light subpath
   Real light_cosine; // of the first edge to that light's normal
   Real sky_density;  // with which light_sample chooses the ray's direction for a constant light
@@ -50,6 +52,7 @@ static inline Walk no_walk(uint2 seed) {
   walk.sequence.seed = seed;
 #ifdef PHLUX_BIDIR
   walk.ratios.edge = walk.ratios.rest = walk.light_cosine = walk.sky_density = (Real)(0.0f);
+  walk.normal = vec_all((Real)(0.0f));
   walk.light = (Int)(0);
 #endif
   return walk;
@@ -99,6 +102,7 @@ static inline Mask walk_on(Walk* walk, Vertex v, int adjoint, Uint dimension, Ma
   const Real backward = material_density(v.material, sample.direction, v.fixed);
   walk->ratios = ratios_reflected(walk->ratios, sample.density, backward, cosine);
   walk->sky_density = sample.direction.z * PHONG_INV_PI;
+  walk->normal = v.point.normal;
 #endif
   walk->throughput = vec_select(goes_on, throughput, walk->throughput);
   walk->ray.origin = step_off(v.point.position, v.point.normal, v.point.error, direction);

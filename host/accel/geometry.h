@@ -13,6 +13,13 @@ namespace phlux::accel {
 /// Deepest leaf of a hierarchy; kernels/traverse_bvh.cl sizes its stack by them.
 inline constexpr int max_depth_wide = 24, max_depth_binary = 64;
 
+/// A primitive that emits.
+struct EmittingPrimitive {
+  double area;           ///< m^2
+  scene::Vec3 low, high; ///< corners of a box that holds it, about the geometry's origin
+  scene::Vec3 normal;    ///< unit, on the side that emits; (0, 0, 0): of a sphere, any
+};
+
 struct Geometry {
   int block = 1;              ///< primitives per block
   std::vector<float> planars; ///< PLANAR_FLOATS values per flat primitive, in blocks
@@ -20,9 +27,9 @@ struct Geometry {
   bool in_double = false;     ///< those two are empty and these hold the same, not rounded to float
   std::vector<double> double_planars, double_spheres;
   std::vector<PrimitiveRecord>
-      primitives;                    ///< flat ones (fillers included), then spheres; `light` is still -1
-  std::vector<int> emitters;         ///< per primitive: its scene::AreaEmitter, -1 for none
-  std::vector<double> areas;         ///< per primitive that emits, in the order of `primitives`: m^2
+      primitives;            ///< flat ones (fillers included), then spheres; `light` is still -1
+  std::vector<int> emitters; ///< per primitive: its scene::AreaEmitter, -1 for none
+  std::vector<EmittingPrimitive> emitting; ///< those that do, in the order of `primitives`
   std::vector<int> corners;          ///< 3 per flat primitive, indices into vertex_normals; empty: all flat
   std::vector<float> vertex_normals; ///< 3 per vertex
   std::vector<float> nodes;          ///< the hierarchy, see NodeValues; empty: brute force

@@ -1,69 +1,24 @@
-// The hierarchy is built by Embree's builder, as a tree of pointers, and then laid out depth first so that
-// the tables do not depend on the order in which threads made its nodes.
+// A tree of the scene's primitives, laid out depth first so that the tables do not depend on the order in
+// which threads made its nodes.
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <span>
 
-#include "accel/embree.h"
 #include "accel/geometry.h"
 #include "accel/primitive.h"
+#include "accel/tree.h"
 #include "errors.h"
 
 namespace phlux::accel {
 namespace {
 
-constexpr std::size_t max_children = 16;
 constexpr unsigned patch_geometry = 0xFFFFFFFE, sphere_geometry = 0xFFFFFFFF; // geomIDs; below: a mesh
 
 Reference reference_of(const RTCBuildPrimitive& p) {
   if (p.geomID == patch_geometry) return {Reference::Kind::patch, p.primID, 0};
   if (p.geomID == sphere_geometry) return {Reference::Kind::sphere, p.primID, 0};
   return {Reference::Kind::mesh, p.geomID, p.primID};
-}
-
-struct Node {
-  unsigned children = 0;         // 0: a leaf
-  unsigned first = 0, count = 0; // leaf: primitives in Builder::leaf_primitives
-  Node* child[max_children] = {};
-  RTCBounds box[max_children] = {};
-};
-
-// What Embree's callbacks share.
-struct Builder {
-  std::vector<RTCBuildPrimitive> leaf_primitives;
-  std::atomic<unsigned> used{0};
-};
-
-void* create_node(RTCThreadLocalAllocator allocator, unsigned children, void*) {
-  Node* node = new (rtcThreadLocalAlloc(allocator, sizeof(Node), alignof(Node))) Node;
-  node->children = children;
-  return node;
-}
-
-void set_children(void* node, void** children, unsigned count, void*) {
-  for (unsigned i = 0; i < count; ++i) static_cast<Node*>(node)->child[i] = static_cast<Node*>(children[i]);
-}
-
-void set_bounds(void* node, const RTCBounds** bounds, unsigned count, void*) {
-  for (unsigned i = 0; i < count; ++i) static_cast<Node*>(node)->box[i] = *bounds[i];
-}
-
-void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* primitives, std::size_t count,
-                  void* user) {
-  Builder& builder = *static_cast<Builder*>(user);
-  Node* node = new (rtcThreadLocalAlloc(allocator, sizeof(Node), alignof(Node))) Node;
-  node->count = static_cast<unsigned>(count);
-  node->first = builder.used.fetch_add(node->count);
-  const auto first = builder.leaf_primitives.begin() + node->first;
-  std::copy_n(primitives, count, first);
-  // Threads may hand the same leaf over in another order; flat primitives come before spheres.
-  std::sort(first, first + static_cast<std::ptrdiff_t>(count), [](const auto& a, const auto& b) {
-    return a.geomID != b.geomID ? a.geomID < b.geomID : a.primID < b.primID;
-  });
-  return node;
 }
 
 std::vector<RTCBuildPrimitive> build_primitives(const scene::Scene& scene, const scene::Vec3& origin) {
@@ -88,11 +43,13 @@ std::vector<RTCBuildPrimitive> build_primitives(const scene::Scene& scene, const
 // Depth-first layout of the tree in a geometry's tables.
 class Layout {
 public:
-  Layout(const scene::Scene& scene, Geometry& geometry, int lanes, Builder& builder)
-      : geometry_(geometry), writer_(scene, geometry), builder_(builder),
+  Layout(const scene::Scene& scene, Geometry& geometry, int lanes)
+      : geometry_(geometry), writer_(scene, geometry),
         children_(static_cast<std::size_t>(std::max(lanes, 2))) {}
 
-  int write(const Node& node) { return node.children == 0 ? write_leaf(node) : write_inner(node); }
+  int write(const Tree::Node& node) {
+    return node.children.empty() ? write_leaf(node.primitives) : write_inner(node);
+  }
   void finish() { writer_.finish(); }
 
 private:
@@ -101,18 +58,18 @@ private:
     RTCBounds box;
   };
 
-  int write_inner(const Node& node) {
+  int write_inner(const Tree::Node& node) {
     const std::size_t index = reserve_node();
     std::vector<Child> written;
-    for (unsigned i = 0; i < node.children; ++i) written.push_back({write(*node.child[i]), node.box[i]});
+    for (std::size_t i = 0; i < node.children.size(); ++i)
+      written.push_back({write(*node.children[i]), node.boxes[i]});
     fill_node(index, written);
     return static_cast<int>(index);
   }
 
   // A leaf holds either flat primitives or spheres; where Embree put both together, a node stands above two
   // leaves.
-  int write_leaf(const Node& leaf) {
-    const std::span all(builder_.leaf_primitives.data() + leaf.first, leaf.count);
+  int write_leaf(std::span<const RTCBuildPrimitive> all) {
     const auto first_sphere =
         std::find_if(all.begin(), all.end(), [](const auto& p) { return p.geomID == sphere_geometry; });
     const std::span flats(all.begin(), first_sphere), spheres(first_sphere, all.end());
@@ -176,40 +133,8 @@ private:
 
   Geometry& geometry_;
   TableWriter writer_;
-  Builder& builder_;
   std::size_t children_;
 };
-
-template<auto release>
-struct Releaser {
-  template<typename T>
-  void operator()(T* handle) const {
-    release(handle);
-  }
-};
-using EmbreeDevice = std::unique_ptr<std::remove_pointer_t<RTCDevice>, Releaser<rtcReleaseDevice>>;
-using EmbreeBvh = std::unique_ptr<std::remove_pointer_t<RTCBVH>, Releaser<rtcReleaseBVH>>;
-
-RTCBuildArguments build_arguments(RTCBVH bvh, std::vector<RTCBuildPrimitive>& primitives, Builder& builder,
-                                  int lanes) {
-  RTCBuildArguments arguments = rtcDefaultBuildArguments();
-  arguments.buildQuality = RTC_BUILD_QUALITY_MEDIUM;
-  arguments.maxBranchingFactor = static_cast<unsigned>(std::max(lanes, 2));
-  // One level is left for a node above a leaf of both kinds.
-  arguments.maxDepth = static_cast<unsigned>(lanes == 1 ? max_depth_binary : max_depth_wide) - 1;
-  arguments.sahBlockSize = static_cast<unsigned>(lanes);
-  arguments.minLeafSize = 1;
-  arguments.maxLeafSize = static_cast<unsigned>(std::max(lanes, 4));
-  arguments.bvh = bvh;
-  arguments.primitives = primitives.data();
-  arguments.primitiveCount = arguments.primitiveArrayCapacity = primitives.size();
-  arguments.createNode = create_node;
-  arguments.setNodeChildren = set_children;
-  arguments.setNodeBounds = set_bounds;
-  arguments.createLeaf = create_leaf;
-  arguments.userPtr = &builder;
-  return arguments;
-}
 
 double radius_of(const std::vector<RTCBuildPrimitive>& primitives) {
   double x = 0, y = 0, z = 0;
@@ -232,18 +157,15 @@ Geometry hierarchy(const scene::Scene& scene, int lanes, bool in_double) {
   if (primitives.empty()) throw SceneError("a hierarchy needs at least one shape");
   geometry.radius = radius_of(primitives);
 
-  const EmbreeDevice device(rtcNewDevice(nullptr));
-  if (!device) throw SceneError("Embree cannot start to build the hierarchy");
-  const EmbreeBvh bvh(rtcNewBVH(device.get()));
-  Builder builder;
-  builder.leaf_primitives.resize(primitives.size());
-  const RTCBuildArguments arguments = build_arguments(bvh.get(), primitives, builder, lanes);
-  const auto* root = static_cast<const Node*>(rtcBuildBVH(&arguments));
-  if (root == nullptr) throw SceneError("Embree could not build the hierarchy: too little memory");
-  primitives = {};
-
-  Layout layout(scene, geometry, lanes, builder);
-  geometry.root = layout.write(*root);
+  // One level is left for a node above a leaf of both kinds.
+  const int most_levels = (lanes == 1 ? max_depth_binary : max_depth_wide) - 1;
+  const auto width = static_cast<unsigned>(lanes);
+  const Tree tree(std::move(primitives), {.branching = std::max(width, 2u),
+                                          .leaf_size = std::max(width, 4u),
+                                          .block = width,
+                                          .max_depth = static_cast<unsigned>(most_levels)});
+  Layout layout(scene, geometry, lanes);
+  geometry.root = layout.write(tree.root());
   layout.finish();
   return geometry;
 }

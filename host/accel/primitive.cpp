@@ -73,6 +73,16 @@ void write_values(std::vector<T>& table, std::size_t block, std::size_t index,
   for (std::size_t k = 0; k < count; ++k) first[k * block] = static_cast<T>(values[k]);
 }
 
+struct Corners { // of the least box
+  Vec3 low, high;
+};
+
+Corners corners(const Flat& f) {
+  if (f.region != REGION_TRIANGLE) return {f.origin - half_extent(f), f.origin + half_extent(f)};
+  const Vec3 p1 = f.origin + f.edge_u, p2 = f.origin + f.edge_v;
+  return {glm::min(f.origin, glm::min(p1, p2)), glm::max(f.origin, glm::max(p1, p2))};
+}
+
 double area_of(int region, double cross_length) {
   switch (region) {
   case REGION_TRIANGLE:
@@ -112,14 +122,8 @@ Box bounds(const scene::Scene& scene, const Vec3& origin, Reference reference) {
     grow(box, center - sphere.radius, center + sphere.radius);
     return box;
   }
-  const Flat f = flat(scene, origin, reference);
-  if (f.region == REGION_TRIANGLE) {
-    const Vec3 p1 = f.origin + f.edge_u, p2 = f.origin + f.edge_v;
-    grow(box, glm::min(f.origin, glm::min(p1, p2)), glm::max(f.origin, glm::max(p1, p2)));
-  } else {
-    const Vec3 half = half_extent(f);
-    grow(box, f.origin - half, f.origin + half);
-  }
+  const auto [low, high] = corners(flat(scene, origin, reference));
+  grow(box, low, high);
   return box;
 }
 
@@ -183,7 +187,10 @@ bool TableWriter::add_planar(Reference reference) {
   write_planar(values);
   geometry_.primitives.push_back({f.surface.material, -1, f.region});
   geometry_.emitters.push_back(f.surface.area_emitter);
-  if (f.surface.area_emitter >= 0) geometry_.areas.push_back(area_of(f.region, length));
+  if (f.surface.area_emitter >= 0) {
+    const auto [low, high] = corners(f);
+    geometry_.emitting.push_back({area_of(f.region, length), low, high, normal});
+  }
   add_corners(reference);
   geometry_.has_triangles |= f.region == REGION_TRIANGLE;
   geometry_.has_parallelograms |= f.region == REGION_PARALLELOGRAM;
@@ -209,7 +216,8 @@ void TableWriter::add_sphere(Reference reference) {
   sphere_records_.push_back({sphere.surface.material, -1, sphere.front_is_inside ? 1 : 0});
   sphere_emitters_.push_back(sphere.surface.area_emitter);
   if (sphere.surface.area_emitter >= 0)
-    sphere_areas_.push_back(4.0 * std::numbers::pi * sphere.radius * sphere.radius);
+    emitting_spheres_.push_back({4.0 * std::numbers::pi * sphere.radius * sphere.radius,
+                                 center - sphere.radius, center + sphere.radius, Vec3(0.0)});
   ++geometry_.primitive_count;
 }
 
@@ -229,7 +237,7 @@ void TableWriter::finish() {
   geometry_.sphere_count = static_cast<int>(sphere_records_.size());
   geometry_.primitives.insert(geometry_.primitives.end(), sphere_records_.begin(), sphere_records_.end());
   geometry_.emitters.insert(geometry_.emitters.end(), sphere_emitters_.begin(), sphere_emitters_.end());
-  geometry_.areas.insert(geometry_.areas.end(), sphere_areas_.begin(), sphere_areas_.end());
+  geometry_.emitting.insert(geometry_.emitting.end(), emitting_spheres_.begin(), emitting_spheres_.end());
 }
 
 } // namespace phlux::accel

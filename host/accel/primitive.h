@@ -52,7 +52,7 @@ private:
   Geometry& geometry_;
   std::vector<PrimitiveRecord> sphere_records_;
   std::vector<int> sphere_emitters_;
-  std::vector<double> sphere_areas_;
+  std::vector<EmittingPrimitive> emitting_spheres_;
   std::vector<std::size_t> first_normal_of_mesh_;
 };
 

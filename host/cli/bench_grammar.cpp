@@ -3,11 +3,13 @@
 #include <memory>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "bench/arithmetic.h"
 #include "bench/figures.h"
 #include "bench/precision.h"
 #include "bench/rays.h"
+#include "bench/remedies.h"
 #include "bench/sampling.h"
 #include "bench/scenes.h"
 #include "bench/stability.h"
@@ -183,6 +185,22 @@ void add_precision(CLI::App& bench, std::optional<Command>& command) {
   measure_by(bench::measure_precision, app, command, options);
 }
 
+void add_remedies(CLI::App& bench, std::optional<Command>& command) {
+  CLI::App& app = *bench.add_subcommand(
+      "remedies", "What lessens variance without a bias, each before and after: remedies.csv");
+  const auto options = std::make_shared<bench::RemediesOptions>();
+  add_common(app, *options);
+  add_values(app, "--remedy", "NAME",
+             fmt::format("only this one of {}; may be repeated; default: all",
+                         fmt::join(bench::remedy_names(), ", ")),
+             [options](const std::string& text) {
+               const auto& names = bench::remedy_names();
+               options->remedies.push_back(names[choice("--remedy", text, names)]);
+             });
+  app.add_flag("--quick", options->quick, "fewer and easier places; shorter renders");
+  measure_by(bench::measure_remedies, app, command, options);
+}
+
 void add_figures(CLI::App& bench, std::optional<Command>& command) {
   CLI::App& app = *bench.add_subcommand(
       "figures", "The figures of CW 197 from the kernels' output: figure-1 to figure-7 (.csv, .svg, .png)");
@@ -249,6 +267,7 @@ void add_bench(CLI::App& program, std::optional<Command>& command) {
   add_sampling(app, command);
   add_arithmetic(app, command);
   add_precision(app, command);
+  add_remedies(app, command);
   add_figures(app, command);
   add_stability(app, command);
 }

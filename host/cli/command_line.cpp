@@ -43,6 +43,22 @@ void add_method(CLI::App& app, RenderOptions& options) {
               options.weights =
                   static_cast<render::Weights>(choice("--weights", text, render::weights_names()));
             });
+  add_value(app, "--light-selection", "NAME",
+            "path and bidir, which of many lights a light sample goes to: by power, or by the contribution "
+            "that it is likely to bring to the point; default: contribution",
+            [&](const std::string& text) {
+              options.light_selection = static_cast<render::LightSelection>(
+                  choice("--light-selection", text, {"power", "contribution"}));
+            });
+  add_value(
+      app, "--connections", "N",
+      fmt::format("bidir only: where there are more than N connections that make paths of one length, N are "
+                  "made on average, and bring as much as all; 0: all are made; default: {}",
+                  render::Settings().connections),
+      [&](const std::string& text) {
+        constexpr std::uint64_t most = 1'000'000;
+        options.connections = static_cast<int>(whole_number("--connections", text, 0, most));
+      });
   add_value(
       app, "--ambient", "L",
       "path only: a radiance that is about what arrives everywhere, as a control variate: the nearer the "

@@ -20,6 +20,8 @@ struct RenderOptions {
 
   std::optional<std::string> integrator, strategy;
   std::optional<render::Connect> connect;
+  std::optional<render::LightSelection> light_selection;
+  std::optional<int> connections;
   std::optional<render::Weights> weights;
   std::optional<int> max_depth, rr_depth;
   std::optional<double> ambient, clamp;

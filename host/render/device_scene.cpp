@@ -94,6 +94,7 @@ DeviceScene::DeviceScene(const device::Device& device, const HostScene& scene, c
       triangle_end_(scene.geometry.triangle_end), parallelogram_end_(scene.geometry.parallelogram_end),
       ellipse_end_(scene.geometry.ellipse_end), first_sphere_(scene.geometry.first_sphere),
       sphere_count_(scene.geometry.sphere_count), root_(scene.geometry.root),
+      light_tree_probability_(static_cast<float>(scene.lights.tree_probability)),
       camera_(upload(device, std::vector<CameraRecord>{scene.camera}, "camera")),
       primitives_(upload(device, scene.geometry.primitives, "primitives")),
       materials_(upload(device, scene.materials.records, "materials")),
@@ -105,6 +106,7 @@ DeviceScene::DeviceScene(const device::Device& device, const HostScene& scene, c
                    ? upload(device, scene.geometry.double_spheres, "spheres", SPHERE_FLOATS)
                    : upload(device, scene.geometry.spheres, "spheres", SPHERE_FLOATS)),
       nodes_(upload(device, scene.geometry.nodes, "hierarchy")),
+      light_nodes_(upload(device, scene.lights.nodes, "tree of lights")),
       reflectivity_(upload(device, scene.materials.reflectivity, "reflectivities")),
       corners_(upload(device, scene.geometry.corners, "triangles' corners")),
       vertex_normals_(upload(device, scene.geometry.vertex_normals, "vertex normals")) {}
@@ -116,6 +118,7 @@ cl_uint DeviceScene::bind(cl::Kernel& kernel) const {
   if (parts_.planars) bind_all(planars_, triangle_end_, parallelogram_end_, ellipse_end_);
   if (parts_.spheres) bind_all(spheres_, first_sphere_, sphere_count_);
   if (parts_.hierarchy) bind_all(nodes_, root_);
+  if (parts_.light_tree) bind_all(light_nodes_, light_tree_probability_);
   if (parts_.phong_lobe) bind_all(reflectivity_);
   if (parts_.smooth_normals) bind_all(corners_, vertex_normals_);
   return index;

@@ -32,8 +32,9 @@ public:
 private:
   Parts parts_;
   int light_count_, triangle_end_, parallelogram_end_, ellipse_end_, first_sphere_, sphere_count_, root_;
-  cl::Buffer camera_, primitives_, materials_, lights_, planars_, spheres_, nodes_, reflectivity_, corners_,
-      vertex_normals_;
+  float light_tree_probability_;
+  cl::Buffer camera_, primitives_, materials_, lights_, planars_, spheres_, nodes_, light_nodes_,
+      reflectivity_, corners_, vertex_normals_;
 };
 
 } // namespace phlux::render

@@ -5,6 +5,8 @@
 #include <map>
 #include <numbers>
 
+#include "render/light_tree.h"
+
 namespace phlux::render {
 namespace {
 
@@ -36,12 +38,19 @@ public:
   static constexpr int own_group = -1;
   void add(const LightRecord& record, double power, int group = own_group) {
     table.records.push_back(record);
+    table.records.back().node = -1;
     powers.push_back(power);
     groups.push_back(group != own_group ? group : --last_own_);
+  }
+  // The one that was added last has a place; its bounds are without its index.
+  void place(PlacedLight bounds) {
+    bounds.light = static_cast<int>(table.records.size()) - 1;
+    if (powers.back() > 0) placed.push_back(bounds);
   }
   LightTable table;
   std::vector<double> powers;
   std::vector<int> groups;
+  std::vector<PlacedLight> placed; // those with power
 
 private:
   int last_own_ = own_group;
@@ -74,12 +83,15 @@ void add_surfaces(Collector& to, const scene::Scene& scene, accel::Geometry& geo
     const Rgb radiance = scene.area_emitters[static_cast<std::size_t>(geometry.emitters[i])].radiance;
     const bool sphere = static_cast<int>(i) >= geometry.first_sphere;
     LightRecord record = record_of(sphere ? LIGHT_SPHERE : LIGHT_PLANAR, radiance);
-    const double area = geometry.areas[emitting++];
+    const accel::EmittingPrimitive& emitter = geometry.emitting[emitting++];
     record.primitive = static_cast<int>(i);
-    record.area = static_cast<float>(area);
-    record.emission_density = static_cast<float>(1 / (pi * area));
+    record.area = static_cast<float>(emitter.area);
+    record.emission_density = static_cast<float>(1 / (pi * emitter.area));
     geometry.primitives[i].light = static_cast<int>(to.table.records.size());
-    to.add(record, pi * area * mean(radiance), geometry.emitters[i]);
+    to.add(record, pi * emitter.area * mean(radiance), geometry.emitters[i]);
+    const double widest = sphere ? emitter.area / 4 : emitter.area; // cross-section
+    to.place({0, emitter.low, emitter.high, sphere ? Vec3(0, 0, 1) : emitter.normal, sphere ? pi : 0.0,
+              widest * mean(radiance)});
   }
 }
 
@@ -89,6 +101,8 @@ void add_points(Collector& to, const scene::Scene& scene, const Vec3& origin) {
     set(record.position, light.position - origin);
     record.emission_density = static_cast<float>(1 / (4 * pi));
     to.add(record, 4 * pi * mean(light.intensity));
+    const Vec3 at = light.position - origin;
+    to.place({0, at, at, Vec3(0, 0, 1), pi, mean(light.intensity)});
   }
   for (const scene::SpotLight& light : scene.spot_lights) {
     LightRecord record = record_of(LIGHT_SPOT, light.intensity);
@@ -103,6 +117,8 @@ void add_points(Collector& to, const scene::Scene& scene, const Vec3& origin) {
     record.emission_density = static_cast<float>(1 / (4 * pi * half_sine * half_sine));
     const double full = 2 * pi * (1 - (std::cos(light.beam_width) + std::cos(light.cutoff_angle)) / 2);
     to.add(record, full * mean(light.intensity));
+    const Vec3 at = light.position - origin;
+    to.place({0, at, at, light.direction, light.cutoff_angle, mean(light.intensity)});
   }
 }
 
@@ -187,6 +203,9 @@ LightTable light_table(const scene::Scene& scene, accel::Geometry& geometry) {
   add_distant(collector, scene, geometry.radius);
   const std::vector<double> chances = probabilities(collector);
   if (!chances.empty()) make_alias_table(collector.table.records, chances);
+  collector.table.nodes = light_tree(collector.placed, collector.table.records);
+  for (const PlacedLight& light : collector.placed)
+    collector.table.tree_probability += chances[static_cast<std::size_t>(light.light)];
   use_unit(collector.table, unit_of(collector.table.records, geometry.radius));
   return collector.table;
 }

@@ -37,6 +37,7 @@ constexpr NamedPart named_parts[] = {
     {&Parts::light_directional, "light_directional", "PHLUX_LIGHT_DIRECTIONAL"},
     {&Parts::light_constant, "light_constant", "PHLUX_LIGHT_CONSTANT"},
     {&Parts::light_choice, "light_choice", "PHLUX_LIGHT_CHOICE"},
+    {&Parts::light_tree, "light_tree", "PHLUX_LIGHT_TREE"},
     {&Parts::ambient, "ambient", "PHLUX_AMBIENT"},
 };
 
@@ -147,6 +148,8 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
   parts.techniques = settings.techniques;
   if (parts.techniques && parts.integrator == Integrator::path)
     throw UsageError("--contributions: a path from the eye is made in one way: use -i bidir or light");
+  // What a technique brings by itself is shown whole.
+  if (parts.integrator == Integrator::bidir && !parts.techniques) parts.connections = settings.connections;
   if (settings.clamp) parts.clamp = *settings.clamp / lights.unit;
   if (parts.clamp && parts.techniques)
     throw UsageError("--clamp: what techniques bring is not clamped: leave out --contributions");
@@ -188,6 +191,8 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
   parts.light_constant = lights.has(LIGHT_CONSTANT);
   const bool chooses = parts.connect != Connect::none || parts.integrator == Integrator::light;
   parts.light_choice = lights.records.size() > 1 && chooses;
+  parts.light_tree = parts.connect != Connect::none && !lights.nodes.empty() &&
+                     settings.light_selection == LightSelection::contribution;
   parts.one_light = lights.records.size() == 1;
   parts.few_lights = lights.records.size() <= few_entries;
   parts.few_materials = scene.materials.size() <= few_entries;
@@ -234,6 +239,7 @@ std::map<std::string, std::string> Parts::defines() const {
   if (clamp && integrator != Integrator::light) macros["PHLUX_CLAMP"] = fmt::format("{:a}f", *clamp);
   if (integrator == Integrator::bidir) {
     macros["PHLUX_BIDIR"] = "1";
+    if (connections > 0) macros["PHLUX_CONNECTIONS"] = fmt::format("{}.0f", connections);
     macros["PHLUX_WEIGHTS"] = weights == Weights::balance ? "WEIGHTS_BALANCE"
                               : weights == Weights::power ? "WEIGHTS_POWER"
                                                           : "WEIGHTS_UNIFORM";

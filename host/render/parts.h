@@ -32,9 +32,11 @@ struct Parts {
        light_directional = false, light_constant = false;
   bool ambient = false;      ///< a control variate is asked for
   bool light_choice = false; ///< there is more than one light to choose from
+  bool light_tree = false;   ///< light samples choose by contribution
   bool one_light = false, few_lights = false, few_materials = false, few_primitives = false; ///< no code
   Connect connect = Connect::mis;
   Weights weights = Weights::balance;
+  int connections = 0;         ///< as in Settings; 0: no code for roulette
   bool techniques = false;     ///< contributions are recorded one by one
   std::optional<double> clamp; ///< most that a path brings to its own pixel, in units of the light table
   std::string strategy;

@@ -15,13 +15,16 @@ namespace phlux::render {
 
 enum class Connect { none, light, mis }; ///< what reaches the lights: hits, light samples, or both weighted
 enum class Weights { balance, power, uniform }; ///< how bidirectional paths share a path's light (Veach 1997)
+enum class LightSelection { power, contribution }; ///< which of many lights a light sample goes to
 enum class Traversal { automatic, brute_force, bvh };
 
 struct Settings {
-  std::string integrator = "path";    ///< path, light or bidir
-  std::string strategy = "exact";     ///< how directions are sampled, MATH.md 2.3
-  Connect connect = Connect::mis;     ///< path
-  Weights weights = Weights::balance; ///< bidir
+  std::string integrator = "path";                               ///< path, light or bidir
+  std::string strategy = "exact";                                ///< how directions are sampled, MATH.md 2.3
+  Connect connect = Connect::mis;                                ///< path
+  Weights weights = Weights::balance;                            ///< bidir
+  LightSelection light_selection = LightSelection::contribution; ///< path, bidir
+  int connections = 2;     ///< bidir: made on average for each length of a path, where there are more; 0: all
   bool techniques = false; ///< light, bidir: the film keeps what each technique brings by itself as well
   std::optional<double> ambient;      ///< path: radiance of a control variate (CW 197, 2.2, reference 15)
   std::optional<double> clamp;        ///< most radiance that a path brings to a pixel: a bias

@@ -5,10 +5,12 @@ typedef struct {
   Real distance, density;
   Int hittable, valid, blocked, light; // light: which the ray finds, -1 for none
   Real hit_density;                    // of the same ray, from what it finds
+  Int chosen;
+  Real choice; // its probability
 } Sampled;
 
-__kernel void sample_lights(SCENE_PARAMETERS, __global const Vec3* position, __global const Vec3* normal, uint2 seed,
-                            __global const Uint* path, __global Sampled* sampled) {
+__kernel void sample_lights(SCENE_PARAMETERS, __global const Vec3* position, __global const Vec3* normal,
+                            uint2 seed, __global const Uint* path, __global Sampled* sampled) {
   SCENE_FROM_PARAMETERS
   const size_t i = get_global_id(0);
   SurfacePoint lit;
@@ -40,6 +42,18 @@ __kernel void sample_lights(SCENE_PARAMETERS, __global const Vec3* position, __g
   to.valid = s.valid ? yes : no;
   to.blocked = scene_occluded(&scene, s.ray, s.distance, s.valid) ? yes : no;
   to.light = emits ? light : (Int)(-1);
-  to.hit_density = light_density(&scene, s.ray.origin, light, hit.distance, -vec_dot(point.normal, s.ray.direction));
+  to.chosen = s.light;
+  to.choice = s.choice;
+  const Real hit_choice = probability_for(&scene, s.ray.origin, lit.normal, light, emits);
+  const Real cosine = -vec_dot(point.normal, s.ray.direction);
+  to.hit_density = light_density(&scene, s.ray.origin, light, hit_choice, hit.distance, cosine);
   sampled[i] = to;
+}
+
+// With which light_sample would choose one light.
+__kernel void light_choices(SCENE_PARAMETERS, __global const Vec3* position, __global const Vec3* normal,
+                            int light, __global Real* probability) {
+  SCENE_FROM_PARAMETERS
+  const size_t i = get_global_id(0);
+  probability[i] = probability_for(&scene, position[i], normal[i], (Int)(light), ALL_LANES);
 }

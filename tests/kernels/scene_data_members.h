@@ -1,6 +1,7 @@
 // Every member of every struct that host and kernels share, for both compilers to say where they put it.
 #define SHARED_STRUCTS(STRUCT)                                                                               \
-  STRUCT(PrimitiveRecord) STRUCT(MaterialRecord) STRUCT(LightRecord) STRUCT(CameraRecord)
+  STRUCT(PrimitiveRecord)                                                                                    \
+  STRUCT(MaterialRecord) STRUCT(LightRecord) STRUCT(LightNodeRecord) STRUCT(CameraRecord)
 
 #define SHARED_MEMBERS(MEMBER)                                                                               \
   MEMBER(PrimitiveRecord, material)                                                                          \
@@ -28,6 +29,14 @@
   MEMBER(LightRecord, emission_density)                                                                      \
   MEMBER(LightRecord, alias_threshold)                                                                       \
   MEMBER(LightRecord, alias)                                                                                 \
+  MEMBER(LightRecord, node)                                                                                  \
+  MEMBER(LightNodeRecord, center)                                                                            \
+  MEMBER(LightNodeRecord, half_size)                                                                         \
+  MEMBER(LightNodeRecord, axis)                                                                              \
+  MEMBER(LightNodeRecord, cos_spread)                                                                        \
+  MEMBER(LightNodeRecord, intensity)                                                                         \
+  MEMBER(LightNodeRecord, parent)                                                                            \
+  MEMBER(LightNodeRecord, child)                                                                             \
   MEMBER(CameraRecord, position)                                                                             \
   MEMBER(CameraRecord, forward)                                                                              \
   MEMBER(CameraRecord, left)                                                                                 \

@@ -1,6 +1,7 @@
 // light_sample against light_density_of_hit, and both against float64.
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include "directions.h"
@@ -21,6 +22,8 @@ struct Sampled {
   float distance, density;
   int hittable, valid, blocked, light;
   float hit_density;
+  int chosen;
+  float choice;
 };
 
 enum class Shape { rectangle, triangle, disk, sphere, inside_of_sphere };
@@ -68,12 +71,14 @@ std::vector<dvec3> lit_points(Shape shape, std::size_t count, Random& random) {
   return points;
 }
 
-std::vector<Sampled> sample(const SceneProgram& program, const std::vector<dvec3>& points, Random& random) {
+// With the one normal, or with any.
+std::vector<Sampled> sample(const SceneProgram& program, const std::vector<dvec3>& points,
+                            std::optional<dvec3> normal, Random& random) {
   std::vector<Float3> positions, normals;
   std::vector<std::uint32_t> paths;
   for (const dvec3& point : points) {
     positions.push_back(to_float(point));
-    normals.push_back(to_float(random.direction()));
+    normals.push_back(to_float(normal.value_or(random.direction())));
     paths.push_back(static_cast<std::uint32_t>(paths.size()));
   }
   std::vector<Sampled> sampled(points.size());
@@ -154,7 +159,7 @@ TEST_CASE("lights: a sample's density is that of the hit of the same ray, and of
       for (dvec3& point : points) point = to_double(to_float(point - origin)) + origin;
       std::vector<dvec3> about_origin;
       for (const dvec3& point : points) about_origin.push_back(point - origin);
-      const auto sampled = sample(program, about_origin, random);
+      const auto sampled = sample(program, about_origin, {}, random);
       std::size_t lost = 0, valid = 0;
       for (std::size_t i = 0; i < sampled.size(); ++i) {
         const Sampled& s = sampled[i];
@@ -177,64 +182,197 @@ TEST_CASE("lights: a sample's density is that of the hit of the same ray, and of
     }
 }
 
-TEST_CASE("lights: of many, each is chosen with its probability; densities include it") {
+namespace {
+
+// Five with a surface, lamps, and light from far away.
+Scene scene_of_many() {
   Scene scene;
   scene.materials.push_back({});
   for (int i = 0; i < 5; ++i) add_light(scene, shapes[i], dvec3(8 * i, 0, 0));
-  const double extent = 4 * 8 + 2 * size;
   scene.point_lights.push_back({dvec3(3, 3, 5), dvec3(60)});
   scene.point_lights.push_back({dvec3(5, -3, 5), dvec3(0)}); // without power: never
+  scene.spot_lights.push_back({dvec3(9, 3, 6), glm::normalize(dvec3(1, 2, -3)), dvec3(90), 0.5, 0.3});
   scene.directional_lights.push_back({dvec3(0, 0, -1), dvec3(0.5)});
   scene.constant_radiance = dvec3(0.25);
+  return scene;
+}
+
+phlux::render::Settings choosing_by(phlux::render::LightSelection selection) {
+  phlux::render::Settings settings;
+  settings.light_selection = selection;
+  settings.traversal = phlux::render::Traversal::brute_force;
+  return settings;
+}
+
+// Points and normals, the probability of each light there (by light, then by point).
+struct Choices {
+  std::vector<dvec3> points, normals;
+  std::vector<std::vector<float>> of_light;
+};
+
+Choices choices_at(const SceneProgram& program, std::vector<dvec3> points, std::vector<dvec3> normals) {
+  Choices result{std::move(points), std::move(normals), {}};
+  std::vector<Float3> at, facing;
+  for (const dvec3& point : result.points) at.push_back(to_float(point - program.host().geometry.origin));
+  for (const dvec3& normal : result.normals) facing.push_back(to_float(normal));
+  for (int light = 0; light < static_cast<int>(program.host().lights.records.size()); ++light) {
+    std::vector<float> probability(at.size());
+    program.run("light_choices", at.size(), at, facing, light, out(probability));
+    result.of_light.push_back(probability);
+  }
+  return result;
+}
+
+Choices choices_at_random(const SceneProgram& program, std::size_t count, double extent, Random& random) {
+  std::vector<dvec3> points, normals;
+  while (points.size() < count) {
+    points.push_back(program.host().geometry.origin + extent * random.point());
+    normals.push_back(random.direction());
+  }
+  return choices_at(program, points, normals);
+}
+
+} // namespace
+
+namespace {
+
+// The part of a probability that is the tree's: a quarter of the choices is by power.
+double by_tree(const SceneProgram& program, const Choices& choices, std::size_t light, std::size_t point) {
+  return (choices.of_light[light][point] - 0.25 * program.host().lights.records[light].probability) / 0.75;
+}
+
+} // namespace
+
+TEST_CASE(
+    "lights: chosen by contribution, all of them together are certain, and none with power is left out") {
   for (const Variant v : variants) {
     CAPTURE(v);
-    Random random(72);
-    const SceneProgram program(v, "lights.cl", scene);
+    Random random(73);
+    const SceneProgram program(v, "lights.cl", scene_of_many(),
+                               choosing_by(phlux::render::LightSelection::contribution));
     const auto& records = program.host().lights.records;
-    std::vector<dvec3> points;
-    while (points.size() < thinned(40000)) points.push_back(20.0 * random.point());
-    const auto sampled = sample(program, points, random);
-    std::vector<double> observed(records.size(), 0.0), expected;
-    for (const LightRecord& record : records)
-      expected.push_back(record.probability * static_cast<double>(sampled.size()));
-    for (std::size_t i = 0; i < sampled.size(); ++i) {
-      const Sampled& s = sampled[i];
-      // Emitters' radiances come in proportions 1 : 2 : 3; the others are grey.
-      std::size_t light = records.size();
-      if (s.radiance.y > 1.5f * s.radiance.x) {
-        light = 0;
-        while (std::abs(records[light].power[0] - s.radiance.x) > 1e-4f) ++light;
-      } else {
-        const bool finite = std::isfinite(s.distance);
-        for (std::size_t k = 0; k < records.size(); ++k) {
-          const int kind = records[k].kind;
-          if (kind == LIGHT_POINT && !finite && s.hittable == 0) continue;
-          if (kind == LIGHT_POINT         ? finite && records[k].probability > 0
-              : kind == LIGHT_DIRECTIONAL ? !finite && s.hittable == 0
-              : kind == LIGHT_CONSTANT    ? !finite && s.hittable == 1
-                                          : false)
-            light = k;
-        }
+    const Choices choices = choices_at_random(program, thinned(2000), 20, random);
+    for (std::size_t i = 0; i < choices.points.size(); ++i) {
+      double sum = 0;
+      for (std::size_t light = 0; light < records.size(); ++light) {
+        const double probability = choices.of_light[light][i];
+        CAPTURE(i, light, probability);
+        REQUIRE((probability > 0) == (records[light].probability > 0));
+        sum += probability;
       }
-      REQUIRE(light < records.size());
-      observed[light] += 1;
-      const LightRecord& record = records[light];
-      CAPTURE(i, record.kind);
-      if (record.kind == LIGHT_POINT) {
-        const dvec3 at(record.position[0], record.position[1], record.position[2]);
-        const dvec3 way = at - to_double(s.origin);
-        REQUIRE(s.radiance.x / s.density ==
-                Approx(60 / glm::dot(way, way) / record.probability).epsilon(1e-5));
-      } else if (record.kind == LIGHT_DIRECTIONAL) {
-        REQUIRE(s.direction.z == 1);
-        REQUIRE(s.radiance.x / s.density == Approx(0.5 / record.probability).epsilon(1e-5));
-      } else if (s.valid != 0 && s.light == static_cast<int>(light)) {
-        const double squared = static_cast<double>(s.distance) * s.distance;
-        const double cosine = record.probability * squared / (record.area * s.density);
-        CAPTURE(s.distance, s.density, cosine);
-        REQUIRE(std::abs(s.hit_density / s.density - 1) <= density_slack(s.distance, cosine, extent));
+      REQUIRE(std::abs(sum - 1) < 2e-6);
+    }
+  }
+}
+
+TEST_CASE("lights: of two points that shine, each is chosen in proportion to what arrives") {
+  Scene scene = scene_of(Shape::rectangle);
+  scene.area_emitters[0].radiance = dvec3(0);
+  const dvec3 at[] = {{3, 3, 5}, {-2, 1, 6}};
+  const double intensity[] = {60, 20};
+  for (std::size_t k = 0; k < 2; ++k) scene.point_lights.push_back({at[k], dvec3(intensity[k])});
+  for (const Variant v : variants) {
+    CAPTURE(v);
+    Random random(74);
+    const SceneProgram program(v, "lights.cl", scene,
+                               choosing_by(phlux::render::LightSelection::contribution));
+    const Choices choices = choices_at_random(program, thinned(2000), 3, random);
+    std::size_t lit_by_both = 0;
+    for (std::size_t i = 0; i < choices.points.size(); ++i) {
+      double arriving[2];
+      for (std::size_t k = 0; k < 2; ++k) {
+        const dvec3 way = at[k] - choices.points[i];
+        const double distance = glm::length(way);
+        arriving[k] = intensity[k] * std::max(0.0, glm::dot(choices.normals[i], way)) / std::pow(distance, 3);
+      }
+      const double sum = arriving[0] + arriving[1];
+      CAPTURE(i, arriving[0], arriving[1]);
+      for (std::size_t k = 0; k < 2 && sum > 0; ++k)
+        REQUIRE(by_tree(program, choices, 1 + k, i) ==
+                Approx(arriving[k] / sum).margin(3e-4)); // LEAST_LIKELY_CHILD
+      lit_by_both += arriving[0] > 0 && arriving[1] > 0 ? 1 : 0;
+    }
+    CHECK(lit_by_both > choices.points.size() / 5);
+  }
+}
+
+TEST_CASE("lights: a light of another side, or that faces away, is hardly ever chosen") {
+  const SceneProgram program(
+      variants[0], "lights.cl",
+      [] {
+        Scene scene; // two that face up, one below the other, and one above that faces them
+        scene.materials.push_back({});
+        add_light(scene, Shape::disk, dvec3(0, 0, 0));
+        add_light(scene, Shape::triangle, dvec3(0, 0, -3));
+        add_light(scene, Shape::rectangle, dvec3(0, 0, 9));
+        scene.patches.back().edge_v *= -1.0;
+        return scene;
+      }(),
+      choosing_by(phlux::render::LightSelection::contribution));
+  const auto of = [&](const Choices& choices, std::size_t shape) { // lights stand in the primitives' order
+    const auto& records = program.host().lights.records;
+    for (std::size_t light = 0; light < records.size(); ++light)
+      if (records[light].power[0] == static_cast<float>(1 + shape))
+        return by_tree(program, choices, light, 0);
+    return -1.0;
+  };
+  const Choices up = choices_at(program, {dvec3(0, 0, 3)}, {dvec3(0, 0, 1)});
+  CHECK(of(up, 2) > 0.99);
+  const Choices down = choices_at(program, {dvec3(0, 0, 3)}, {dvec3(0, 0, -1)});
+  CHECK(of(down, 2) < 0.01);
+  CHECK(of(down, 0) > of(down, 1));
+  const Choices below = choices_at(program, {dvec3(0, 0, -5)}, {dvec3(0, 0, 1)});
+  CHECK(of(below, 2) > 0.9); // the others turn their backs
+}
+
+TEST_CASE("lights: of many, each is chosen with its probability; densities include it") {
+  using phlux::render::LightSelection;
+  const Scene scene = scene_of_many();
+  const double extent = 4 * 8 + 2 * size;
+  for (const LightSelection selection : {LightSelection::power, LightSelection::contribution})
+    for (const Variant v : variants) {
+      CAPTURE(v, static_cast<int>(selection));
+      Random random(72);
+      const SceneProgram program(v, "lights.cl", scene, choosing_by(selection));
+      const auto& records = program.host().lights.records;
+      // A few places, many times each: where a light is likely depends on them.
+      const Choices choices = choices_at_random(program, 4, 20, random);
+      for (std::size_t place = 0; place < choices.points.size(); ++place) {
+        const std::size_t count = thinned(10000);
+        const auto sampled =
+            sample(program, std::vector(count, choices.points[place] - program.host().geometry.origin),
+                   choices.normals[place], random);
+        std::vector<double> observed(records.size(), 0.0), expected;
+        for (std::size_t light = 0; light < records.size(); ++light) {
+          const double probability = choices.of_light[light][place];
+          if (selection == LightSelection::power)
+            REQUIRE(static_cast<float>(probability) == records[light].probability);
+          expected.push_back(probability * static_cast<double>(count));
+        }
+        for (std::size_t i = 0; i < sampled.size(); ++i) {
+          const Sampled& s = sampled[i];
+          REQUIRE(s.chosen >= 0);
+          REQUIRE(static_cast<std::size_t>(s.chosen) < records.size());
+          const LightRecord& record = records[static_cast<std::size_t>(s.chosen)];
+          observed[static_cast<std::size_t>(s.chosen)] += 1;
+          CAPTURE(place, i, record.kind);
+          REQUIRE(s.choice ==
+                  Approx(choices.of_light[static_cast<std::size_t>(s.chosen)][place]).epsilon(1e-5));
+          if (record.kind == LIGHT_POINT) {
+            const dvec3 at(record.position[0], record.position[1], record.position[2]);
+            const dvec3 way = at - to_double(s.origin);
+            REQUIRE(s.radiance.x / s.density == Approx(60 / glm::dot(way, way) / s.choice).epsilon(1e-5));
+          } else if (record.kind == LIGHT_DIRECTIONAL) {
+            REQUIRE(s.direction.z == 1);
+            REQUIRE(s.radiance.x / s.density == Approx(0.5 / s.choice).epsilon(1e-5));
+          } else if (s.valid != 0 && s.light == s.chosen) {
+            const double squared = static_cast<double>(s.distance) * s.distance;
+            const double cosine = s.choice * squared / (record.area * s.density);
+            CAPTURE(s.distance, s.density, cosine);
+            REQUIRE(std::abs(s.hit_density / s.density - 1) <= density_slack(s.distance, cosine, extent));
+          }
+        }
+        CHECK(chi_square_p(observed, expected) > one_of(2 * 4 * std::size(variants)));
       }
     }
-    CHECK(chi_square_p(observed, expected) > one_of(std::size(variants)));
-  }
 }

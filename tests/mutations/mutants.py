@@ -71,7 +71,9 @@ MUTANTS = [
 # Mistakes of light tracing and bidirectional path tracing, with the program and the test cases that are to see them.
 INTEGRATORS = ("test_render", "[mutations]")
 SMOOTH, FLAT = ("test_render", "a ball of eight*"), ("test_render", "a low gap*")
-CAMERA, EMISSION, WEIGHTS, BATCHES = (("test_kernels", name + ":*") for name in ("camera", "emission", "weights", "batches"))
+CAMERA, EMISSION, LIGHTS, WEIGHTS, BATCHES = (
+    ("test_kernels", name + ":*") for name in ("camera", "emission", "lights", "weights", "batches"))
+REMEDIES = ("test_render", "light samples by power*,roulette of connections leaves*")
 
 INTEGRATOR_MUTANTS = [
     ("splat without its cosine", "light_walk.cl", "adjoint_cosine(v, generated, cosine) * view.film.density / view.distance2",
@@ -129,6 +131,16 @@ INTEGRATOR_MUTANTS = [
     ("spot's fall-off left out", "emission.cl", "e.radiance = vec_scale(falloff, e.radiance);", "", EMISSION),
     ("spot's cone twice as wide", "emission.cl", "(0.5f * PHONG_INV_PI) * light_probability", "PHONG_INV_PI * light_probability", EMISSION),
     ("lights in turn for lights by power", "lights.cl", "return keep ? cell : LIGHT_INT(scene, cell, alias);", "return cell;", EMISSION),
+    ("the other child's probability", "light_tree.cl", "own == first ? likely_first : 1.0f - likely_first",
+     "own == first ? 1.0f - likely_first : likely_first", LIGHTS),
+    ("a hit's light chosen as by power", "path.cl", "const Real choice = probability_for(scene, path->ray.origin, path->normal, light, sampled);",
+     "const Real choice = light_probability(scene, light);", REMEDIES),
+    ("a light's back as bright as its front", "light_tree.cl", "larger(leaving, (Real)(0.0f))", "fabs(leaving)", LIGHTS),
+    ("importance without distance", "light_tree.cl", "/\n         larger(distance2, (Real)(LEAST_SQUARE));", ";", LIGHTS),
+    ("the tree's probability left out", "lights.cl", "scene->light_tree_probability * tree_probability(", "tree_probability(", LIGHTS),
+    ("choices by power forgotten", "lights.cl", "SHARE_BY_POWER * by_power + (1.0f - SHARE_BY_POWER) * in_tree", "in_tree", LIGHTS),
+    ("roulette of connections not divided out", "bidir.cl", "geometry / connection_probability(pair)", "geometry", REMEDIES),
+    ("roulette of connections divided out of those that are made anyway", "bidir.cl", "pairing & !is_made(pair)", "pairing & NO_LANES", REMEDIES),
     ("a path taken twice", "batch.cl", "batch->next = min(batch->next + count_lanes(idle), batch->path_count);",
      "batch->next = min(batch->next + max(count_lanes(idle) - 1, 1), batch->path_count);", BATCHES),
     ("a quotient of floats without the half", "batch.cl", "(to_real(a) + 0.5f) / (float)b", "to_real(a) * (1.0f / (float)b)", BATCHES),

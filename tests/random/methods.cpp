@@ -116,8 +116,8 @@ SceneFacts facts_of(const scene::Scene& scene) {
   }
   facts.view = std::min(1.0, static_cast<double>(host.camera.film_area) / (4 * std::numbers::pi));
   const double cross_section = std::numbers::pi * host.geometry.radius * host.geometry.radius;
-  for (const double area : host.geometry.areas)
-    facts.smallest_light = std::min(facts.smallest_light, area / cross_section);
+  for (const accel::EmittingPrimitive& light : host.geometry.emitting)
+    facts.smallest_light = std::min(facts.smallest_light, light.area / cross_section);
   return facts;
 }
 

@@ -29,7 +29,7 @@ std::string program_of(const render::Parts& parts, const device::KernelFiles& fi
 
 // What stands in a program just for one part.
 const std::map<std::string, Names> marks = {
-    {"hierarchy", {"push_children", "nodes"}},
+    {"hierarchy", {"push_children", "scene->nodes"}},
     {"triangles", {"CLOSEST_OF(in_triangle,", "== REGION_TRIANGLE;"}},
     {"parallelograms", {"CLOSEST_OF(in_parallelogram,"}},
     {"ellipses", {"CLOSEST_OF(in_ellipse,"}},
@@ -43,6 +43,7 @@ const std::map<std::string, Names> marks = {
     {"light_sphere", {"sample_sphere_light", "one_minus_cone_cosine"}},
     {"light_spot", {"inv_transition)", "acos("}},
     {"light_choice", {"alias_threshold)"}},
+    {"light_tree", {"light_nodes", "choose_from_tree"}},
 };
 
 bool holds(const std::string& text, const std::string& mark) {
@@ -58,7 +59,8 @@ TEST_CASE("the parts of each shipped scene are just what is in it") {
         "light_planar"}},
       {"cornell-box",
        {"planars", "parallelograms", "spheres", "black", "phong_lobe", "emission", "light_planar"}},
-      {"furnace-box", {"planars", "parallelograms", "emission", "light_planar", "light_choice"}},
+      {"furnace-box",
+       {"planars", "parallelograms", "emission", "light_planar", "light_choice", "light_tree"}},
       {"furnace-sphere", {"spheres", "phong_lobe", "light_constant"}},
       {"glossy-box",
        {"planars", "parallelograms", "spheres", "black", "phong_lobe", "emission", "light_planar"}},

@@ -1,0 +1,77 @@
+"""Draws what `phlux bench remedies` measured, each remedy before and after, and writes its section of the report.
+
+    python3 remedies.py FOLDER
+"""
+import sys
+from functools import partial
+
+import chart_style as style
+import matplotlib.pyplot as plt
+
+TITLES = {
+    "light-selection": "Light samples by contribution (before: by power)",
+    "connections": "Roulette of the connections of long paths (before: all are made)",
+    "exact-lobe": "Sampling and weighting by the exact lobe (before: lobe-ks)",
+}
+TICKS = (0.5, 0.7, 1, 1.5, 2, 3, 5, 10, 20, 50, 100, 1000, 10000, 100000)
+
+
+def method_of(row):
+    return f"{row.integrator} {row.connect_or_weights}"
+
+
+def draw(rows, theme):
+    remedies = list(dict.fromkeys(row.remedy for row in rows))
+    methods = list(dict.fromkeys(method_of(row) for row in rows))
+    places = {remedy: list(dict.fromkeys(row.place for row in rows if row.remedy == remedy)) for remedy in remedies}
+    heights = [len(places[remedy]) + 1.5 for remedy in remedies]
+    figure, panels = plt.subplots(len(remedies), 1, figsize=(9, 0.9 + 0.36 * sum(heights)), squeeze=False,
+                                  gridspec_kw={"height_ratios": heights})
+    for remedy, axes in zip(remedies, panels[:, 0]):
+        for row in (row for row in rows if row.remedy == remedy):
+            i = methods.index(method_of(row))
+            y = places[remedy].index(row.place) + 0.2 * (i - (len(methods) - 1) / 2)
+            axes.errorbar(row.gain, y, xerr=min(2 * row.gain_standard_error, 0.9 * row.gain), color=theme.color(i),
+                          marker=style.MARKERS[i], ls="none", lw=0.8, label=method_of(row))
+        axes.axvline(1, color=theme.ink, lw=0.8)
+        axes.set_xscale("log")
+        low, high = axes.get_xlim()
+        ticks = [tick for tick in TICKS if low <= tick <= high]
+        axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
+        axes.set_xticks([], minor=True)
+        axes.set_yticks(range(len(places[remedy])), places[remedy])
+        axes.set_ylim(len(places[remedy]) - 0.5, -0.5)
+        axes.grid(True, axis="x")
+        axes.set_title(TITLES[remedy], loc="left")
+    panels[-1, 0].set_xlabel("times as efficient: (variance x time) before / after")
+    height = figure.get_figheight()
+    figure.subplots_adjust(0.2, 0.75 / height, 0.98, 1 - 0.3 / height, hspace=0.45)
+    known = {}
+    for axes in panels[:, 0]:
+        for handle, label in zip(*axes.get_legend_handles_labels()):
+            known.setdefault(label, handle)
+    figure.legend(known.values(), known.keys(), loc="lower center", ncol=len(known))
+    return figure
+
+
+def main():
+    folder = sys.argv[1]
+    rows = style.read(folder, "remedies.csv")
+    style.save_all(folder, [("remedies", partial(draw, rows))])
+    table = [[row.remedy, row.place, method_of(row), row.gain, row.gain_standard_error, row.variance_before,
+              row.variance_after, row.rays_per_sample_before, row.rays_per_sample_after] for row in rows]
+    style.section(
+        folder, "remedies", title="Remedies, before and after", order=55,
+        text=["Each remedy leaves the mean as it is and is measured by what a second yields: renders with and without it "
+              "take turns, with the same seeds. A gain rests on the two variances' standard errors; where the variance "
+              "before is hardly met by so few samples, the gain is a lower bound."],
+        summary={"columns": ["remedy", "place", "method", "times as efficient", "standard error", "variance before", "after",
+                             "rays a sample before", "after"], "rows": table,
+                 "note": "Variances are of one sample, relative to the image."},
+        charts=[{"svg": "remedies.svg", "title": "What each remedy brings",
+                 "caption": "Bars are two standard errors to either side; left of 1 a remedy costs more than it brings."}],
+        tables=[{"csv": "remedies.csv", "title": "All figures"}])
+
+
+if __name__ == "__main__":
+    main()
