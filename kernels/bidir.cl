@@ -231,18 +231,20 @@ typedef struct {
   Uint word, step; // whose further words decide on roulette
 } Pair;
 
-// Long paths can be made by many connections, each of which is expected to bring its share: where there are more than
-// PHLUX_CONNECTIONS of one length, so many are made on average.
+// Long paths can be made by many connections, each of which is expected to bring its share: where the subpaths have
+// more than PHLUX_CONNECTIONS that make paths of one length, so many are made on average.
 static inline Real connection_probability(const Pair* pair) {
 #ifdef PHLUX_CONNECTIONS
-  return smaller(PHLUX_CONNECTIONS / (to_real(pair->light_index + pair->eye_index) + 1.0f), (Real)(1.0f));
+  const Int sum = pair->light_index + pair->eye_index; // the same for all of them
+  const Int count = min(sum, pair->light.length - 1) - max(sum - pair->eye.length + 1, (Int)(0)) + 1;
+  return smaller(PHLUX_CONNECTIONS / to_real(count), (Real)(1.0f));
 #else
   return (Real)(1.0f);
 #endif
 }
 static inline Mask is_made(const Pair* pair) {
 #ifdef PHLUX_CONNECTIONS
-  const Uint number = int_to_uint(pair->light_index << 16 | pair->eye_index);
+  const Uint number = int_to_uint(pair->light_index << 16 | (pair->eye_index + 1));
   return uniform_real(further_word(pair->word, pair->step, number)) < connection_probability(pair);
 #else
   return ALL_LANES;
@@ -342,29 +344,6 @@ static inline void connect_subpaths(Bidir* b, Batch batch) {
 
 // ---- Batches
 
-// The sums of each job's samples.
-static inline void sum_jobs(const Bidir* b, Batch batch, __global float* sums) {
-  for (int job = 0; job < batch.jobs; ++job) {
-    float4 sum = (float4)(0.0f), sum_of_squares = (float4)(0.0f);
-    float clamped = 0.0f;
-    for (int sample = 0; sample < b->list.block_samples; ++sample) {
-      float4 radiance = vload4((size_t)(job * b->list.block_samples + sample), b->output.radiance);
-#ifdef PHLUX_CLAMP
-      const float scale = PHLUX_CLAMP / fmax(PHLUX_CLAMP, fmax(radiance.x, fmax(radiance.y, radiance.z)));
-      clamped += (1.0f - scale) * (radiance.x + radiance.y + radiance.z);
-      radiance *= scale;
-#endif
-      sum += radiance;
-      sum_of_squares += radiance * radiance;
-    }
-    __global float* mine = sums + (batch.job + job) * SUM_WORDS;
-    vstore3(sum.xyz, 0, mine + SUM_RADIANCE);
-    vstore3(sum_of_squares.xyz, 0, mine + SUM_SQUARES);
-    mine[SUM_NONFINITE] = 0.0f;
-    mine[SUM_CLAMPED] = clamped;
-  }
-}
-
 // A work-item's share of `scratch`, in words: light vertices, eye vertices, then a few words per path.
 static inline void divide_scratch(Bidir* b, __global Scalar* scratch, int rows, int paths) {
   const size_t vertices = (size_t)rows * ROW_WORDS, share = 2 * vertices + SCRATCH_WORDS_PER_PATH * (size_t)paths;
@@ -407,7 +386,7 @@ __kernel void trace_bidir(SCENE_PARAMETERS, int pixel_count, int first_pixel, in
     const int fits = walk_light_subpaths(&b, batch) && walk_eye_subpaths(&b, batch);
     if (fits) connect_subpaths(&b, batch);
     trace_last(&scene, &b.queue, &b.output);
-    sum_jobs(&b, batch, sums);
+    sum_jobs(&b.output, batch.job, batch.jobs, block_samples, sums);
     record_counts[index] = fits ? b.output.count : -1;
   }
   __global uint* mine = counters + get_global_id(0) * 2;

@@ -64,4 +64,29 @@ static inline void add_contribution(Output* output, Contribution c, Mask m) {
   if (any_lane(recorded)) append_record(output, c, recorded);
 }
 
+#ifdef PHLUX_BIDIR
+// The sums of each job's samples, `jobs` from the launch's `first_job` on.
+static inline void sum_jobs(const Output* output, int first_job, int jobs, int block_samples, __global float* sums) {
+  for (int job = 0; job < jobs; ++job) {
+    float4 sum = (float4)(0.0f), sum_of_squares = (float4)(0.0f);
+    float clamped = 0.0f;
+    for (int sample = 0; sample < block_samples; ++sample) {
+      float4 radiance = vload4((size_t)(job * block_samples + sample), output->radiance);
+#ifdef PHLUX_CLAMP
+      const float scale = PHLUX_CLAMP / fmax(PHLUX_CLAMP, fmax(radiance.x, fmax(radiance.y, radiance.z)));
+      clamped += (1.0f - scale) * (radiance.x + radiance.y + radiance.z);
+      radiance *= scale;
+#endif
+      sum += radiance;
+      sum_of_squares += radiance * radiance;
+    }
+    __global float* mine = sums + (first_job + job) * SUM_WORDS;
+    vstore3(sum.xyz, 0, mine + SUM_RADIANCE);
+    vstore3(sum_of_squares.xyz, 0, mine + SUM_SQUARES);
+    mine[SUM_NONFINITE] = 0.0f;
+    mine[SUM_CLAMPED] = clamped;
+  }
+}
+#endif
+
 #endif

@@ -40,7 +40,7 @@ static inline Real node_importance(const Scene* scene, Int node, Vec3 lit, Vec3 
            larger(fabs(center.z) - half_size.z, (Real)(0.0f)));
   const Real inv_least_distance = 1.0f / sqrt(larger(vec_dot(gap, gap), (Real)(LEAST_SQUARE)));
   const Real arriving = largest_cosine(normal, center, half_size, inv_least_distance);
-  // Of the angle from their normals, less that of the cone which holds these.
+  // The cosine of the angle from their normals, which are up to that of the cone's edge nearer than its axis.
   const Vec3 axis = LIGHT_NODE_VEC3(scene, node, axis);
   const Real cos_spread = LIGHT_NODE_REAL(scene, node, cos_spread);
   const Real cos_axis = largest_cosine(axis, vec_scale((Real)(-1.0f), center), half_size, inv_least_distance);
@@ -61,7 +61,7 @@ static inline Real child_probability(Real own, Real other) {
 static inline Int choose_from_tree(const Scene* scene, Vec3 lit, Vec3 normal, Uint word, Uint step, Mask m, Int light) {
   Int child = m ? (Int)(scene->light_nodes[0].child) : ~light;
   Mask descending = m;
-  for (uint level = 1; any_lane(descending); ++level) {
+  for (uint level = 2; any_lane(descending); ++level) {
     const Int first = descending ? child : (Int)(2);
     const Real likely_first =
         child_probability(node_importance(scene, first, lit, normal), node_importance(scene, first + 1, lit, normal));

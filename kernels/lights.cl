@@ -68,7 +68,7 @@ static inline Real probability_for(const Scene* scene, Vec3 lit, Vec3 normal, In
 static inline Int choose_light_for(const Scene* scene, Vec3 lit, Vec3 normal, Uint word, Uint other_word) {
   const Int light = choose_light(scene, word, other_word);
 #ifdef PHLUX_LIGHT_TREE
-  const Mask by_tree = uniform_real(further_word(word, other_word, (Uint)(0u))) >= SHARE_BY_POWER;
+  const Mask by_tree = uniform_real(further_word(word, other_word, (Uint)(1u))) >= SHARE_BY_POWER;
   return choose_from_tree(scene, lit, normal, word, other_word, by_tree & (LIGHT_INT(scene, light, node) >= 0), light);
 #else
   return light;

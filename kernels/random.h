@@ -56,8 +56,8 @@ static inline RandomWords random_words(RandomSequence sequence, Uint dimension, 
   return philox(counter, sequence.seed);
 }
 
-// Further words from two of random_words, one for each number: for many choices of small weight each. The finishing
-// steps of MurmurHash3 over a Weyl sequence.
+// Further words from two of random_words, one for each number above 0: for many choices of small weight each. The
+// finishing steps of MurmurHash3 over a Weyl sequence.
 static inline Uint further_word(Uint first, Uint step, Uint number) {
   Uint h = first + (step | 1u) * number;
   h = (h ^ (h >> 16)) * 0x85ebca6bu;

@@ -71,7 +71,7 @@ struct Tree::Builder {
 
 Tree::Tree(std::vector<RTCBuildPrimitive> primitives, const Shape& shape)
     : builder_(std::make_unique<Builder>()) {
-  if (!builder_->device) throw SceneError("Embree cannot start to build the hierarchy");
+  if (!builder_->device) throw SceneError("Embree cannot start to build a hierarchy");
   builder_->bvh.reset(rtcNewBVH(builder_->device.get()));
   builder_->leaf_primitives.resize(primitives.size());
   RTCBuildArguments arguments = rtcDefaultBuildArguments();
@@ -90,7 +90,8 @@ Tree::Tree(std::vector<RTCBuildPrimitive> primitives, const Shape& shape)
   arguments.createLeaf = Builder::create_leaf;
   arguments.userPtr = builder_.get();
   root_ = static_cast<const Node*>(rtcBuildBVH(&arguments));
-  if (root_ == nullptr) throw SceneError("Embree could not build the hierarchy: too little memory");
+  if (root_ == nullptr)
+    throw SceneError("Embree could not build a hierarchy: too little memory, or too deep");
 }
 
 Tree::~Tree() = default;

@@ -48,7 +48,7 @@ void add_method(CLI::App& app, RenderOptions& options) {
             "that it is likely to bring to the point; default: contribution",
             [&](const std::string& text) {
               options.light_selection = static_cast<render::LightSelection>(
-                  choice("--light-selection", text, {"power", "contribution"}));
+                  choice("--light-selection", text, render::light_selection_names()));
             });
   add_value(
       app, "--connections", "N",

@@ -34,15 +34,20 @@ render::Settings settings_of(const RenderOptions& options, const scene::RenderDe
   if (options.weights && settings.integrator != "bidir")
     throw UsageError("--weights is for bidir alone: " + settings.integrator +
                      " makes each path in one way: leave it out or use -i bidir");
-  if (options.light_selection && settings.integrator == "light")
-    throw UsageError("--light-selection is for light samples, which -i light does not make: leave it out or "
-                     "use -i path or bidir");
   settings.connect = options.connect.value_or(settings.connect);
   settings.weights = options.weights.value_or(settings.weights);
+  if (options.connections && !options.contributions.empty())
+    throw UsageError("--connections: --contributions shows every connection: leave out one of the two");
   if (options.connections && settings.integrator != "bidir")
     throw UsageError("--connections is for bidir alone: " + settings.integrator +
                      " connects no vertices: leave it out or use -i bidir");
   settings.connections = options.connections.value_or(settings.connections);
+  const bool samples_lights = settings.integrator == "bidir" ||
+                              (settings.integrator == "path" && settings.connect != render::Connect::none);
+  if (options.light_selection && !samples_lights)
+    throw UsageError(
+        "--light-selection is for light samples, which neither -i light nor --connect none makes: "
+        "leave it out");
   settings.light_selection = options.light_selection.value_or(settings.light_selection);
   settings.techniques = !options.contributions.empty();
   settings.ambient = options.ambient;

@@ -24,12 +24,16 @@ std::string own_options(const Settings& s) {
   std::string text = "-i " + s.integrator;
   if (s.integrator == "path") text += " --connect " + connect_names()[static_cast<std::size_t>(s.connect)];
   if (s.integrator == "bidir") text += " --weights " + weights_names()[static_cast<std::size_t>(s.weights)];
+  if (s.light_selection != Settings().light_selection)
+    text += " --light-selection " + light_selection_names()[static_cast<std::size_t>(s.light_selection)];
+  if (s.connections != Settings().connections) text += fmt::format(" --connections {}", s.connections);
   return text;
 }
 
 bool is_default(const Settings& settings, const Method& method) {
   return settings.integrator == method.integrator && settings.connect == Settings().connect &&
-         settings.weights == Settings().weights;
+         settings.weights == Settings().weights && settings.light_selection == Settings().light_selection &&
+         settings.connections == Settings().connections;
 }
 
 Trial try_method(const scene::Scene& scene, const Settings& settings, const std::string& options) try {
@@ -81,6 +85,8 @@ Advice advise(scene::Scene scene, const Settings& settings, double seconds) {
   advice.trials.push_back(try_method(scene, trial, own_options(settings)));
   trial.connect = Settings().connect;
   trial.weights = Settings().weights;
+  trial.light_selection = Settings().light_selection;
+  trial.connections = Settings().connections;
   trial.ambient.reset();
   for (const Method& method : methods) {
     if (is_default(settings, method)) continue;

@@ -72,7 +72,8 @@ cl::Buffer upload(const device::Device& device, const std::vector<T>& table, con
 
 } // namespace
 
-HostScene prepare(const scene::Scene& scene, Traversal traversal, int lanes, bool double_precision) {
+HostScene prepare(const scene::Scene& scene, Traversal traversal, int lanes, bool double_precision,
+                  bool tree_of_lights) {
   const std::uint64_t primitives = accel::count_primitives(scene);
   if (primitives == 0) throw SceneError("the scene has no shapes: add at least one that the camera can see");
   const bool brute = traversal == Traversal::brute_force ||
@@ -83,7 +84,7 @@ HostScene prepare(const scene::Scene& scene, Traversal traversal, int lanes, boo
   if (host.geometry.primitive_count == 0)
     throw SceneError(
         "no shape of the scene has an area that single precision can tell from 0: scale them up");
-  host.lights = light_table(scene, host.geometry);
+  host.lights = light_table(scene, host.geometry, tree_of_lights);
   host.materials = material_table(scene.materials);
   host.camera = camera_record(scene.camera, host.geometry.origin);
   return host;

@@ -19,7 +19,7 @@ struct HostScene {
 
 /// @throws SceneError when the scene has no shape with an area
 [[nodiscard]] HostScene prepare(const scene::Scene& scene, Traversal traversal, int lanes,
-                                bool double_precision = false);
+                                bool double_precision = false, bool tree_of_lights = true);
 
 class DeviceScene {
 public:

@@ -196,18 +196,18 @@ bool LightTable::shines() const {
   return std::any_of(records.begin(), records.end(), [](const LightRecord& r) { return r.probability > 0; });
 }
 
-LightTable light_table(const scene::Scene& scene, accel::Geometry& geometry) {
+LightTable light_table(const scene::Scene& scene, accel::Geometry& geometry, bool with_tree) {
   Collector collector;
   add_surfaces(collector, scene, geometry);
   add_points(collector, scene, geometry.origin);
   add_distant(collector, scene, geometry.radius);
   const std::vector<double> chances = probabilities(collector);
   if (!chances.empty()) make_alias_table(collector.table.records, chances);
-  collector.table.nodes = light_tree(collector.placed, collector.table.records);
+  if (with_tree) collector.table.nodes = light_tree(collector.placed, collector.table.records);
   for (const PlacedLight& light : collector.placed)
     collector.table.tree_probability += chances[static_cast<std::size_t>(light.light)];
   use_unit(collector.table, unit_of(collector.table.records, geometry.radius));
-  return collector.table;
+  return std::move(collector.table);
 }
 
 } // namespace phlux::render

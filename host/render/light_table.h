@@ -11,7 +11,7 @@ namespace phlux::render {
 
 struct LightTable {
   std::vector<LightRecord> records;
-  std::vector<LightNodeRecord> nodes; ///< the tree of the lights that have a place; empty: it would have one
+  std::vector<LightNodeRecord> nodes; ///< the tree of the lights that have a place; empty for fewer than two
   double tree_probability = 0.0;      ///< of choosing one of those lights
   int constant = -1;                  ///< index of the constant light
   double unit = 1.0;                  ///< the radiance that stands as 1 in the records, a power of two
@@ -24,6 +24,7 @@ struct LightTable {
 /// have a place by what they bring to a point. Sets the `light` of the geometry's
 /// primitives. Lights without power are never chosen. Where lights are so bright or so dim that squares of
 /// their radiance would not fit float, the records' `power` is in a unit near it; else the unit is 1.
-[[nodiscard]] LightTable light_table(const scene::Scene& scene, accel::Geometry& geometry);
+[[nodiscard]] LightTable light_table(const scene::Scene& scene, accel::Geometry& geometry,
+                                     bool with_tree = true);
 
 } // namespace phlux::render

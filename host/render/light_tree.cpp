@@ -15,14 +15,20 @@ namespace {
 using scene::Vec3;
 constexpr double pi = std::numbers::pi;
 
-// Deep enough for whatever the builder makes of lights that differ in distance by any factor of double's.
+// From 8 levels above it the builder halves, which takes many more lights than a scene has left by then.
 constexpr unsigned max_depth = 64;
 
+// A little larger than the lights: the builder splits by the boxes' areas, and those of lights without extent
+// in a row or at one place are all 0, which makes it split off one light at a time.
 std::vector<RTCBuildPrimitive> boxes_of(std::span<const PlacedLight> lights) {
+  Vec3 low(lights.front().low), high(lights.front().high);
+  for (const PlacedLight& light : lights) low = glm::min(low, light.low), high = glm::max(high, light.high);
+  const Vec3 extent = high - low;
+  const double padding = 1e-3 * std::max({extent.x, extent.y, extent.z});
   std::vector<RTCBuildPrimitive> boxes(lights.size());
   for (std::size_t i = 0; i < lights.size(); ++i) {
-    const glm::vec3 low(lights[i].low), high(lights[i].high);
-    boxes[i] = {low.x, low.y, low.z, 0, high.x, high.y, high.z, static_cast<unsigned>(i)};
+    const glm::vec3 from(lights[i].low - padding), to(lights[i].high + padding);
+    boxes[i] = {from.x, from.y, from.z, 0, to.x, to.y, to.z, static_cast<unsigned>(i)};
   }
   return boxes;
 }

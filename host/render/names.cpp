@@ -12,6 +12,11 @@ const std::vector<std::string>& weights_names() {
   return names;
 }
 
+const std::vector<std::string>& light_selection_names() {
+  static const std::vector<std::string> names = {"power", "contribution"};
+  return names;
+}
+
 const std::vector<std::string>& traversal_names() {
   static const std::vector<std::string> names = {"auto", "brute", "bvh"};
   return names;

@@ -138,6 +138,12 @@ int lanes_for(const device::DeviceInfo& device, const Settings& settings) {
   return 1;
 }
 
+bool wants_light_tree(const Settings& settings) {
+  const bool samples =
+      settings.integrator == "bidir" || (settings.integrator == "path" && settings.connect != Connect::none);
+  return samples && settings.light_selection == LightSelection::contribution;
+}
+
 Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, const LightTable& lights,
                  const Settings& settings, int lanes) {
   Parts parts;
@@ -191,8 +197,7 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
   parts.light_constant = lights.has(LIGHT_CONSTANT);
   const bool chooses = parts.connect != Connect::none || parts.integrator == Integrator::light;
   parts.light_choice = lights.records.size() > 1 && chooses;
-  parts.light_tree = parts.connect != Connect::none && !lights.nodes.empty() &&
-                     settings.light_selection == LightSelection::contribution;
+  parts.light_tree = wants_light_tree(settings) && parts.connect != Connect::none && !lights.nodes.empty();
   parts.one_light = lights.records.size() == 1;
   parts.few_lights = lights.records.size() <= few_entries;
   parts.few_materials = scene.materials.size() <= few_entries;

@@ -158,7 +158,8 @@ public:
     const int lanes = lanes_for(device.info, settings_);
     const Clock::time_point begin = Clock::now();
     if (!host_ || lanes_ != lanes)
-      host_ = prepare(scene_, settings_.traversal, lanes_ = lanes, settings_.double_precision);
+      host_ = prepare(scene_, settings_.traversal, lanes_ = lanes, settings_.double_precision,
+                      wants_light_tree(settings_));
     Worker worker;
     worker.parts = find_parts(scene_, host_->geometry, host_->lights, settings_, lanes);
     if (!worker.parts.phong_lobe) warn_of_plain_strategy();

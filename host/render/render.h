@@ -46,6 +46,7 @@ struct Settings {
 /// Names of the values of these types, in their order, as options take them.
 [[nodiscard]] const std::vector<std::string>& connect_names();
 [[nodiscard]] const std::vector<std::string>& weights_names();
+[[nodiscard]] const std::vector<std::string>& light_selection_names();
 [[nodiscard]] const std::vector<std::string>& traversal_names();
 
 struct Progress {

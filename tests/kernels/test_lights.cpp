@@ -232,10 +232,6 @@ Choices choices_at_random(const SceneProgram& program, std::size_t count, double
   return choices_at(program, points, normals);
 }
 
-} // namespace
-
-namespace {
-
 // The part of a probability that is the tree's: a quarter of the choices is by power.
 double by_tree(const SceneProgram& program, const Choices& choices, std::size_t light, std::size_t point) {
   return (choices.of_light[light][point] - 0.25 * program.host().lights.records[light].probability) / 0.75;

@@ -113,6 +113,23 @@ TEST_CASE("a diffuse scene lit by hits alone has neither lobe nor light samples"
   CHECK(holds(program, "trace_paths"));
 }
 
+TEST_CASE("where all connections are made there is no roulette for them") {
+  const scene::Scene scene = shipped("cornell-box", 4, 4);
+  render::Settings with;
+  with.integrator = "bidir";
+  const render::HostScene host = render::prepare(scene, with.traversal, 8);
+  const auto program = [&] {
+    const render::Parts parts = render::find_parts(scene, host.geometry, host.lights, with, 8);
+    return device::significant(device::expand(device::KernelFiles(), {"bidir.cl", parts.defines(), {}}));
+  };
+  CHECK(holds(program(), "further_word(pair"));
+  with.techniques = true;
+  CHECK_FALSE(holds(program(), "further_word(pair"));
+  with.techniques = false;
+  with.connections = 0;
+  CHECK_FALSE(holds(program(), "further_word(pair"));
+}
+
 TEST_CASE("a feature that nobody uses leaves the programs of other scenes as they were") {
   const TemporaryFolder folder;
   std::filesystem::copy(PHLUX_SOURCE_DIR "/kernels", folder.path(), std::filesystem::copy_options::recursive);

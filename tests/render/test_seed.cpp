@@ -1,4 +1,5 @@
 // The same seed gives the same image bit for bit; another seed another one.
+#include <algorithm>
 #include <cstdlib>
 #include <ranges>
 
@@ -39,6 +40,42 @@ TEST_CASE("the same seed gives the same bits, whatever the length of launches") 
   CHECK(same_bits(cornell_box(7, 0.002).film, first.film));
   CHECK(same_bits(cornell_box(7, 0.2).film, first.film));
   for (const film::Pixel& pixel : first.film.pixels()) CHECK(pixel.samples == 100);
+}
+
+namespace {
+
+// A lamp of many triangles, which Embree's threads put into a tree together.
+Render under_many_lights(double launch_seconds) {
+  scene::Scene scene;
+  scene.materials = {diffuse(scene::Rgb(0.5)), diffuse(scene::Rgb(0.0))};
+  scene.patches = {square({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 2, {0, -1}),
+                   square({0, 2, 1}, {1, 0, 0}, {0, 0, -1}, 2, {0, -1})};
+  scene.area_emitters = {{scene::Rgb(3, 2, 1)}};
+  constexpr int side = 64;
+  scene::Mesh lamp;
+  for (int i = 0; i < side * side; ++i) {
+    const scene::Vec3 corner(i % side / 16.0 - 2, i / side / 16.0 - 2, 2);
+    const auto first = static_cast<std::uint32_t>(lamp.positions.size());
+    for (const scene::Vec3& edge : {scene::Vec3(0), scene::Vec3(0, 0.03, 0), scene::Vec3(0.03, 0, 0)})
+      lamp.positions.push_back(corner + edge);
+    lamp.triangles.push_back({first, first + 1, first + 2});
+  }
+  lamp.surface = {1, 0};
+  scene.meshes.push_back(lamp);
+  scene.camera = look_at({0, -2, 1}, {0, 0, 0.3}, 50, 17, 11);
+  render::Settings with = settings(40);
+  with.integrator = "bidir";
+  with.launch_seconds = launch_seconds;
+  return render_of(scene, with);
+}
+
+} // namespace
+
+TEST_CASE("the same seed gives the same bits from a tree of lights and with roulette of connections") {
+  const Render first = under_many_lights(0.002);
+  CHECK(std::ranges::count(first.statistics.parts, "light_tree") == 1);
+  CHECK(same_bits(under_many_lights(0.002).film, first.film));
+  CHECK(same_bits(under_many_lights(0.2).film, first.film));
 }
 
 TEST_CASE("seeds differ in all of their 64 bits") {
