@@ -44,7 +44,7 @@ std::vector<Cell> cells(bool quick) {
 
 std::vector<int> light_counts(bool quick) {
   if (quick) return {16, 1024};
-  return {4, 64, 1024, 16384, 262144};
+  return {8, 64, 1024, 16384, 262144};
 }
 
 const Method path_light{"path", "exact", "light"}, path_mis{"path", "exact", "mis"},

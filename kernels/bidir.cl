@@ -231,13 +231,12 @@ typedef struct {
   Uint word, step; // whose further words decide on roulette
 } Pair;
 
-// Long paths can be made by many connections, each of which is expected to bring its share: where the subpaths have
-// more than PHLUX_CONNECTIONS that make paths of one length, so many are made on average.
+// A path of e edges can be made by e - 2 connections, each of which is expected to bring its share, and the less the
+// longer the path is: of more than PHLUX_CONNECTIONS of them one is made with probability PHLUX_CONNECTIONS / (e - 2).
 static inline Real connection_probability(const Pair* pair) {
 #ifdef PHLUX_CONNECTIONS
-  const Int sum = pair->light_index + pair->eye_index; // the same for all of them
-  const Int count = min(sum, pair->light.length - 1) - max(sum - pair->eye.length + 1, (Int)(0)) + 1;
-  return smaller(PHLUX_CONNECTIONS / to_real(count), (Real)(1.0f));
+  const Int most = pair->light_index + pair->eye_index + 1; // e - 2
+  return smaller(PHLUX_CONNECTIONS / to_real(most), (Real)(1.0f));
 #else
   return (Real)(1.0f);
 #endif

@@ -45,16 +45,17 @@ void add_method(CLI::App& app, RenderOptions& options) {
             });
   add_value(app, "--light-selection", "NAME",
             "path and bidir, which of many lights a light sample goes to: by power, or by the contribution "
-            "that it is likely to bring to the point; default: contribution",
+            "that it is likely to bring to the point, of 8 lights and more; default: contribution",
             [&](const std::string& text) {
               options.light_selection = static_cast<render::LightSelection>(
                   choice("--light-selection", text, render::light_selection_names()));
             });
   add_value(
       app, "--connections", "N",
-      fmt::format("bidir only: where there are more than N connections that make paths of one length, N are "
-                  "made on average, and bring as much as all; 0: all are made; default: {}",
-                  render::Settings().connections),
+      fmt::format(
+          "bidir only: of the connections that can make a path, one for each edge but two, N are made on "
+          "average, and bring as much as all; 0: all are made; default: {}",
+          render::Settings().connections),
       [&](const std::string& text) {
         constexpr std::uint64_t most = 1'000'000;
         options.connections = static_cast<int>(whole_number("--connections", text, 0, most));

@@ -138,6 +138,9 @@ int lanes_for(const device::DeviceInfo& device, const Settings& settings) {
   return 1;
 }
 
+// Of fewer, the walk down a tree and up again costs more than it brings (bench/saved/REMEDIES.md).
+constexpr std::size_t fewest_lights_of_tree = 8;
+
 bool wants_light_tree(const Settings& settings) {
   const bool samples =
       settings.integrator == "bidir" || (settings.integrator == "path" && settings.connect != Connect::none);
@@ -197,7 +200,8 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
   parts.light_constant = lights.has(LIGHT_CONSTANT);
   const bool chooses = parts.connect != Connect::none || parts.integrator == Integrator::light;
   parts.light_choice = lights.records.size() > 1 && chooses;
-  parts.light_tree = wants_light_tree(settings) && parts.connect != Connect::none && !lights.nodes.empty();
+  parts.light_tree = wants_light_tree(settings) && parts.connect != Connect::none &&
+                     lights.nodes.size() >= 2 * fewest_lights_of_tree;
   parts.one_light = lights.records.size() == 1;
   parts.few_lights = lights.records.size() <= few_entries;
   parts.few_materials = scene.materials.size() <= few_entries;

@@ -24,7 +24,7 @@ struct Settings {
   Connect connect = Connect::mis;                                ///< path
   Weights weights = Weights::balance;                            ///< bidir
   LightSelection light_selection = LightSelection::contribution; ///< path, bidir
-  int connections = 2;     ///< bidir: made on average for each length of a path, where there are more; 0: all
+  int connections = 2;     ///< bidir: a path of e edges is made by so many of its e - 2; 0: by all
   bool techniques = false; ///< light, bidir: the film keeps what each technique brings by itself as well
   std::optional<double> ambient;      ///< path: radiance of a control variate (CW 197, 2.2, reference 15)
   std::optional<double> clamp;        ///< most radiance that a path brings to a pixel: a bias

@@ -20,8 +20,8 @@ public:
   SceneProgram(Variant variant, const std::string& file, const phlux::scene::Scene& scene,
                const phlux::render::Settings& settings)
       : host_(phlux::render::prepare(scene, settings.traversal, variant.width)),
-        parts_(phlux::render::find_parts(scene, host_.geometry, host_.lights, settings, variant.width)),
-        device_(test_device(), host_, parts_), program_(&program_of(file, variant, parts_.defines())) {}
+        parts_(parts_of(scene, host_, settings, variant.width)), device_(test_device(), host_, parts_),
+        program_(&program_of(file, variant, parts_.defines())) {}
 
   template<typename... Arguments>
   void run(const char* name, std::size_t count, const Arguments&... arguments) const {
@@ -33,6 +33,16 @@ public:
   [[nodiscard]] const phlux::render::HostScene& host() const { return host_; }
 
 private:
+  // A tree of lights also for fewer than the renderer makes one for.
+  static phlux::render::Parts parts_of(const phlux::scene::Scene& scene, const phlux::render::HostScene& host,
+                                       const phlux::render::Settings& settings, int lanes) {
+    phlux::render::Parts parts =
+        phlux::render::find_parts(scene, host.geometry, host.lights, settings, lanes);
+    parts.light_tree = phlux::render::wants_light_tree(settings) && !host.lights.nodes.empty() &&
+                       parts.connect != phlux::render::Connect::none;
+    return parts;
+  }
+
   static phlux::render::Settings settings_of(const std::string& strategy,
                                              phlux::render::Traversal traversal) {
     phlux::render::Settings settings;
