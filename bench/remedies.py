@@ -13,6 +13,7 @@ TITLES = {
     "connections": "Roulette of the connections of long paths (before: all are made)",
     "exact-lobe": "Sampling and weighting by the exact lobe (before: lobe-ks)",
 }
+NEAR_TICKS = (0.5, 0.6, 0.7, 0.8, 0.9, 1, 1.1, 1.2, 1.4)
 TICKS = (0.5, 0.7, 1, 1.5, 2, 3, 5, 10, 20, 50, 100, 1000, 10000, 100000)
 
 
@@ -35,8 +36,9 @@ def draw(rows, theme):
                           marker=style.MARKERS[i], ls="none", lw=0.8, label=method_of(row))
         axes.axvline(1, color=theme.ink, lw=0.8)
         axes.set_xscale("log")
-        low, high = axes.get_xlim()
-        ticks = [tick for tick in TICKS if low <= tick <= high]
+        low, high = min(0.8, axes.get_xlim()[0]), max(1.25, axes.get_xlim()[1])
+        axes.set_xlim(low, high)
+        ticks = [tick for tick in (TICKS if high > 3 * low else NEAR_TICKS) if low <= tick <= high]
         axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
         axes.set_xticks([], minor=True)
         axes.set_yticks(range(len(places[remedy])), places[remedy])
