@@ -16,7 +16,6 @@
 #include "frames.h"
 #include "random.h"
 #include "random_directions.h"
-#include "vectors.h"
 
 #define STRATEGY_UNIFORM 1
 #define STRATEGY_THETA_PHI 2

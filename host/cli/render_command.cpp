@@ -19,6 +19,7 @@
 #include "files/json.h"
 #include "files/output.h"
 #include "files/png.h"
+#include "render/parts.h"
 #include "scene_file/load.h"
 
 namespace phlux::cli {
@@ -42,9 +43,7 @@ render::Settings settings_of(const RenderOptions& options, const scene::RenderDe
     throw UsageError("--connections is for bidir alone: " + settings.integrator +
                      " connects no vertices: leave it out or use -i bidir");
   settings.connections = options.connections.value_or(settings.connections);
-  const bool samples_lights = settings.integrator == "bidir" ||
-                              (settings.integrator == "path" && settings.connect != render::Connect::none);
-  if (options.light_selection && !samples_lights)
+  if (options.light_selection && !render::samples_lights(settings))
     throw UsageError(
         "--light-selection is for light samples, which neither -i light nor --connect none makes: "
         "leave it out");

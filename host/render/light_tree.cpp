@@ -20,10 +20,8 @@ constexpr unsigned max_depth = 64;
 
 // A little larger than the lights: the builder splits by the boxes' areas, and those of lights without extent
 // in a row or at one place are all 0, which makes it split off one light at a time.
-std::vector<RTCBuildPrimitive> boxes_of(std::span<const PlacedLight> lights) {
-  Vec3 low(lights.front().low), high(lights.front().high);
-  for (const PlacedLight& light : lights) low = glm::min(low, light.low), high = glm::max(high, light.high);
-  const Vec3 extent = high - low;
+std::vector<RTCBuildPrimitive> boxes_of(std::span<const PlacedLight> lights, const PlacedLight& all) {
+  const Vec3 extent = all.high - all.low;
   const double padding = 1e-3 * std::max({extent.x, extent.y, extent.z});
   std::vector<RTCBuildPrimitive> boxes(lights.size());
   for (std::size_t i = 0; i < lights.size(); ++i) {
@@ -61,12 +59,11 @@ PlacedLight bounds_of(std::span<const PlacedLight> lights) {
 // Depth first, so that the records do not depend on the order in which threads built the tree.
 class Layout {
 public:
-  Layout(std::span<const PlacedLight> lights, std::vector<LightRecord>& records)
-      : lights_(lights), records_(records) {
+  Layout(std::span<const PlacedLight> lights, double intensity, std::vector<LightRecord>& records)
+      : lights_(lights), records_(records), total_(intensity) {
     in_order_.reserve(lights.size());
     nodes_.reserve(2 * lights.size());
     nodes_.resize(2);
-    for (const PlacedLight& light : lights) total_ += light.intensity;
   }
 
   void write(const accel::Tree::Node& node, std::size_t index) {
@@ -105,7 +102,7 @@ private:
   std::vector<LightRecord>& records_;
   std::vector<PlacedLight> in_order_;
   std::vector<LightNodeRecord> nodes_;
-  double total_ = 0;
+  double total_; // intensity
 };
 
 } // namespace
@@ -113,9 +110,10 @@ private:
 std::vector<LightNodeRecord> light_tree(std::span<const PlacedLight> lights,
                                         std::vector<LightRecord>& records) {
   if (lights.size() < 2) return {};
-  const accel::Tree tree(boxes_of(lights),
+  const PlacedLight all = bounds_of(lights);
+  const accel::Tree tree(boxes_of(lights, all),
                          {.branching = 2, .leaf_size = 1, .block = 1, .max_depth = max_depth});
-  Layout layout(lights, records);
+  Layout layout(lights, all.intensity, records);
   layout.write(tree.root(), 0);
   return layout.take();
 }

@@ -141,10 +141,13 @@ int lanes_for(const device::DeviceInfo& device, const Settings& settings) {
 // Of fewer, the walk down a tree and up again costs more than it brings (bench/saved/REMEDIES.md).
 constexpr std::size_t fewest_lights_of_tree = 8;
 
+bool samples_lights(const Settings& settings) {
+  return settings.integrator == "bidir" ||
+         (settings.integrator == "path" && settings.connect != Connect::none);
+}
+
 bool wants_light_tree(const Settings& settings) {
-  const bool samples =
-      settings.integrator == "bidir" || (settings.integrator == "path" && settings.connect != Connect::none);
-  return samples && settings.light_selection == LightSelection::contribution;
+  return samples_lights(settings) && settings.light_selection == LightSelection::contribution;
 }
 
 Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, const LightTable& lights,

@@ -53,7 +53,9 @@ struct Parts {
 /// where the device has none
 [[nodiscard]] int lanes_for(const device::DeviceInfo& device, const Settings& settings);
 
-/// Whether its light samples choose by contribution.
+/// Whether paths from the eye sample lights, if there are any.
+[[nodiscard]] bool samples_lights(const Settings& settings);
+/// Whether those samples choose by contribution.
 [[nodiscard]] bool wants_light_tree(const Settings& settings);
 
 /// @throws UsageError for an integrator that there is not, and for a strategy, a --connect or an --ambient

@@ -18,10 +18,15 @@ std::string name_of(const Method& method) {
                                                     : "bidir, uniform";
 }
 
+render::Settings by(const Method& method, render::Settings settings) {
+  settings.integrator = method.integrator;
+  settings.weights = method.weights;
+  settings.connect = method.connect;
+  return settings;
+}
+
 Repeated repeated(const scene::Scene& scene, const Method& method, render::Settings with, int renders) {
-  with.integrator = method.integrator;
-  with.weights = method.weights;
-  with.connect = method.connect;
+  with = by(method, with);
   const std::uint64_t first_seed = with.seed;
   std::vector<Channels> means;
   Repeated result;

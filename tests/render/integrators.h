@@ -23,6 +23,9 @@ inline const Method path{"path"}, light{"light"}, bidir{"bidir"},
     path_hits{"path", render::Weights::balance, render::Connect::none},
     path_light_samples{"path", render::Weights::balance, render::Connect::light};
 
+/// The same settings for that method.
+[[nodiscard]] render::Settings by(const Method& method, render::Settings settings);
+
 /// Means of independent renders. One path may reach several pixels, so that pixels are not independent: the
 /// variance of the image's mean is therefore measured between the renders.
 struct Repeated {

@@ -16,10 +16,7 @@ namespace {
 const Rgb kd(0.3, 0.1, 0.0), ks(0.6, 0.2, 0.9), sky(1.0, 0.5, 2.0);
 
 render::Settings with(const Method& method, int samples, int max_depth = -1) {
-  render::Settings result = settings(samples, max_depth);
-  result.integrator = method.integrator;
-  result.weights = method.weights;
-  return result;
+  return by(method, settings(samples, max_depth));
 }
 
 scene::Scene sphere_furnace(const scene::Material& material) {

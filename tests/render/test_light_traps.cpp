@@ -20,10 +20,7 @@ constexpr double pi = std::numbers::pi;
 const std::vector<Method> splatting = {light, bidir, bidir_power, bidir_uniform};
 
 render::Settings with(const Method& method, int samples, int max_depth = -1) {
-  render::Settings result = settings(samples, max_depth);
-  result.integrator = method.integrator;
-  result.weights = method.weights;
-  return result;
+  return by(method, settings(samples, max_depth));
 }
 
 Estimate image_of(const scene::Scene& scene, const render::Settings& settings) {

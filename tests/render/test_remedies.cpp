@@ -14,10 +14,7 @@ using scene::Vec3;
 namespace {
 
 render::Settings with(const Method& method, int samples, std::uint64_t seed) {
-  render::Settings result = settings(samples);
-  result.integrator = method.integrator;
-  result.connect = method.connect;
-  result.weights = method.weights;
+  render::Settings result = by(method, settings(samples));
   result.seed = seed;
   return result;
 }

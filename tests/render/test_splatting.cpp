@@ -18,9 +18,7 @@ namespace {
 const std::vector<Method> both = {light, bidir};
 
 render::Settings with(const Method& method, int samples, std::uint64_t seed = 0) {
-  render::Settings result = settings(samples);
-  result.integrator = method.integrator;
-  result.weights = method.weights;
+  render::Settings result = by(method, settings(samples));
   result.seed = seed;
   return result;
 }

@@ -31,10 +31,7 @@ scene::Scene stability(const std::string& name, Definitions definitions = {}) {
 }
 
 render::Settings with(const Method& method, int samples, std::uint64_t seed) {
-  render::Settings result = settings(samples);
-  result.integrator = method.integrator;
-  result.weights = method.weights;
-  result.connect = method.connect;
+  render::Settings result = by(method, settings(samples));
   result.seed = seed;
   return result;
 }
