@@ -3,13 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include "random/random_numbers.h"
 #include "random/random_scene.h"
+#include "random/surfaces.h"
 #include "render/device_scene.h"
 
 namespace phlux::test {
@@ -19,11 +23,13 @@ using render::Connect;
 using render::Settings;
 using render::Traversal;
 using render::Weights;
+using scene::Vec3;
 
-// A direction that is chosen without the lobe finds it in one of (n + 2) / 2 samples or fewer.
 constexpr double sharp = 100, sharp_for_eye = 50;
-constexpr double narrow_view = 0.01; // light paths that end in it are few, and in its darkest part fewer
-constexpr double small_light = 1e-3; // in SceneFacts' unit
+constexpr int longest_path = 9;       // edges: what is longer carries little
+constexpr double narrow_view = 0.002; // light paths that end in it are few
+constexpr double small_light = 1e-3;  // in SceneFacts' unit
+constexpr double small_spot = 0.02;
 
 struct Kind {
   const char* integrator;
@@ -93,13 +99,87 @@ std::vector<std::string> unbiased_strategies() {
   return names;
 }
 
+Vec3 vector_of(const float (&v)[3]) {
+  return {v[0], v[1], v[2]};
+}
+
+// Light paths end anywhere on the surfaces, which are about a sphere of the scene's radius; a film of solid
+// angle w sees w d^2 / cosine of it at the distance d.
+double narrowest_view(const Surfaces& surfaces, const CameraRecord& camera, double radius) {
+  double narrowest = 1;
+  for (int y = 0; y < camera.height; ++y)
+    for (int x = 0; x < camera.width; ++x) {
+      const double across = 1 - 2 * ((x + 0.5) / camera.width + static_cast<double>(camera.principal_x));
+      const double along = 1 - 2 * ((y + 0.5) / camera.height + static_cast<double>(camera.principal_y));
+      const Vec3 way =
+          vector_of(camera.forward) + across * vector_of(camera.left) + along * vector_of(camera.up);
+      const double film = static_cast<double>(camera.film_area) / std::pow(glm::length(way), 3);
+      const auto hit = surfaces.first_hit(vector_of(camera.position), glm::normalize(way));
+      const double nearness =
+          hit ? std::min(1.0, hit->distance * hit->distance / (radius * radius * hit->cosine)) : 1;
+      narrowest = std::min(narrowest, film * nearness / (4 * std::numbers::pi));
+    }
+  return narrowest;
+}
+
+// Where a light's rays begin that go a way, if it sends any there.
+std::optional<Vec3> source(const Surfaces& surfaces, const LightRecord& light, const Vec3& way) {
+  constexpr double off = 1e-6; // of what would count as near
+  switch (light.kind) {
+  case LIGHT_POINT:
+    return vector_of(light.position);
+  case LIGHT_SPOT:
+    if (glm::dot(way, vector_of(light.direction)) < std::cos(static_cast<double>(light.cutoff))) return {};
+    return vector_of(light.position);
+  case LIGHT_PLANAR: {
+    const Surfaces::Place place = surfaces.middle(light.primitive);
+    if (glm::dot(way, place.normal) <= 0) return {};
+    return place.position + off * std::sqrt(static_cast<double>(light.area)) * place.normal;
+  }
+  case LIGHT_SPHERE:
+    return surfaces.middle(light.primitive).position +
+           (1 + off) * std::sqrt(static_cast<double>(light.area) / (4 * std::numbers::pi)) * way;
+  default:
+    return {};
+  }
+}
+
+// About the size of the place on the nearest surface that a light shines at, as far as its rays in evenly
+// spread directions (Fibonacci's) tell.
+double smallest_spot(const Surfaces& surfaces, const LightRecord& light) {
+  constexpr int directions = 1000;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < directions; ++i) {
+    const double z = 1 - (2 * i + 1.0) / directions, angle = 2 * std::numbers::pi * i * std::numbers::phi;
+    const double across = std::sqrt(1 - z * z);
+    const Vec3 way(across * std::cos(angle), across * std::sin(angle), z);
+    const std::optional<Vec3> from = source(surfaces, light, way);
+    if (!from) continue;
+    if (const auto hit = surfaces.first_hit(*from, way)) nearest = std::min(nearest, hit->distance);
+  }
+  const bool surface = light.kind == LIGHT_PLANAR || light.kind == LIGHT_SPHERE;
+  return surface ? std::hypot(nearest, std::sqrt(static_cast<double>(light.area))) : nearest;
+}
+
+// Whether lobes are too sharp for directions that are chosen without them, so many times in a path: the
+// second moment of f cos / density, in units of its square, is (n + 2)^2 / (4 (n + 1)) each time where the
+// density is that of the cosine.
+bool too_sharp(double exponent, int times, double most) {
+  const auto moment = [](double n) { return (n + 2) * (n + 2) / (4 * (n + 1)); };
+  return std::pow(moment(exponent), times) > 1.0001 * moment(most);
+}
+
+bool sampled_by_shape(const std::string& strategy) {
+  return !std::set<std::string>{"uniform", "theta-phi", "cosine", "disk"}.contains(strategy);
+}
+
 } // namespace
 
 SceneFacts facts_of(const scene::Scene& scene) {
   SceneFacts facts;
   facts.lights_without_area =
       !scene.point_lights.empty() || !scene.spot_lights.empty() || !scene.directional_lights.empty();
-  const render::HostScene host = render::prepare(scene, Traversal::brute_force, 1);
+  const render::HostScene host = render::prepare(scene, Traversal::brute_force, 1, true);
   for (const PrimitiveRecord& p : host.geometry.primitives) {
     if (p.region == REGION_NONE) continue;
     const scene::Material& m = scene.materials[static_cast<std::size_t>(p.material)];
@@ -108,13 +188,16 @@ SceneFacts facts_of(const scene::Scene& scene) {
       facts.largest_exponent =
           std::max({facts.largest_exponent, m.exponent_u, anisotropic ? m.exponent_v : 0.0});
   }
+  const Surfaces surfaces(host.geometry);
+  facts.narrowest_view = narrowest_view(surfaces, host.camera, host.geometry.radius);
   for (const LightRecord& light : host.lights.records) {
     const bool spreads = light.kind == LIGHT_POINT || light.kind == LIGHT_SPOT;
     const double unit = host.lights.unit / (spreads ? std::pow(host.geometry.radius, 2) : 1);
     for (const float power : light.power)
       facts.brightest = std::max(facts.brightest, unit * static_cast<double>(power));
+    facts.smallest_spot =
+        std::min(facts.smallest_spot, smallest_spot(surfaces, light) / host.geometry.radius);
   }
-  facts.view = std::min(1.0, static_cast<double>(host.camera.film_area) / (4 * std::numbers::pi));
   const double cross_section = std::numbers::pi * host.geometry.radius * host.geometry.radius;
   for (const accel::EmittingPrimitive& light : host.geometry.emitting)
     facts.smallest_light = std::min(facts.smallest_light, light.area / cross_section);
@@ -146,14 +229,17 @@ Settings possible(Settings method, const SceneFacts& facts) {
 }
 
 std::string doubts(const Settings& method, const SceneFacts& facts) {
-  const bool lobes = facts.largest_exponent > sharp;
-  if (method.integrator == "light" && facts.view < narrow_view) return "little in view";
-  if (method.integrator == "light" && facts.largest_exponent > sharp_for_eye) return "eye connected to lobes";
-  if (method.integrator == "path" && method.connect == Connect::light && lobes)
-    return "lights connected to lobes";
+  const bool light = method.integrator == "light", path = method.integrator == "path";
+  const int edges = method.max_depth < 0 ? longest_path : std::min(method.max_depth, longest_path);
+  const bool lobes = too_sharp(facts.largest_exponent, 1, sharp);
+  if (light && facts.narrowest_view < narrow_view) return "little in view";
+  if (light && too_sharp(facts.largest_exponent, 1, sharp_for_eye)) return "eye connected to lobes";
+  if (path && method.connect == Connect::light && lobes) return "lights connected to lobes";
   if (facts.lights_without_area && lobes) return "points connected to lobes";
-  if (method.integrator == "path" && method.connect == Connect::none && facts.smallest_light < small_light)
-    return "small light hit";
+  if (!sampled_by_shape(method.strategy) && too_sharp(facts.largest_exponent, edges - 1, sharp))
+    return "lobes found by chance";
+  if (path && method.connect == Connect::none && facts.smallest_light < small_light) return "small light hit";
+  if (path && facts.smallest_spot < small_spot) return "small spot hit";
   if (method.integrator == "bidir" && method.weights == Weights::uniform)
     return "connections without weights";
   return "";

@@ -15,7 +15,10 @@ struct SceneFacts {
   double largest_exponent = 0; ///< of lobes
   double brightest = 0;        ///< radiance, or what a light without area sends to a scene's radius away
   double smallest_light = 1;   ///< area of the smallest emitter / that of the scene's largest cross-section
-  double view = 1;             ///< of all directions, the part that the camera sees (at most this)
+  double narrowest_view = 1;   ///< of what is about the camera, the part that it would see were all as near
+                               ///< to it as the nearest thing in view
+  double smallest_spot = 1;    ///< where a light is next to a surface, the size of the place that it lights
+                               ///< there / the radius: what paths from the eye must hit
   bool lights_without_area = false; ///< point, spot or directional: nothing can hit them
 };
 

@@ -123,6 +123,28 @@ RandomMesh random_mesh(MeshShape shape, bool with_normals, RandomNumbers& random
   return mesh;
 }
 
+RandomMesh random_room(RandomNumbers& random) {
+  RandomMesh mesh;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double side : {-1.0, 1.0}) {
+      const Vec3 lean = 0.6 * in_ball(random);
+      const int first = static_cast<int>(mesh.positions.size());
+      for (const double a : {-side, side})
+        for (const double b : {-1.0, 1.0}) {
+          Vec3 p(0.0), inwards(0.0);
+          p[axis] = side;
+          p[(axis + 1) % 3] = a;
+          p[(axis + 2) % 3] = b;
+          inwards[axis] = -side;
+          mesh.positions.push_back(p);
+          mesh.normals.push_back(glm::normalize(inwards + lean));
+        }
+      mesh.triangles.push_back({first, first + 1, first + 2});
+      mesh.triangles.push_back({first + 1, first + 3, first + 2});
+    }
+  return mesh;
+}
+
 std::string obj_file(const RandomMesh& mesh) {
   std::string text;
   for (const Vec3& p : mesh.positions) text += fmt::format("v {:.7g} {:.7g} {:.7g}\n", p.x, p.y, p.z);

@@ -20,6 +20,9 @@ enum class MeshShape { tetrahedron, octahedron, icosahedron, sheet };
 /// About the unit sphere's size, closed but for the sheet. Vertices are moved by `random`, never so far that
 /// a closed mesh turns inside out; normals lean away from the triangles' by some twenty degrees.
 [[nodiscard]] RandomMesh random_mesh(MeshShape shape, bool with_normals, RandomNumbers& random);
+/// A box of half edge 1 seen from inside, whose normals lean: what a method makes of them does not average
+/// out.
+[[nodiscard]] RandomMesh random_room(RandomNumbers& random);
 
 [[nodiscard]] std::string obj_file(const RandomMesh& mesh);
 

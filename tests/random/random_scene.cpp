@@ -21,7 +21,7 @@ using scene::Vec3;
 
 constexpr double tiny_exponent = 0.1; ///< where drawing exponents by their logarithms begins
 
-enum class Walls { none, floor, rectangles, cube, sphere };
+enum class Walls { none, floor, rectangles, mesh, sphere };
 
 Vec3 triple(RandomNumbers& random, double from, double to) {
   return {random.uniform(from, to), random.uniform(from, to), random.uniform(from, to)};
@@ -61,7 +61,7 @@ public:
     }
     radiance_ = values_.chance(0.9) ? values_.log_uniform(1e-2, 1e2) : values_.log_uniform(1e-8, 1e8);
     walls_kind_ = structure_.pick({Walls::none, Walls::floor, Walls::floor, Walls::rectangles,
-                                   Walls::rectangles, Walls::cube, Walls::sphere});
+                                   Walls::rectangles, Walls::mesh, Walls::sphere});
     closed_ = walls_kind_ != Walls::none && walls_kind_ != Walls::floor;
     reach_ = closed_ ? 0.6 : 0.4;
     integrator();
@@ -266,10 +266,14 @@ private:
           center[axis] = side;
           wall(center, 1);
         }
-    if (walls_kind_ != Walls::cube && walls_kind_ != Walls::sphere) return;
-    open_shape(walls_kind_ == Walls::cube ? "cube" : "sphere");
-    text_.boolean("flip_normals", true);
-    if (walls_kind_ == Walls::sphere) text_.real("radius", 1.7);
+    if (walls_kind_ != Walls::mesh && walls_kind_ != Walls::sphere) return;
+    open_shape(walls_kind_ == Walls::mesh ? "ply" : "sphere");
+    if (walls_kind_ == Walls::mesh) {
+      mesh_file("room.ply", random_room(values_));
+    } else {
+      text_.boolean("flip_normals", true);
+      text_.real("radius", 1.7);
+    }
     open_to_world();
     place_in_world();
     material();
@@ -350,12 +354,17 @@ private:
         {MeshShape::tetrahedron, MeshShape::octahedron, MeshShape::icosahedron, MeshShape::sheet});
     const bool flat = structure_.chance(0.2), with_normals = values_.chance(0.5);
     const RandomMesh mesh = random_mesh(shape, with_normals, values_);
-    const std::string file = fmt::format("mesh{}.{}", index, type);
-    meshes_[file] = type == "obj" ? obj_file(mesh)
-                                  : ply_file(mesh, values_.pick({PlyFormat::ascii, PlyFormat::little_endian,
-                                                                 PlyFormat::big_endian}));
-    text_.string("filename", file);
+    mesh_file(fmt::format("mesh{}.{}", index, type), mesh);
     if (flat) text_.boolean("face_normals", true);
+  }
+
+  void mesh_file(const std::string& name, const RandomMesh& mesh) {
+    meshes_[name] =
+        name.ends_with(".obj")
+            ? obj_file(mesh)
+            : ply_file(mesh,
+                       values_.pick({PlyFormat::ascii, PlyFormat::little_endian, PlyFormat::big_endian}));
+    text_.string("filename", name);
   }
 
   RandomNumbers structure_, values_;

@@ -1,11 +1,17 @@
 // The generator of random scenes: what it makes is valid, repeatable, and all that scene files may say.
+#include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "random/methods.h"
 #include "random/random_scene.h"
+#include "scene_file/load.h"
+#include "temporary_folder.h"
 
 using namespace phlux;
 using namespace phlux::test;
@@ -86,5 +92,29 @@ TEST_CASE("random scenes can be loaded, and together say all that a scene file m
                            "\"exponent\" value=\"1000000\""}) {
     CAPTURE(part);
     CHECK(all.find(part) != std::string::npos);
+  }
+}
+
+TEST_CASE("random scenes: facts of views and lights", "[second]") {
+  const auto facts = [](const char* shape, double distance) {
+    const std::string xml = fmt::format(
+        "<scene version=\"3.0.0\"><sensor type=\"perspective\"><float name=\"fov\" value=\"90\"/>"
+        "<film type=\"hdrfilm\"><integer name=\"width\" value=\"5\"/><integer name=\"height\" value=\"5\"/>"
+        "</film></sensor><emitter type=\"point\"><point name=\"position\" value=\"0, 0, 0\"/></emitter>"
+        "<shape type=\"sphere\"><float name=\"radius\" value=\"100\"/></shape>"
+        "<shape type=\"{}\"><transform name=\"to_world\"><rotate y=\"1\" angle=\"180\"/><translate z=\"{}\"/>"
+        "</transform></shape></scene>",
+        shape, distance);
+    const TemporaryFolder folder;
+    return facts_of(scene_file::load(write_scene({xml, {}}, folder.path(), "facts")));
+  };
+  // All is within a box of half edge 100. The film's area is 4 at the distance 1.
+  const double nearness = 3 / (100 * std::sqrt(3));
+  for (const char* shape : {"rectangle", "disk", "cube", "sphere"}) {
+    CAPTURE(shape);
+    const bool thick = shape == std::string("cube") || shape == std::string("sphere");
+    const SceneFacts found = facts(shape, thick ? 4 : 3);
+    CHECK(found.narrowest_view == Approx(4 / (4 * std::numbers::pi) * nearness * nearness).epsilon(1e-3));
+    CHECK(found.smallest_spot == Approx(nearness).epsilon(5e-3));
   }
 }
