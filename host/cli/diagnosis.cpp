@@ -12,13 +12,13 @@ namespace {
 
 constexpr double share_for_trials = 0.03; // of the render's time
 constexpr double gross = 0.3;             // part of a standard error that is likely to be missing
-constexpr double trials = 3.0, longest_trial = 1.0, shortest_trial = 0.2;
+constexpr double longest_trial = 1.0, shortest_trial = 0.2;
 
-// Seconds for one trial; 0: none.
-double trial_seconds(const render::Statistics& statistics, bool insist) {
+// Seconds for each of so many trials; 0: none.
+double trial_seconds(const render::Statistics& statistics, std::size_t trials, bool insist) {
   if (insist) return longest_trial;
   const double before = statistics.seconds_setup + statistics.seconds_build_kernels;
-  const double seconds = share_for_trials * statistics.seconds_render / trials - before;
+  const double seconds = share_for_trials * statistics.seconds_render / static_cast<double>(trials) - before;
   return seconds < shortest_trial ? 0.0 : std::min(seconds, longest_trial);
 }
 
@@ -33,7 +33,7 @@ Diagnosis diagnose(const film::Film& film, const render::Statistics& statistics,
                    const render::Settings& settings, scene::Scene&& scene, bool insist) {
   Diagnosis diagnosis{.reliability = film::reliability_of(film), .advice = {}};
   if (!doubtful(diagnosis.reliability, statistics) || statistics.interrupted) return diagnosis;
-  if (const double seconds = trial_seconds(statistics, insist); seconds > 0.0)
+  if (const double seconds = trial_seconds(statistics, render::trials_of(scene), insist); seconds > 0.0)
     diagnosis.advice = render::advise(std::move(scene), settings, seconds).words;
   return diagnosis;
 }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "errors.h"
+#include "render/light_shares.h"
 #include "render/quiet_log.h"
 #include "scene/image_size.h"
 
@@ -13,6 +14,7 @@ namespace {
 
 constexpr int longest_side = 64; // pixels of a trial's image
 constexpr double worth_saying = 2.0;
+constexpr double most_of_it = 0.8; // of the variance
 
 struct Method {
   const char* options;
@@ -71,7 +73,19 @@ std::string words_for(const std::vector<Trial>& trials, double seconds) {
                      seconds);
 }
 
+// Which light it is about.
+std::string words_for(const std::vector<LightShare>& shares) {
+  for (const LightShare& light : shares)
+    if (light.share > most_of_it)
+      return fmt::format("; {:.0f}% of the variance is of {}", 100.0 * light.share, light.light);
+  return {};
+}
+
 } // namespace
+
+std::size_t trials_of(const scene::Scene& scene) {
+  return std::size(methods) + 1 + lights_told_apart(scene);
+}
 
 Advice advise(scene::Scene scene, const Settings& settings, double seconds) {
   const QuietLog quiet;
@@ -81,6 +95,7 @@ Advice advise(scene::Scene scene, const Settings& settings, double seconds) {
   trial.target_error.reset();
   trial.clamp.reset();
   trial.techniques = false;
+  const Settings own = trial;
   Advice advice;
   advice.trials.push_back(try_method(scene, trial, own_options(settings)));
   trial.connect = Settings().connect;
@@ -94,6 +109,7 @@ Advice advise(scene::Scene scene, const Settings& settings, double seconds) {
     advice.trials.push_back(try_method(scene, trial, method.options));
   }
   advice.words = words_for(advice.trials, seconds);
+  if (!advice.words.empty()) advice.words += words_for(light_shares(scene, own));
   return advice;
 }
 

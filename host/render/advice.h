@@ -22,9 +22,12 @@ struct Advice {
   std::string words;         ///< empty where there is nothing to say
 };
 
+/// How many renders advise() makes at most.
+[[nodiscard]] std::size_t trials_of(const scene::Scene& scene);
+
 /// Renders small images of the scene by the settings' method and by the others, each for `seconds` once its
-/// kernels are built, and says which of those that can be trusted is more than twice as efficient. The
-/// scene's film changes. @throws DeviceError
+/// kernels are built, and says which of those that can be trusted is more than twice as efficient and, where
+/// one light makes the most of the variance, which. @throws DeviceError
 [[nodiscard]] Advice advise(scene::Scene scene, const Settings& settings, double seconds);
 
 } // namespace phlux::render

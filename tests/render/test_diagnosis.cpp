@@ -7,6 +7,7 @@
 #include "errors.h"
 #include "kernel_copy.h"
 #include "render/advice.h"
+#include "render/light_shares.h"
 #include "render/scenes.h"
 
 using namespace phlux;
@@ -111,4 +112,24 @@ TEST_CASE("where path tracing cannot be trusted, trials say what can") {
   REQUIRE(advice.trials.size() == 3); // path is its own method
   CHECK_FALSE(advice.trials[0].reliability.trusted);
   CHECK_THAT(advice.words, bidir || light);
+}
+
+TEST_CASE("the light that makes the variance is named") {
+  scene::Scene scene = shipped("caustic", 32, 24);
+  const scene::PointLight lamp{{0, 1, 1}, scene::Rgb(1)};
+  scene.point_lights = {lamp, lamp};
+  const scene::Scene before = scene;
+  render::Settings with = settings(64);
+  REQUIRE(render::lights_told_apart(scene) == 3);
+  std::vector<render::LightShare> shares = render::light_shares(scene, with);
+  REQUIRE(shares.size() == 3);
+  CHECK(shares[0].light == "area light 1");
+  CHECK(shares[0].share > 0.95); // the caustic
+  CHECK(shares[2].light == "point light 2");
+  CHECK(shares[1].share == Approx(shares[2].share)); // of the same seed
+  CHECK(shares[0].share + shares[1].share + shares[2].share == Approx(1.0));
+  CHECK(scene.area_emitters[0].radiance == before.area_emitters[0].radiance);
+  CHECK(scene.point_lights[1].intensity == before.point_lights[1].intensity);
+  scene.point_lights.assign(render::most_lights_told_apart, lamp); // one too many
+  CHECK(render::light_shares(scene, with).empty());
 }
