@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "cli/checkpoints.h"
 #include "cli/commands.h"
 #include "cli/grammar.h"
 #include "cli/values.h"
@@ -99,6 +100,14 @@ void add_amount(CLI::App& app, RenderOptions& options) {
             [&](const std::string& text) {
               options.seed = whole_number("--seed", text, 0, std::numeric_limits<std::uint64_t>::max());
             });
+  add_value(app, "--first-sample", "N",
+            "number of every pixel's first sample: renders of samples 0 to 99 and 100 to 199 of a seed are "
+            "independent, for `phlux merge`; default: 0",
+            [&](const std::string& text) {
+              constexpr std::uint64_t most_first = std::numeric_limits<std::int32_t>::max() / 2;
+              options.first_sample =
+                  static_cast<std::int64_t>(whole_number("--first-sample", text, 0, most_first));
+            });
   add_values(app, "-D", "NAME=VALUE", "replaces $NAME in the scene; may be repeated",
              [&](const std::string& text) {
                auto [name, value] = definition("-D", text);
@@ -143,6 +152,20 @@ void add_files(CLI::App& app, RenderOptions& options) {
       "unweighted, and a contact sheet",
       options.contributions);
   add_file("--stats", "FILE.json", "figures of the render", options.statistics);
+  add_file("--checkpoint", "FILE",
+           "all that the render takes to go on, written now and then, at the end and when it is interrupted; "
+           "default: with --resume, that file; none: without",
+           options.checkpoint);
+  add_value(app, "--checkpoint-every", "SECONDS",
+            fmt::format("how often; default: {:g}", default_checkpoint_seconds),
+            [&](const std::string& text) {
+              options.checkpoint_seconds = number_within("--checkpoint-every", text, 0.01, 1e9);
+            });
+  add_file(
+      "--resume", "FILE",
+      "goes on from a checkpoint, with the options that it had and this command does not give; -n, --time "
+      "and --error count from its beginning",
+      options.resume);
   app.add_flag(
       "--moments", options.moments,
       "adds channels variance.R, .G and .B: variance of the mean; and reliability: how far to trust it");
@@ -166,6 +189,8 @@ void add_render(CLI::App& program, std::optional<Command>& command) {
   app.final_callback([&command, options] {
     if (options->samples_per_pixel && (options->time_limit || options->target_error))
       throw UsageError("--spp: cannot go with --time or --error, which decide how many samples are taken");
+    if (options->checkpoint_seconds && options->checkpoint.empty() && options->resume.empty())
+      throw UsageError("--checkpoint-every: no checkpoint is written: give --checkpoint FILE too");
     command = [options] { return render(*options); };
   });
 }

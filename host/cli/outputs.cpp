@@ -51,11 +51,12 @@ fs::path preview_beside(const fs::path& image) {
 
 void reject_same_names(const Outputs& outputs) {
   std::vector<fs::path> names;
-  for (const fs::path& file : {outputs.image, outputs.preview, outputs.statistics}) {
+  for (const fs::path& file : {outputs.image, outputs.preview, outputs.statistics, outputs.checkpoint}) {
     const fs::path name = file.lexically_normal();
     if (!name.empty() && name != "/dev/null" && std::ranges::find(names, name) != names.end())
-      throw UsageError(fmt::format(
-          "{}: named for two outputs: image, preview and statistics need a file each", file.string()));
+      throw UsageError(
+          fmt::format("{}: named for two outputs: image, preview, statistics and checkpoint need a file each",
+                      file.string()));
     names.push_back(name);
   }
 }
@@ -63,7 +64,9 @@ void reject_same_names(const Outputs& outputs) {
 } // namespace
 
 Outputs outputs_of(const RenderOptions& options) {
-  Outputs outputs{options.output, options.preview, options.statistics};
+  Outputs outputs{options.output, options.preview, options.statistics,
+                  options.checkpoint.empty() ? options.resume : options.checkpoint};
+  if (outputs.checkpoint == "none") outputs.checkpoint.clear();
   if (outputs.image.empty()) outputs.image = options.scene_file.stem() += ".exr";
   reject_other_formats(outputs.image, outputs.preview);
   if (outputs.preview == "none")
@@ -75,7 +78,7 @@ Outputs outputs_of(const RenderOptions& options) {
 }
 
 void check_writable(const Outputs& outputs) {
-  for (const fs::path& file : {outputs.image, outputs.preview, outputs.statistics})
+  for (const fs::path& file : {outputs.image, outputs.preview, outputs.statistics, outputs.checkpoint})
     if (!file.empty()) files::check_writable(file);
 }
 

@@ -10,10 +10,11 @@ namespace phlux::cli {
 
 /// Empty where nothing is written.
 struct Outputs {
-  std::filesystem::path image, preview, statistics;
+  std::filesystem::path image, preview, statistics, checkpoint;
 };
 
-/// The options' files or their defaults. No preview goes beside what is not a regular file (/dev/null).
+/// The options' files or their defaults; a resumed render writes its checkpoints where it was resumed from.
+/// No preview goes beside what is not a regular file (/dev/null).
 /// @throws UsageError for one name given twice, or an image named as another format
 [[nodiscard]] Outputs outputs_of(const RenderOptions& options);
 

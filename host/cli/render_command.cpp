@@ -7,11 +7,14 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "checkpoint/sameness.h"
+#include "cli/checkpoints.h"
 #include "cli/commands.h"
 #include "cli/diagnosis.h"
 #include "cli/interrupt.h"
 #include "cli/outputs.h"
 #include "cli/progress.h"
+#include "cli/settings.h"
 #include "cli/statistics.h"
 #include "errors.h"
 #include "files/contributions.h"
@@ -19,51 +22,11 @@
 #include "files/json.h"
 #include "files/output.h"
 #include "files/png.h"
-#include "render/parts.h"
+#include "scene/digest.h"
 #include "scene_file/load.h"
 
 namespace phlux::cli {
 namespace {
-
-render::Settings settings_of(const RenderOptions& options, const scene::RenderDefaults& defaults) {
-  render::Settings settings;
-  settings.integrator = options.integrator.value_or(defaults.integrator);
-  settings.strategy = options.strategy.value_or(settings.strategy);
-  if (options.connect && settings.integrator != "path")
-    throw UsageError("--connect is for path alone: " + settings.integrator +
-                     " has its own ways to the lights");
-  if (options.weights && settings.integrator != "bidir")
-    throw UsageError("--weights is for bidir alone: " + settings.integrator +
-                     " makes each path in one way: leave it out or use -i bidir");
-  settings.connect = options.connect.value_or(settings.connect);
-  settings.weights = options.weights.value_or(settings.weights);
-  if (options.connections && !options.contributions.empty())
-    throw UsageError("--connections: --contributions shows every connection: leave out one of the two");
-  if (options.connections && settings.integrator != "bidir")
-    throw UsageError("--connections is for bidir alone: " + settings.integrator +
-                     " connects no vertices: leave it out or use -i bidir");
-  settings.connections = options.connections.value_or(settings.connections);
-  if (options.light_selection && !render::samples_lights(settings))
-    throw UsageError(
-        "--light-selection is for light samples, which neither -i light nor --connect none makes: "
-        "leave it out");
-  settings.light_selection = options.light_selection.value_or(settings.light_selection);
-  settings.techniques = !options.contributions.empty();
-  settings.ambient = options.ambient;
-  settings.clamp = options.clamp;
-  settings.samples_per_pixel = options.samples_per_pixel.value_or(defaults.samples_per_pixel);
-  settings.time_limit = options.time_limit;
-  settings.target_error = options.target_error;
-  settings.max_depth = options.max_depth.value_or(defaults.max_depth);
-  settings.rr_depth = options.rr_depth.value_or(defaults.rr_depth);
-  settings.seed = options.seed;
-  settings.devices = options.devices;
-  settings.lanes = options.lanes;
-  settings.double_precision = options.double_precision;
-  settings.traversal = options.traversal;
-  settings.kernel_dir = options.kernel_dir;
-  return settings;
-}
 
 // The film's relative standard error, computed at most twice a second and for at most 2% of the time; in
 // between it falls with the root of the samples.
@@ -90,14 +53,16 @@ private:
 
 // The renderer knows no files; the user should read which one is to blame.
 render::Statistics render_scene(const scene::Scene& scene, const render::Settings& settings, film::Film& film,
-                                const render::Events& events, const std::filesystem::path& file) try {
-  return render::render(scene, settings, film, events);
+                                const render::Events& events, const render::Standing& from,
+                                const std::filesystem::path& file) try {
+  return render::render(scene, settings, film, events, from);
 } catch (const SceneError& error) {
   throw SceneError(fmt::format("{}: {}", file.string(), error.what()));
 }
 
 render::Statistics run(const scene::Scene& scene, const render::Settings& settings, film::Film& film,
-                       const Outputs& outputs, const RenderOptions& options) {
+                       const Outputs& outputs, const RenderOptions& options, Checkpoints& checkpoints,
+                       const render::Standing& from) {
   const InterruptGuard interrupt;
   ProgressDisplay display(options.quiet, settings.time_limit, settings.target_error);
   PreviewRefresher preview(outputs.preview);
@@ -108,22 +73,27 @@ render::Statistics run(const scene::Scene& scene, const render::Settings& settin
   events.progress = [&](const render::Progress& progress) {
     display.update(progress, [&] { return error.at(progress.samples_done); });
     preview.update(film, progress.seconds);
+    checkpoints.update(film, progress);
     interrupted = interrupt.requested();
     return !interrupted;
   };
-  render::Statistics statistics = render_scene(scene, settings, film, events, options.scene_file);
+  render::Statistics statistics = render_scene(scene, settings, film, events, from, options.scene_file);
   statistics.interrupted = interrupted;
   return statistics;
 }
 
-files::RenderInfo info_of(const RenderOptions& options, const render::Settings& settings,
-                          const film::Film& film, const render::Statistics& statistics) {
+files::RenderInfo info_of(const checkpoint::Session& session, const film::Film& film,
+                          const render::Statistics& statistics) {
+  const render::Settings& settings = session.settings;
   return {.version = PHLUX_VERSION,
-          .scene = options.scene_file.string(),
+          .scene = session.scene,
+          .scene_digest = session.scene_digest,
           .integrator = settings.integrator,
           .strategy = settings.strategy,
           .samples = film.samples_per_pixel(),
           .seed = settings.seed,
+          .ranges = {{settings.seed, settings.first_sample, settings.first_sample + statistics.place.end()}},
+          .max_depth = settings.max_depth,
           .device = statistics.device,
           .driver = statistics.driver,
           .seconds = statistics.seconds_render,
@@ -167,25 +137,39 @@ std::string summary(const Outputs& outputs, const film::Film& film, const render
     text +=
         fmt::format(", relative standard error {:.3g}%{}", 100.0 * error,
                     film.samples_per_pixel() < film::least_samples ? " (of too few samples to trust)" : "");
-  return text + (statistics.interrupted ? ", interrupted" : "");
+  if (!statistics.interrupted) return text;
+  return text + ", interrupted" +
+         (outputs.checkpoint.empty() ? "" : ": --resume " + outputs.checkpoint.string() + " goes on");
 }
 
 } // namespace
 
-int render(const RenderOptions& options) {
-  if (options.verbose) spdlog::set_level(spdlog::level::info);
-  const Outputs outputs = outputs_of(options);
+int render(const RenderOptions& given) {
+  if (given.verbose) spdlog::set_level(spdlog::level::info);
+  const Outputs outputs = outputs_of(given);
   check_writable(outputs);
+  RenderOptions options = given;
+  std::optional<checkpoint::Checkpoint> earlier = resumed(options);
   scene::Scene scene = scene_file::load(options.scene_file, options.definitions, options.size);
-  const render::Settings settings = settings_of(options, scene.defaults);
-  film::Film film(scene.camera.width, scene.camera.height);
-  const render::Statistics statistics = run(scene, settings, film, outputs, options);
+  const scene::Camera& camera = scene.camera;
+  const checkpoint::Session session{.scene = options.scene_file.string(),
+                                    .scene_digest = scene::digest(scene),
+                                    .choices = options,
+                                    .settings = settings_of(options, scene.defaults),
+                                    .standing = {}};
+  if (earlier) checkpoint::check_same(*earlier, session, camera.width, camera.height, options.resume);
+  const render::Settings& settings = session.settings;
+  film::Film film = earlier ? std::move(earlier->film) : film::Film(camera.width, camera.height);
+  Checkpoints checkpoints(outputs.checkpoint, options, session);
+  const render::Statistics statistics = run(scene, settings, film, outputs, options, checkpoints,
+                                            earlier ? earlier->session.standing : render::Standing());
 
   if (film.samples_per_pixel() == 0.0) { // an older image is worth more than a black one
     spdlog::warn("interrupted before the first sample: nothing is written");
     return interrupted_exit_code;
   }
-  const files::RenderInfo info = info_of(options, settings, film, statistics);
+  const std::optional<WriteError> failure = checkpoints.finish(film, statistics);
+  const files::RenderInfo info = info_of(session, film, statistics);
   // The image is safe before anything else is tried.
   write(outputs, info, film, options.moments);
   const Diagnosis diagnosis = diagnose(film, statistics, settings, std::move(scene), options.advise);
@@ -195,6 +179,7 @@ int render(const RenderOptions& options) {
   if (settings.techniques) write_techniques(options.contributions, film, info);
   if (!options.quiet) fmt::print("{}\n", summary(outputs, film, statistics));
   report(diagnosis, film, statistics, settings);
+  if (failure) throw WriteError(*failure);
   return statistics.interrupted ? interrupted_exit_code : 0;
 }
 

@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cstring>
+#include <sstream>
 
 #include <ImfChannelList.h>
 #include <ImfDoubleAttribute.h>
@@ -11,10 +12,12 @@
 #include <ImfHeader.h>
 #include <ImfIO.h>
 #include <ImfInputFile.h>
+#include <ImfIntAttribute.h>
 #include <ImfOutputFile.h>
 #include <ImfStringAttribute.h>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include "errors.h"
@@ -46,13 +49,44 @@ Imf::Slice slice_of(const std::vector<float>& values, const Imath::Box2i& window
   return Imf::Slice::Make(Imf::FLOAT, const_cast<float*>(values.data()), window);
 }
 
+// "0, 7": each once.
+std::string seeds_text(const RenderInfo& info) {
+  std::vector<std::uint64_t> seeds = {info.seed};
+  for (const SampleRange& range : info.ranges)
+    if (std::ranges::find(seeds, range.seed) == seeds.end()) seeds.push_back(range.seed);
+  return fmt::format("{}", fmt::join(seeds, ", "));
+}
+
+// "0:0-64, 7:0-32": the seed and the samples, the last one not among them.
+std::string ranges_text(const std::vector<SampleRange>& ranges) {
+  std::string text;
+  for (const SampleRange& range : ranges)
+    text += fmt::format("{}{}:{}-{}", text.empty() ? "" : ", ", range.seed, range.first, range.end);
+  return text;
+}
+
+std::vector<SampleRange> ranges_in(const std::string& text) {
+  std::vector<SampleRange> ranges;
+  std::istringstream stream(text);
+  SampleRange range;
+  char colon = 0, minus = 0, comma = 0;
+  while (stream >> range.seed >> colon >> range.first >> minus >> range.end) {
+    ranges.push_back(range);
+    stream >> comma;
+  }
+  return ranges;
+}
+
 void insert_attributes(Imf::Header& header, const RenderInfo& info) {
   header.insert("version", Imf::StringAttribute(info.version));
   header.insert("scene", Imf::StringAttribute(info.scene));
+  header.insert("sceneDigest", Imf::StringAttribute(info.scene_digest));
   header.insert("integrator", Imf::StringAttribute(info.integrator));
   header.insert("strategy", Imf::StringAttribute(info.strategy));
   header.insert("samples", Imf::DoubleAttribute(info.samples));
-  header.insert("seed", Imf::StringAttribute(fmt::format("{}", info.seed)));
+  header.insert("seed", Imf::StringAttribute(seeds_text(info)));
+  header.insert("sampleRanges", Imf::StringAttribute(ranges_text(info.ranges)));
+  header.insert("maxDepth", Imf::IntAttribute(info.max_depth));
   header.insert("device", Imf::StringAttribute(info.device));
   header.insert("driver", Imf::StringAttribute(info.driver));
   header.insert("seconds", Imf::DoubleAttribute(info.seconds));
@@ -67,6 +101,9 @@ void find_attribute(const Imf::Header& header, const char* name, std::string& va
   if (const auto* attribute = header.findTypedAttribute<Imf::StringAttribute>(name))
     value = attribute->value();
 }
+void find_attribute(const Imf::Header& header, const char* name, int& value) {
+  if (const auto* attribute = header.findTypedAttribute<Imf::IntAttribute>(name)) value = attribute->value();
+}
 void find_attribute(const Imf::Header& header, const char* name, double& value) {
   if (const auto* attribute = header.findTypedAttribute<Imf::DoubleAttribute>(name))
     value = attribute->value();
@@ -76,12 +113,17 @@ RenderInfo find_attributes(const Imf::Header& header) {
   RenderInfo info;
   find_attribute(header, "version", info.version);
   find_attribute(header, "scene", info.scene);
+  find_attribute(header, "sceneDigest", info.scene_digest);
   find_attribute(header, "integrator", info.integrator);
   find_attribute(header, "strategy", info.strategy);
   find_attribute(header, "samples", info.samples);
   std::string seed;
   find_attribute(header, "seed", seed);
   std::from_chars(seed.data(), seed.data() + seed.size(), info.seed);
+  std::string ranges;
+  find_attribute(header, "sampleRanges", ranges);
+  info.ranges = ranges_in(ranges);
+  find_attribute(header, "maxDepth", info.max_depth);
   find_attribute(header, "device", info.device);
   find_attribute(header, "driver", info.driver);
   find_attribute(header, "seconds", info.seconds);

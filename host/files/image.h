@@ -11,14 +11,25 @@
 
 namespace phlux::files {
 
+/// Samples [first, end) of every pixel, as a seed makes them; of some pixels without the last ones where time
+/// or a signal ended the render.
+struct SampleRange {
+  std::uint64_t seed = 0;
+  std::int64_t first = 0, end = 0;
+  bool operator==(const SampleRange&) const = default;
+};
+
 /// The attributes of CONTRACT.md, by their names there. In EXR files the texts and the seed (64 bits, which
 /// no number of EXR holds) are strings, the others doubles.
 struct RenderInfo {
-  std::string version; ///< of phlux; empty in a file that another program wrote
-  std::string scene;   ///< the file, as the user named it
+  std::string version;      ///< of phlux; empty in a file that another program wrote
+  std::string scene;        ///< the file, as the user named it
+  std::string scene_digest; ///< scene::digest
   std::string integrator, strategy;
   double samples = 0.0; ///< per pixel, a mean where pixels differ
   std::uint64_t seed = 0;
+  std::vector<SampleRange> ranges; ///< several in a merged image, of which `seed` is the first's
+  int max_depth = -1;
   std::string device, driver;
   double seconds = 0.0;        ///< of rendering
   std::optional<double> clamp; ///< most radiance that a path brought a pixel; none: not clamped, no bias

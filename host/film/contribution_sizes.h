@@ -29,6 +29,11 @@ public:
   /// largest. Nothing where there are fewer, or all of a size.
   [[nodiscard]] std::optional<double> tail_index(double count) const;
 
+  template<class Archive>
+  void serialize(Archive& archive) {
+    archive(counts_);
+  }
+
 private:
   // The exponent of a float and two bits of its mantissa.
   static constexpr unsigned dropped_bits = 21;
@@ -68,10 +73,20 @@ public:
     return tiles_[tile].splats * tiles_[tile].one_by_pixels;
   }
 
+  template<class Archive>
+  void serialize(Archive& archive) {
+    archive(width_, tiles_across_, rows_per_pixel_, tiles_);
+  }
+
 private:
   struct Tile {
     double sum = 0.0, mean = 0.0, splats = 0.0, one_by_pixels = 0.0;
     std::uint64_t samples = 0;
+
+    template<class Archive>
+    void serialize(Archive& archive) {
+      archive(sum, mean, splats, one_by_pixels, samples);
+    }
   };
   std::uint32_t width_, tiles_across_;
   double rows_per_pixel_;

@@ -13,6 +13,11 @@ namespace phlux::film {
 struct Growth {
   std::uint64_t samples = 0;
   double largest = 0.0;
+
+  template<class Archive>
+  void serialize(Archive& archive) {
+    archive(samples, largest);
+  }
 };
 
 /// Sizes are relative to what the pixel had seen before, so that a firefly is not measured by itself, or to
@@ -33,6 +38,11 @@ public:
   [[nodiscard]] const ContributionSizes& sizes() const { return sizes_; }
   [[nodiscard]] const TileMeans& tiles() const { return tiles_; }
   [[nodiscard]] const std::vector<Growth>& history() const { return history_; }
+
+  template<class Archive>
+  void serialize(Archive& archive) {
+    archive(sizes_, tiles_, history_, pixels_, pixels_per_path_, next_growth_);
+  }
 
 private:
   ContributionSizes sizes_;

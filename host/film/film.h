@@ -27,6 +27,11 @@ struct Pixel {
   std::array<double, 3> sum{}, sum_of_squares{};
   double sum_of_fourths = 0.0; ///< of blocks: of the square of what one adds to the sum of squared deviations
   std::uint64_t samples = 0;
+
+  template<class Archive>
+  void serialize(Archive& archive) {
+    archive(sum, sum_of_squares, sum_of_fourths, samples);
+  }
 };
 
 /// Sums over what paths that began elsewhere brought to a pixel; each square is of what one path brought.
@@ -34,6 +39,11 @@ struct Pixel {
 struct alignas(64) Splats {
   std::array<double, 3> sum{}, sum_of_squares{};
   double sum_of_fourths = 0.0; ///< of the squared sum over channels of the squares
+
+  template<class Archive>
+  void serialize(Archive& archive) {
+    archive(sum, sum_of_squares, sum_of_fourths);
+  }
 };
 
 /// Sums stay exact to about 2^-53 times the number of blocks, so that no sample count stalls them (MATH.md
@@ -53,6 +63,7 @@ public:
   /// The radiance that stands as 1 in the sums that devices hand over; 1 unless set. Means and variances are
   /// radiances whatever it is.
   void set_unit(double radiance) { unit_ = radiance; }
+  [[nodiscard]] double unit() const { return unit_; }
 
   /// Folds one block of `samples` samples of one pixel in. Blocks must come in the same order for the same
   /// bits.
@@ -89,7 +100,9 @@ public:
   [[nodiscard]] bool splats() const { return !splats_.empty(); }
 
   /// Keeps what each technique brings by itself as well, from here on.
-  void use_techniques() { techniques_.emplace(pixels_.size()); }
+  void use_techniques() {
+    if (!techniques_) techniques_.emplace(pixels_.size());
+  }
   [[nodiscard]] Techniques* techniques() { return techniques_ ? &*techniques_ : nullptr; }
   /// One technique's image, of sums of `techniques()`: radiance per pixel.
   [[nodiscard]] std::vector<std::array<double, 3>>
@@ -123,6 +136,14 @@ public:
     double fourths = 0.0; ///< of the squares of those
   };
   [[nodiscard]] Spread spread(std::size_t pixel) const;
+
+  /// Hands all that the film holds to an archive that writes, or takes it from one that reads: a film that
+  /// has taken what another handed over goes on as that one would, bit for bit.
+  template<class Archive>
+  void serialize(Archive& archive) {
+    archive(width_, height_, unit_, pixels_, splats_, splatting_paths_, own_samples_, blocks_, evidence_,
+            clamp_, clamped_, clamped_of_splats_, techniques_);
+  }
 
 private:
   void clamp(std::array<double, 3>& value);

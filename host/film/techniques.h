@@ -13,6 +13,11 @@ struct Technique {
   int light_vertices = 0, eye_vertices = 0;
   [[nodiscard]] int edges() const { return light_vertices + eye_vertices - 1; }
   auto operator<=>(const Technique&) const = default;
+
+  template<class Archive>
+  void serialize(Archive& archive) {
+    archive(light_vertices, eye_vertices);
+  }
 };
 
 /// Longer paths are not told apart: there are as many images as pairs (s, t).
@@ -23,14 +28,24 @@ public:
   /// Sums over all paths, row by row from the top.
   struct Sums {
     std::vector<std::array<double, 3>> weighted, unweighted;
+
+    template<class Archive>
+    void serialize(Archive& archive) {
+      archive(weighted, unweighted);
+    }
   };
 
-  explicit Techniques(std::size_t pixels) : pixels_(pixels) {}
+  explicit Techniques(std::size_t pixels = 0) : pixels_(pixels) {}
 
   /// Radiance that one path brought to a pixel; the technique's share of it is `weight`.
   void add(Technique technique, std::size_t pixel, const std::array<double, 3>& radiance, double weight);
   [[nodiscard]] const std::map<Technique, Sums>& sums() const { return sums_; }
   [[nodiscard]] std::uint64_t left_out() const { return left_out_; } ///< contributions of longer paths
+
+  template<class Archive>
+  void serialize(Archive& archive) {
+    archive(pixels_, sums_, left_out_);
+  }
 
 private:
   std::size_t pixels_;

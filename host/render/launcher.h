@@ -3,7 +3,7 @@
 
 #include <cstdint>
 #include <deque>
-#include <optional>
+#include <utility>
 #include <vector>
 
 #include "device/program.h"
@@ -13,11 +13,6 @@
 #include "render/launch_plan.h"
 
 namespace phlux::render {
-
-struct Counts {
-  std::uint64_t paths = 0, rays = 0, shadow_rays = 0, nonfinite = 0;
-  std::optional<Origin> first_nonfinite;
-};
 
 class Launcher {
 public:
@@ -42,7 +37,8 @@ public:
   void settle();
   /// Folds the oldest launch, settled, into the film.
   void collect(film::Film& film);
-  [[nodiscard]] const Counts& counts() const { return counts_; }
+  /// Of the launches collected since it was last called.
+  [[nodiscard]] Counts take_counts() { return std::exchange(counts_, {}); }
 
 private:
   // A launch's buffers, kept from one to the next: fresh memory costs more than the copies.

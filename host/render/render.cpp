@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <deque>
 #include <exception>
+#include <limits>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <thread>
@@ -27,14 +30,25 @@ struct Worker {
   std::unique_ptr<Launcher> launcher;
 };
 
+void add(const Counts& counts, Counts& to) {
+  to.paths += counts.paths;
+  to.rays += counts.rays;
+  to.shadow_rays += counts.shadow_rays;
+  to.nonfinite += counts.nonfinite;
+  if (!to.first_nonfinite) to.first_nonfinite = counts.first_nonfinite;
+}
+
 // The work that devices share: whoever takes a launch or folds one in holds the lock.
 class Work {
 public:
-  Work(const scene::Camera& camera, const Settings& settings, film::Film& film, const Events& events)
+  Work(const scene::Camera& camera, const Settings& settings, film::Film& film, const Events& events,
+       const Standing& from)
       : settings_(settings), film_(film), events_(events), begin_(Clock::now()),
-        open_ended_(settings.time_limit || settings.target_error),
+        seconds_before_(from.seconds_render), open_ended_(settings.time_limit || settings.target_error),
         schedule_(static_cast<std::int64_t>(camera.width) * camera.height,
-                  open_ended_ ? std::nullopt : std::optional<std::int64_t>(settings.samples_per_pixel)) {}
+                  open_ended_ ? std::nullopt : std::optional<std::int64_t>(settings.samples_per_pixel),
+                  from.place),
+        counts_(from), ended_(from.paths > 0 && precise_enough()) {}
 
   // Runs one device until the work is done or ended. Whoever folds a launch in reports.
   void run(Launcher& launcher) {
@@ -44,9 +58,9 @@ public:
       if (launcher.in_flight() == 0) return;
       launcher.settle();
       const std::lock_guard lock(mutex_);
-      const std::uint64_t before = launcher.counts().paths;
       launcher.collect(film_);
-      paths_ += launcher.counts().paths - before;
+      add(launcher.take_counts(), counts_);
+      in_flight_[&launcher].pop_front();
       if (!ended_) ended_ = precise_enough() || !report();
     }
   }
@@ -57,25 +71,38 @@ public:
     ended_ = true;
   }
 
-  [[nodiscard]] double seconds() const { return seconds_since(begin_); }
+  [[nodiscard]] double seconds() const { return seconds_before_ + seconds_since(begin_); }
+
+  // Of what is on the film.
+  [[nodiscard]] Standing standing() const {
+    Standing standing{counts_, schedule_.place(), seconds()};
+    std::vector<Launch>& missing = standing.place.missing;
+    for (const auto& [launcher, launches] : in_flight_)
+      missing.insert(missing.begin(), launches.begin(), launches.end());
+    return standing;
+  }
 
 private:
   bool take(Launcher& launcher) {
     const std::lock_guard lock(mutex_);
     if (ended_ || (settings_.time_limit && seconds() >= *settings_.time_limit)) return false;
-    const auto launch =
+    auto launch =
         schedule_.next([&](std::int64_t left, int samples) { return launcher.wanted_jobs(left, samples); });
-    if (launch) launcher.enqueue(*launch);
-    return launch.has_value();
+    if (!launch) return false;
+    in_flight_[&launcher].push_back(*launch);
+    launch->first_sample += settings_.first_sample;
+    launcher.enqueue(*launch);
+    return true;
   }
 
   bool report() const {
     if (!events_.progress) return true;
     Progress progress;
-    progress.samples_done = static_cast<double>(paths_) / static_cast<double>(film_.pixels().size());
+    progress.samples_done = static_cast<double>(counts_.paths) / static_cast<double>(film_.pixels().size());
     if (!open_ended_) progress.samples_total = settings_.samples_per_pixel;
     progress.seconds = seconds();
-    progress.paths = paths_;
+    progress.paths = counts_.paths;
+    progress.standing = [this] { return standing(); };
     return events_.progress(progress);
   }
 
@@ -93,16 +120,30 @@ private:
   film::Film& film_;
   const Events& events_;
   Clock::time_point begin_, next_look_{};
+  double seconds_before_;
   bool open_ended_;
   Schedule schedule_;
+  std::map<const Launcher*, std::deque<Launch>> in_flight_;
   std::mutex mutex_;
-  std::uint64_t paths_ = 0;
-  bool ended_ = false;
+  Counts counts_;
+  bool ended_;
 };
 
 void check(const Settings& settings) {
+  constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max(); // of the kernels' int
   if (settings.samples_per_pixel < 1)
     throw UsageError(fmt::format("{} samples per pixel: at least 1 is needed", settings.samples_per_pixel));
+  if (settings.first_sample + settings.samples_per_pixel > most)
+    throw UsageError(fmt::format("--first-sample {}: samples are numbered up to {}: begin earlier",
+                                 settings.first_sample, most));
+}
+
+// What sums on the film mean depends on the scene's lights.
+void set_unit(film::Film& film, double unit) {
+  if (film.contributors() > 0 && film.unit() != unit)
+    throw SceneError(
+        "the samples so far are in another unit: go on with the version of phlux that made them");
+  film.set_unit(unit);
 }
 
 // A path that nothing ends would never leave the kernel.
@@ -243,8 +284,8 @@ void run_all(Work& work, std::vector<Worker>& workers) {
 
 } // namespace
 
-Statistics render(const scene::Scene& scene, const Settings& settings, film::Film& film,
-                  const Events& events) try {
+Statistics render(const scene::Scene& scene, const Settings& settings, film::Film& film, const Events& events,
+                  const Standing& from) try {
   check(settings);
   check_paths_end(scene, settings);
   warn(scene, settings);
@@ -254,22 +295,14 @@ Statistics render(const scene::Scene& scene, const Settings& settings, film::Fil
   std::vector<Worker> workers;
   for (const device::Device& device : devices) workers.push_back(workshop.make(device, statistics));
   describe(statistics, devices, workers);
-  film.set_unit(workshop.unit());
+  set_unit(film, workshop.unit());
   statistics.shines = workshop.shines();
   if (settings.clamp) film.set_clamp(*settings.clamp);
   if (settings.techniques) film.use_techniques();
 
-  Work work(scene.camera, settings, film, events);
+  Work work(scene.camera, settings, film, events, from);
   run_all(work, workers);
-  statistics.seconds_render = work.seconds();
-  for (const Worker& worker : workers) {
-    const Counts& counts = worker.launcher->counts();
-    statistics.paths += counts.paths;
-    statistics.rays += counts.rays;
-    statistics.shadow_rays += counts.shadow_rays;
-    statistics.nonfinite += counts.nonfinite;
-    if (!statistics.first_nonfinite) statistics.first_nonfinite = counts.first_nonfinite;
-  }
+  static_cast<Standing&>(statistics) = work.standing();
   return statistics;
 } catch (const cl::Error& error) {
   throw DeviceError(fmt::format("{} failed: {}", error.what(), device::error_name(error.err())));

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "film/film.h"
+#include "render/schedule.h"
 #include "scene/scene.h"
 
 namespace phlux::render {
@@ -33,6 +34,7 @@ struct Settings {
   std::optional<double> target_error; ///< mean relative standard error
   int max_depth = -1, rr_depth = 5;   ///< as in scene::RenderDefaults
   std::uint64_t seed = 0;
+  std::int64_t first_sample = 0;    ///< the number of every pixel's first sample
   std::vector<std::string> devices; ///< --device specifications
   int lanes = 0;                    ///< WIDTH; 0: what suits the device
   bool double_precision = false;    ///< kernels compute in double; WIDTH is 1
@@ -49,13 +51,6 @@ struct Settings {
 [[nodiscard]] const std::vector<std::string>& light_selection_names();
 [[nodiscard]] const std::vector<std::string>& traversal_names();
 
-struct Progress {
-  double samples_done = 0.0;           ///< mean samples per pixel so far
-  std::optional<double> samples_total; ///< absent when time or error ends the render
-  double seconds = 0.0;                ///< since rendering began
-  std::uint64_t paths = 0;
-};
-
 /// Where a contribution came from that was not finite: the seed, this pixel (row by row from the top) and
 /// this sample, or one of so many from it, make it again.
 struct Origin {
@@ -63,14 +58,31 @@ struct Origin {
   int samples = 1;
 };
 
-struct Statistics {
+struct Counts {
+  std::uint64_t paths = 0, rays = 0, shadow_rays = 0, nonfinite = 0;
+  std::optional<Origin> first_nonfinite;
+};
+
+/// How far a render has come: with its film, all that another takes to go on.
+struct Standing : Counts {
+  Place place;
+  double seconds_render = 0.0;
+};
+
+struct Progress {
+  double samples_done = 0.0;           ///< mean samples per pixel so far
+  std::optional<double> samples_total; ///< absent when time or error ends the render
+  double seconds = 0.0;                ///< since rendering began
+  std::uint64_t paths = 0;
+  std::function<Standing()> standing = {}; ///< of what the film has; a little slow
+};
+
+struct Statistics : Standing {
   std::string device, driver;
   int lanes = 1;
   std::string traversal;          ///< brute or bvh
   std::vector<std::string> parts; ///< what the scene's kernel holds code for
-  std::uint64_t paths = 0, rays = 0, shadow_rays = 0, nonfinite = 0;
-  std::optional<Origin> first_nonfinite;
-  double seconds_setup = 0.0, seconds_build_kernels = 0.0, seconds_render = 0.0;
+  double seconds_setup = 0.0, seconds_build_kernels = 0.0;
   bool kernels_from_cache = false;
   bool shines = true; ///< some light of the scene has power
   bool interrupted = false;
@@ -82,10 +94,12 @@ struct Events {
   std::function<bool(const Progress&)> progress;
 };
 
-/// Adds samples to `film`, which has the camera's width and height.
+/// Adds samples to `film`, which has the camera's width and height; where an earlier render of the scene with
+/// these settings had come to `from`, the film is the one that it left, and the samples, seconds and counts
+/// include its own. One device then makes the film that it would have made without a break, bit for bit.
 /// @throws UsageError for settings that cannot work, SceneError for a scene that cannot be rendered,
 /// DeviceError
 [[nodiscard]] Statistics render(const scene::Scene& scene, const Settings& settings, film::Film& film,
-                                const Events& events);
+                                const Events& events, const Standing& from = {});
 
 } // namespace phlux::render

@@ -1,6 +1,8 @@
 #include "render/schedule.h"
 
 #include <algorithm>
+#include <bit>
+#include <cassert>
 #include <limits>
 
 namespace phlux::render {
@@ -11,39 +13,67 @@ constexpr std::int64_t endless = std::numeric_limits<std::int32_t>::max() / 2;
 
 } // namespace
 
-Schedule::Schedule(std::int64_t pixels, std::optional<std::int64_t> samples) : pixels_(pixels) {
-  if (samples) {
-    const std::int64_t rest = *samples % samples_per_block, whole = *samples - rest;
-    if (rest > 0) later_ = {{whole, *samples, static_cast<int>(rest)}};
-    start_phase({0, whole, samples_per_block});
-    return;
-  }
-  later_ = {{samples_per_block, endless, samples_per_block}, {8, 16, 8}, {4, 8, 4}, {2, 4, 2}, {1, 2, 1}};
-  start_phase({0, 1, 1});
+Schedule::Schedule(std::int64_t pixels, std::optional<std::int64_t> samples, const Place& from)
+    : pixels_(pixels), end_(samples.value_or(endless)), short_blocks_first_(!samples),
+      missing_(from.missing.begin(), from.missing.end()), phase_end_(from.sample) {
+  assert(from.end() <= end_ && from.pixel < pixels);
+  if (from.pixel == 0) return;
+  const bool whole = from.block_samples == samples_per_block;
+  start_blocks(from.sample, whole ? end_ : from.end(), from.block_samples);
+  phase_.first_job = from.pixel;
+  phase_.jobs -= from.pixel;
 }
 
-void Schedule::start_phase(Phase phase) {
-  phase_ = phase;
-  const std::int64_t samples = phase.end_sample - phase.first_sample;
-  jobs_ = pixels_ * (samples / phase.block_samples);
-  done_ = 0;
+void Schedule::start_blocks(std::int64_t first_sample, std::int64_t end_sample, int block_samples) {
+  const std::int64_t blocks = (end_sample - first_sample) / block_samples;
+  phase_ = {0, pixels_ * blocks, first_sample, block_samples};
+  phase_end_ = first_sample + blocks * block_samples;
+}
+
+void Schedule::start_phase(std::int64_t first_sample) {
+  const std::int64_t left = end_ - first_sample, beyond = first_sample % samples_per_block;
+  std::int64_t block = samples_per_block - beyond;
+  if (short_blocks_first_ && first_sample < samples_per_block &&
+      (first_sample == 0 || std::has_single_bit(static_cast<std::uint64_t>(first_sample))))
+    block = std::max<std::int64_t>(first_sample, 1);
+  block = std::min(block, left);
+  start_blocks(first_sample, block == samples_per_block ? end_ : first_sample + block,
+               static_cast<int>(block));
+}
+
+// The first jobs of `rest`.
+Launch Schedule::cut_from(Launch& rest, const Wanted& wanted) const {
+  Launch launch = rest;
+  launch.jobs = std::min(wanted(rest.jobs, rest.block_samples), rest.jobs);
+  // A launch begins at its first job's block, so that the kernel counts in small numbers.
+  const std::int64_t job = rest.first_job + launch.jobs;
+  rest.first_job = job % pixels_;
+  rest.first_sample += job / pixels_ * rest.block_samples;
+  rest.jobs -= launch.jobs;
+  return launch;
 }
 
 std::optional<Launch> Schedule::next(const Wanted& wanted) {
-  if (done_ == jobs_) {
-    if (later_.empty()) return std::nullopt;
-    start_phase(later_.back());
-    later_.pop_back();
+  if (!missing_.empty()) {
+    const Launch launch = cut_from(missing_.front(), wanted);
+    if (missing_.front().jobs == 0) missing_.pop_front();
+    return launch;
   }
-  // A launch begins at its first job's block, so that the kernel counts in small numbers.
-  const std::int64_t block = done_ / pixels_;
-  Launch launch;
-  launch.first_job = done_ - block * pixels_;
-  launch.jobs = std::min(wanted(jobs_ - done_, phase_.block_samples), jobs_ - done_);
-  launch.block_samples = phase_.block_samples;
-  launch.first_sample = phase_.first_sample + block * phase_.block_samples;
-  done_ += launch.jobs;
-  return launch;
+  if (phase_.jobs == 0) {
+    if (phase_end_ == end_) return std::nullopt;
+    start_phase(phase_end_);
+  }
+  return cut_from(phase_, wanted);
+}
+
+Place Schedule::place() const {
+  Place place{phase_end_, 0, samples_per_block, {missing_.begin(), missing_.end()}};
+  if (phase_.jobs > 0) {
+    place.sample = phase_.first_sample;
+    place.pixel = phase_.first_job;
+    place.block_samples = phase_.block_samples;
+  }
+  return place;
 }
 
 } // namespace phlux::render

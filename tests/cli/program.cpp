@@ -8,6 +8,7 @@
 #include <thread>
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -24,6 +25,11 @@ void redirect(int descriptor, const std::filesystem::path& file) {
   redirect(STDOUT_FILENO, streams / "out");
   redirect(STDERR_FILENO, streams / "err");
   if (::chdir(invocation.folder.c_str()) != 0) ::_exit(126);
+  if (invocation.largest_file) {
+    const rlimit limit{*invocation.largest_file, *invocation.largest_file};
+    if (::setrlimit(RLIMIT_FSIZE, &limit) != 0) ::_exit(126);
+    std::signal(SIGXFSZ, SIG_IGN); // else it ends the program
+  }
   for (const auto& [name, value] : invocation.environment) ::setenv(name.c_str(), value.c_str(), 1);
   std::vector<std::string> texts = {PHLUX_PROGRAM};
   texts.insert(texts.end(), invocation.arguments.begin(), invocation.arguments.end());

@@ -22,6 +22,8 @@ struct Invocation {
   std::map<std::string, std::string> environment; ///< on top of this process's
   /// SIGINT is sent that long after the program is ready for it.
   std::optional<std::chrono::milliseconds> interrupt_after;
+  /// No file of more bytes can be written.
+  std::optional<std::size_t> largest_file = std::nullopt;
 };
 
 /// Waits for its end. Standard output and error are no terminals.

@@ -7,6 +7,7 @@
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfInputFile.h>
+#include <ImfIntAttribute.h>
 #include <ImfOutputFile.h>
 #include <ImfStringAttribute.h>
 
@@ -24,10 +25,13 @@ namespace {
 
 const RenderInfo render_info{.version = "0.1.0",
                              .scene = "scenes/box.xml",
+                             .scene_digest = "0af",
                              .integrator = "path",
                              .strategy = "mixture",
                              .samples = 64.0,
                              .seed = std::numeric_limits<std::uint64_t>::max(),
+                             .ranges = {{std::numeric_limits<std::uint64_t>::max(), 0, 64}, {7, 64, 128}},
+                             .max_depth = 9,
                              .device = "a device",
                              .driver = "3.1",
                              .seconds = 1.5,
@@ -87,7 +91,10 @@ TEST_CASE("An EXR file has the channels and attributes of the contract") {
   CHECK(text("integrator") == "path");
   CHECK(text("strategy") == "mixture");
   CHECK(number("samples") == 64.0);
-  CHECK(text("seed") == "18446744073709551615");
+  CHECK(text("seed") == "18446744073709551615, 7");
+  CHECK(text("sampleRanges") == "18446744073709551615:0-64, 7:64-128");
+  CHECK(text("sceneDigest") == "0af");
+  CHECK(header.typedAttribute<Imf::IntAttribute>("maxDepth").value() == 9);
   CHECK(text("device") == "a device");
   CHECK(text("driver") == "3.1");
   CHECK(number("seconds") == 1.5);
@@ -98,6 +105,9 @@ TEST_CASE("An EXR file has the channels and attributes of the contract") {
   CHECK(info.strategy == render_info.strategy);
   CHECK(info.samples == render_info.samples);
   CHECK(info.seed == render_info.seed);
+  CHECK(info.ranges == render_info.ranges);
+  CHECK(info.scene_digest == render_info.scene_digest);
+  CHECK(info.max_depth == render_info.max_depth);
   CHECK(info.seconds == render_info.seconds);
 }
 

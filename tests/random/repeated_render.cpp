@@ -103,7 +103,7 @@ film::Film RepeatedRender::image(std::uint64_t seed, int samples_per_pixel, std:
     launcher.settle();
     launcher.collect(film);
   }
-  nonfinite += launcher.counts().nonfinite;
+  nonfinite += launcher.take_counts().nonfinite;
   return film;
 }
 

@@ -1,0 +1,158 @@
+#include "checkpoint/checkpoint.h"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+#include <string_view>
+
+#include <cereal/archives/portable_binary.hpp>
+#include <cereal/types/array.hpp>
+#include <cereal/types/map.hpp>
+#include <cereal/types/optional.hpp>
+#include <cereal/types/string.hpp>
+#include <cereal/types/vector.hpp>
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include "errors.h"
+
+// Structured bindings, so that a member that is added and forgotten here does not compile.
+namespace phlux::render {
+
+template<class Archive>
+void serialize(Archive& archive, Choices& choices) {
+  auto& [definitions, size, integrator, strategy, connect, light_selection, connections, weights, max_depth,
+         rr_depth, ambient, clamp, seed, first_sample, double_precision, lanes, traversal, samples_per_pixel,
+         time_limit, target_error] = choices;
+  archive(definitions, size, integrator, strategy, connect, light_selection, connections, weights, max_depth,
+          rr_depth, ambient, clamp, seed, first_sample, double_precision, lanes, traversal, samples_per_pixel,
+          time_limit, target_error);
+}
+
+// But for where it runs.
+template<class Archive>
+void serialize(Archive& archive, Settings& settings) {
+  auto& [integrator, strategy, connect, weights, light_selection, connections, techniques, ambient, clamp,
+         samples_per_pixel, time_limit, target_error, max_depth, rr_depth, seed, first_sample, devices, lanes,
+         double_precision, traversal, kernel_dir, launch_seconds] = settings;
+  archive(integrator, strategy, connect, weights, light_selection, connections, techniques, ambient, clamp,
+          samples_per_pixel, time_limit, target_error, max_depth, rr_depth, seed, first_sample,
+          double_precision);
+}
+
+template<class Archive>
+void serialize(Archive& archive, Launch& launch) {
+  auto& [first_job, jobs, first_sample, block_samples] = launch;
+  archive(first_job, jobs, first_sample, block_samples);
+}
+
+template<class Archive>
+void serialize(Archive& archive, Place& place) {
+  auto& [sample, pixel, block_samples, missing] = place;
+  archive(sample, pixel, block_samples, missing);
+}
+
+template<class Archive>
+void serialize(Archive& archive, Origin& origin) {
+  auto& [pixel, sample, samples] = origin;
+  archive(pixel, sample, samples);
+}
+
+template<class Archive>
+void serialize(Archive& archive, Counts& counts) {
+  auto& [paths, rays, shadow_rays, nonfinite, first_nonfinite] = counts;
+  archive(paths, rays, shadow_rays, nonfinite, first_nonfinite);
+}
+
+template<class Archive>
+void serialize(Archive& archive, Standing& standing) {
+  archive(static_cast<Counts&>(standing), standing.place, standing.seconds_render);
+}
+
+} // namespace phlux::render
+
+namespace phlux::checkpoint {
+
+template<class Archive>
+void serialize(Archive& archive, Session& session) {
+  auto& [scene, scene_digest, choices, settings, standing] = session;
+  archive(scene, scene_digest, choices, settings, standing);
+}
+
+namespace {
+
+// To be raised with every change of what is written: tests/checkpoint has the length of a small file.
+constexpr int format_version = 1;
+constexpr std::string_view magic = "phlux checkpoint ";
+
+std::string digest_of(std::string_view bytes) {
+  const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());
+  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+}
+
+// Of the same length whatever the rest is.
+std::string first_line(std::string_view rest) {
+  return fmt::format("{}{} {} {:020}\n", magic, format_version, digest_of(rest), rest.size());
+}
+
+[[noreturn]] void fail(const std::filesystem::path& file, const std::string& what) {
+  throw SceneError(fmt::format("{}: {}", file.string(), what));
+}
+
+constexpr const char* remedy = "name an earlier checkpoint, or leave out --resume to begin anew";
+
+std::string text_of(const std::filesystem::path& file) {
+  std::error_code error;
+  if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error))
+    fail(file, "is no file: --resume takes one that --checkpoint has written");
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream)
+    fail(file, fmt::format("cannot be read: {}: --resume takes a file that --checkpoint has written",
+                           std::strerror(errno)));
+  std::string line(first_line("").size(), '\0');
+  stream.read(line.data(), static_cast<std::streamsize>(line.size()));
+  line.resize(static_cast<std::size_t>(stream.gcount()));
+  if (!line.starts_with(magic))
+    fail(file, "is no checkpoint of phlux: --resume takes a file that --checkpoint has written");
+  const std::string version = line.substr(magic.size(), line.find(' ', magic.size()) - magic.size());
+  if (version != std::to_string(format_version))
+    fail(file, fmt::format("is a checkpoint of format {}, and this is phlux " PHLUX_VERSION
+                           ", which reads format {}: go on with the phlux that wrote it, or leave out "
+                           "--resume to begin anew",
+                           version, format_version));
+  std::string rest(std::istreambuf_iterator<char>(stream), {});
+  if (line == first_line(rest)) return rest;
+  const bool short_of =
+      !line.ends_with('\n') || line.substr(line.rfind(' ')) != fmt::format(" {:020}\n", rest.size());
+  fail(file, fmt::format("{}: {}", short_of ? "is not whole" : "is damaged", remedy));
+}
+
+} // namespace
+
+std::string encode(const Session& session, const film::Film& film) {
+  const std::string place_holder = first_line("");
+  std::ostringstream stream(place_holder, std::ios::binary | std::ios::ate);
+  {
+    cereal::PortableBinaryOutputArchive archive(stream);
+    archive(session, film);
+  }
+  std::string bytes = std::move(stream).str();
+  const std::string_view rest = std::string_view(bytes).substr(place_holder.size());
+  bytes.replace(0, place_holder.size(), first_line(rest));
+  return bytes;
+}
+
+Checkpoint read(const std::filesystem::path& file) {
+  std::istringstream stream(text_of(file), std::ios::binary);
+  Checkpoint result{{}, film::Film(1, 1)};
+  try {
+    cereal::PortableBinaryInputArchive archive(stream);
+    archive(result.session, result.film);
+  } catch (const cereal::Exception&) { // the digest is right, and the file was made by nobody's phlux
+    fail(file, fmt::format("is damaged: {}", remedy));
+  }
+  return result;
+}
+
+} // namespace phlux::checkpoint

@@ -1,0 +1,58 @@
+#include "cli/checkpoints.h"
+
+#include <spdlog/spdlog.h>
+
+#include "files/output.h"
+
+namespace phlux::cli {
+
+std::optional<checkpoint::Checkpoint> resumed(RenderOptions& options) {
+  if (options.resume.empty()) return std::nullopt;
+  checkpoint::Checkpoint earlier = checkpoint::read(options.resume);
+  options.complete(earlier.session.choices);
+  return earlier;
+}
+
+Checkpoints::Checkpoints(std::filesystem::path file, const RenderOptions& options,
+                         checkpoint::Session session)
+    : file_(std::move(file)), session_(std::move(session)),
+      between_(std::chrono::duration_cast<Clock::duration>(
+          std::chrono::duration<double>(options.checkpoint_seconds.value_or(default_checkpoint_seconds)))),
+      next_(Clock::now() + between_) {
+  if (!file_.empty() && options.resume.empty() && std::filesystem::is_regular_file(file_))
+    spdlog::warn("--checkpoint {}: takes the place of an earlier one, from which --resume would go on",
+                 file_.string());
+}
+
+void Checkpoints::wait() {
+  try {
+    if (writing_.valid()) writing_.get();
+  } catch (const WriteError& error) {
+    spdlog::warn("{}: rendering goes on, with another try later", error.what());
+  }
+}
+
+void Checkpoints::update(const film::Film& film, const render::Progress& progress) {
+  if (file_.empty() || Clock::now() < next_) return;
+  if (writing_.valid() && writing_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+  wait();
+  session_.standing = progress.standing();
+  writing_ = std::async(std::launch::async, [file = file_, bytes = checkpoint::encode(session_, film)] {
+    files::write_file(file, bytes);
+  });
+  next_ = Clock::now() + between_;
+}
+
+std::optional<WriteError> Checkpoints::finish(const film::Film& film, const render::Standing& standing) {
+  if (file_.empty()) return std::nullopt;
+  wait();
+  session_.standing = standing;
+  try {
+    files::write_file(file_, checkpoint::encode(session_, film));
+  } catch (const WriteError& error) {
+    return error;
+  }
+  return std::nullopt;
+}
+
+} // namespace phlux::cli

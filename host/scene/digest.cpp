@@ -1,0 +1,123 @@
+#include "scene/digest.h"
+
+#include <array>
+#include <bit>
+#include <concepts>
+#include <memory>
+
+#include <xxhash.h>
+
+namespace phlux::scene {
+namespace {
+
+// Takes a scene apart by structured bindings, which do not compile when a member is added and forgotten here.
+// Every value has the same bytes on every machine, and every list begins with its length.
+class Digest {
+public:
+  Digest() : state_(XXH3_createState(), XXH3_freeState) { XXH3_128bits_reset(state_.get()); }
+
+  template<class... Values>
+  void add(const Values&... values) {
+    (add_one(values), ...);
+  }
+
+  [[nodiscard]] std::string text() const {
+    XXH128_canonical_t bytes;
+    XXH128_canonicalFromHash(&bytes, XXH3_128bits_digest(state_.get()));
+    std::string result;
+    for (const unsigned char byte : bytes.digest) {
+      result += "0123456789abcdef"[byte >> 4];
+      result += "0123456789abcdef"[byte & 15];
+    }
+    return result;
+  }
+
+private:
+  void add_word(std::uint32_t word) {
+    const std::array<unsigned char, 4> bytes = {
+        static_cast<unsigned char>(word), static_cast<unsigned char>(word >> 8),
+        static_cast<unsigned char>(word >> 16), static_cast<unsigned char>(word >> 24)};
+    XXH3_128bits_update(state_.get(), bytes.data(), bytes.size());
+  }
+
+  template<std::integral Value>
+  void add_one(Value value) {
+    add_word(static_cast<std::uint32_t>(value));
+  }
+  template<class Value>
+  requires std::is_enum_v<Value>
+  void add_one(Value value) { add_word(static_cast<std::uint32_t>(value)); }
+  void add_one(float value) { add_word(std::bit_cast<std::uint32_t>(value == 0.0F ? 0.0F : value)); }
+  void add_one(double value) { add_one(static_cast<float>(value)); }
+  void add_one(const Vec3& v) { add(v.x, v.y, v.z); }
+  void add_one(const glm::vec3& v) { add(v.x, v.y, v.z); }
+  void add_one(const std::array<std::uint32_t, 3>& corners) { add(corners[0], corners[1], corners[2]); }
+
+  template<class Value>
+  void add_one(const std::vector<Value>& values) {
+    add_word(static_cast<std::uint32_t>(values.size()));
+    for (const Value& value : values) add_one(value);
+  }
+  template<class Value>
+  void add_one(const std::optional<Value>& value) {
+    add(value.has_value());
+    if (value) add_one(*value);
+  }
+
+  void add_one(const Material& material) {
+    const auto& [kind, diffuse, specular, exponent_u, exponent_v, two_sided] = material;
+    add(kind, diffuse, specular, exponent_u, exponent_v, two_sided);
+  }
+  void add_one(const Surface& surface) {
+    const auto& [material, area_emitter] = surface;
+    add(material, area_emitter);
+  }
+  void add_one(const AreaEmitter& emitter) {
+    const auto& [radiance] = emitter;
+    add(radiance);
+  }
+  void add_one(const Patch& patch) {
+    const auto& [region, origin, edge_u, edge_v, surface] = patch;
+    add(region, origin, edge_u, edge_v, surface);
+  }
+  void add_one(const Sphere& sphere) {
+    const auto& [center, radius, front_is_inside, surface] = sphere;
+    add(center, radius, front_is_inside, surface);
+  }
+  void add_one(const Mesh& mesh) {
+    const auto& [positions, normals, triangles, surface] = mesh;
+    add(positions, normals, triangles, surface);
+  }
+  void add_one(const PointLight& light) {
+    const auto& [position, intensity] = light;
+    add(position, intensity);
+  }
+  void add_one(const SpotLight& light) {
+    const auto& [position, direction, intensity, cutoff_angle, beam_width] = light;
+    add(position, direction, intensity, cutoff_angle, beam_width);
+  }
+  void add_one(const DirectionalLight& light) {
+    const auto& [direction, irradiance] = light;
+    add(direction, irradiance);
+  }
+  void add_one(const Camera& camera) {
+    const auto& [position, left, up, forward, tan_half_fov_x, principal_x, principal_y, width, height] =
+        camera;
+    add(position, left, up, forward, tan_half_fov_x, principal_x, principal_y);
+  }
+
+  std::unique_ptr<XXH3_state_t, XXH_errorcode (*)(XXH3_state_t*)> state_;
+};
+
+} // namespace
+
+std::string digest(const Scene& scene) {
+  const auto& [materials, area_emitters, patches, spheres, meshes, point_lights, spot_lights,
+               directional_lights, constant_radiance, camera, defaults] = scene;
+  Digest result;
+  result.add(materials, area_emitters, patches, spheres, meshes, point_lights, spot_lights,
+             directional_lights, constant_radiance, camera);
+  return result.text();
+}
+
+} // namespace phlux::scene

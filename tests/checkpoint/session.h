@@ -1,0 +1,37 @@
+// A small render that tests break off.
+#pragma once
+
+#include "checkpoint/checkpoint.h"
+#include "scene/digest.h"
+#include "scene_file/load.h"
+#include "tested_kernels.h"
+
+/// The Cornell box, of a number of pixels that no number of lanes divides.
+[[nodiscard]] inline phlux::scene::Scene small_box() {
+  return phlux::scene_file::load(PHLUX_SOURCE_DIR "/scenes/cornell-box.xml", {}, std::array{23, 17});
+}
+
+/// A render of it, as far as it came.
+struct Broken {
+  phlux::checkpoint::Session session;
+  phlux::film::Film film{23, 17};
+};
+
+/// Renders on from `broken` until the film has had so many launches more; -1: to the end. What is in flight
+/// then is lost.
+inline void go_on(Broken& broken, int launches = -1) {
+  using namespace phlux;
+  std::optional<Broken> then;
+  render::Events events;
+  events.progress = [&](const render::Progress& progress) {
+    if (launches-- != 0) return true;
+    then = broken;
+    then->session.standing = progress.standing();
+    return false;
+  };
+  broken.session.settings.kernel_dir = test::tested_kernels();
+  const render::Statistics statistics =
+      render::render(small_box(), broken.session.settings, broken.film, events, broken.session.standing);
+  broken.session.standing = statistics;
+  if (then) broken = *then;
+}

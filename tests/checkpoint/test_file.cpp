@@ -1,0 +1,152 @@
+// The file, and what is refused of it.
+#include <catch2/catch.hpp>
+
+#include "checkpoint/checkpoint.h"
+#include "checkpoint/sameness.h"
+#include "errors.h"
+#include "temporary_folder.h"
+
+using namespace phlux;
+using Catch::Contains;
+
+namespace {
+
+film::Film small_film() {
+  film::Film film(3, 2);
+  film.set_unit(4.0);
+  film.use_splats();
+  film.add(1, {{1, 2, 3}, {1, 4, 9}}, 1);
+  film.add_splatting_paths(6);
+  film.add_splat(4, {0.5, 0.25, 0.125});
+  film.use_techniques();
+  film.techniques()->add({2, 1}, 4, {0.5, 0.25, 0.125}, 0.75);
+  return film;
+}
+
+checkpoint::Session small_session() {
+  checkpoint::Session session{
+      .scene = "box.xml", .scene_digest = "1234", .choices = {}, .settings = {}, .standing = {}};
+  session.choices.definitions["a"] = "b";
+  session.choices.seed = 7;
+  session.settings.seed = 7;
+  session.standing.paths = 12;
+  session.standing.first_nonfinite = {3, 1, 2};
+  session.standing.place = {16, 2, 16, {{0, 2, 0, 16}}};
+  session.standing.seconds_render = 2.5;
+  return session;
+}
+
+struct Saved : TemporaryFolder {
+  std::string bytes = checkpoint::encode(small_session(), small_film());
+
+  // What is said of a file with these bytes.
+  [[nodiscard]] std::string refusal(const std::string& text) const {
+    write("c", text);
+    try {
+      static_cast<void>(checkpoint::read(*this / "c"));
+    } catch (const SceneError& error) {
+      return error.what();
+    }
+    return "nothing";
+  }
+};
+
+} // namespace
+
+TEST_CASE("A checkpoint comes back from its file whole") {
+  const Saved saved;
+  saved.write("c", saved.bytes);
+  const checkpoint::Checkpoint read = checkpoint::read(saved / "c");
+  CHECK(checkpoint::encode(read.session, read.film) == saved.bytes);
+  CHECK(read.film.width() == 3);
+  CHECK(read.film.height() == 2);
+  CHECK(read.film.mean(1) == small_film().mean(1));
+  CHECK(read.film.mean(4) == small_film().mean(4));
+  CHECK(read.film.has_variance() == small_film().has_variance());
+  CHECK(read.session.choices.definitions == small_session().choices.definitions);
+  CHECK(read.session.standing.place.missing.size() == 1);
+  CHECK(read.session.standing.first_nonfinite->pixel == 3);
+}
+
+TEST_CASE("The format is that of its version: who changes one raises the other, and then this length") {
+  CHECK(Saved().bytes.substr(0, 19) == "phlux checkpoint 1 ");
+  CHECK(Saved().bytes.size() == 9738);
+}
+
+TEST_CASE("What is no whole checkpoint of this version is refused in a line that says why") {
+  const Saved saved;
+  CHECK(saved.refusal(saved.bytes) == "nothing");
+  CHECK_THAT(saved.refusal(""), Contains("is no checkpoint of phlux"));
+  CHECK_THAT(saved.refusal("<scene version=\"0.6.0\"/>\n"), Contains("is no checkpoint of phlux"));
+  for (const std::size_t length :
+       {std::size_t{20}, std::size_t{60}, std::size_t{74}, saved.bytes.size() / 2, saved.bytes.size() - 1})
+    CHECK_THAT(saved.refusal(saved.bytes.substr(0, length)), Contains("is not whole"));
+  CHECK_THAT(saved.refusal(saved.bytes + "x"), Contains("is not whole"));
+  for (const std::size_t place :
+       {std::size_t{25}, std::size_t{80}, saved.bytes.size() / 2, saved.bytes.size() - 1}) {
+    std::string damaged = saved.bytes;
+    damaged[place] = static_cast<char>(damaged[place] ^ 1);
+    CHECK_THAT(saved.refusal(damaged), Contains("is damaged"));
+  }
+  std::string later = saved.bytes;
+  later[17] = '9';
+  CHECK_THAT(saved.refusal(later), Contains("is a checkpoint of format 9") && Contains("reads format 1"));
+  CHECK_THROWS_WITH(checkpoint::read(saved / "missing"), Contains("missing: cannot be read: No such file"));
+  CHECK_THROWS_WITH(checkpoint::read(saved.path()), Contains("is no file"));
+}
+
+namespace {
+
+std::string refusal(const checkpoint::Session& now, int width = 3) {
+  try {
+    checkpoint::check_same({small_session(), small_film()}, now, width, 2, "c");
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "nothing";
+}
+
+std::string refusal(const std::function<void(render::Settings&)>& change) {
+  checkpoint::Session now = small_session();
+  change(now.settings);
+  return refusal(now);
+}
+
+} // namespace
+
+TEST_CASE("A checkpoint of another image is refused, naming what differs") {
+  using render::Settings;
+  checkpoint::Session now = small_session();
+  now.settings.samples_per_pixel = 32;
+  CHECK(refusal(now) == "nothing");
+  CHECK(refusal(now, 5) ==
+        "c: is of 3x2 pixels, not 5x2: give --size 3x2, or leave out --resume to begin anew");
+  now.scene_digest = "4321";
+  CHECK_THAT(refusal(now), Contains("c: is of another scene, box.xml as it was then: give that"));
+
+  CHECK_THAT(
+      refusal([](Settings& s) { s.integrator = "bidir"; }),
+      Contains(
+          "c: is of a render with --integrator path, not with --integrator bidir: give --integrator path"));
+  CHECK_THAT(refusal([](Settings& s) { s.strategy = "cosine"; }), Contains("--strategy"));
+  CHECK_THAT(refusal([](Settings& s) { s.connect = render::Connect::none; }), Contains("--connect mis"));
+  CHECK_THAT(refusal([](Settings& s) { s.weights = render::Weights::power; }), Contains("--weights balance"));
+  CHECK_THAT(refusal([](Settings& s) { s.light_selection = render::LightSelection::power; }),
+             Contains("--light-selection"));
+  CHECK_THAT(refusal([](Settings& s) { s.connections = 0; }), Contains("--connections 2"));
+  CHECK_THAT(refusal([](Settings& s) { s.techniques = true; }), Contains("leave out --contributions"));
+  CHECK_THAT(refusal([](Settings& s) { s.ambient = 0.5; }), Contains("leave out --ambient"));
+  CHECK_THAT(refusal([](Settings& s) { s.clamp = 5.0; }), Contains("without --clamp, not with --clamp 5"));
+  CHECK_THAT(refusal([](Settings& s) { s.max_depth = 3; }), Contains("--max-depth -1"));
+  CHECK_THAT(refusal([](Settings& s) { s.rr_depth = 3; }), Contains("--rr-depth 5"));
+  CHECK_THAT(refusal([](Settings& s) { s.seed = 8; }), Contains("--seed 7"));
+  CHECK_THAT(refusal([](Settings& s) { s.first_sample = 8; }), Contains("--first-sample 0"));
+  CHECK_THAT(refusal([](Settings& s) { s.double_precision = true; }), Contains("--precision single"));
+}
+
+TEST_CASE("A checkpoint with more samples than are asked for is refused") {
+  CHECK_THAT(
+      refusal([](render::Settings& s) { s.samples_per_pixel = 31; }),
+      Contains("has 32 samples per pixel already, and --spp 31 asks for fewer: give --spp 32 or more"));
+  CHECK(refusal([](render::Settings& s) { s.time_limit = 1.0; }) == "nothing");
+}

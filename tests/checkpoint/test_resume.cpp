@@ -1,0 +1,92 @@
+// A render that goes on from a checkpoint is the one that never stopped.
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "checkpoint/session.h"
+#include "temporary_folder.h"
+
+using namespace phlux;
+
+namespace {
+
+Broken begun(const std::string& integrator, int samples, double launch_seconds = 0.001) {
+  Broken broken;
+  broken.session.settings.integrator = integrator;
+  broken.session.settings.samples_per_pixel = samples;
+  broken.session.settings.seed = 5;
+  broken.session.settings.launch_seconds = launch_seconds;
+  return broken;
+}
+
+// All that there is to know of it.
+std::string bytes_of(Broken broken) {
+  broken.session.standing.seconds_render = 0.0;
+  return checkpoint::encode(broken.session, broken.film);
+}
+
+void through_a_file(Broken& broken) {
+  const TemporaryFolder folder;
+  folder.write("c", checkpoint::encode(broken.session, broken.film));
+  checkpoint::Checkpoint read = checkpoint::read(folder / "c");
+  read.session.settings.launch_seconds = broken.session.settings.launch_seconds;
+  broken = {std::move(read.session), std::move(read.film)};
+}
+
+// Largest difference of two images, relative to their mean.
+double difference(const film::Film& a, const film::Film& b) {
+  double largest = 0.0, sum = 0.0;
+  for (std::size_t pixel = 0; pixel < a.pixels().size(); ++pixel)
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      largest = std::max(largest, std::abs(a.mean(pixel)[channel] - b.mean(pixel)[channel]));
+      sum += a.mean(pixel)[channel];
+    }
+  return largest / (sum / (3.0 * static_cast<double>(a.pixels().size())));
+}
+
+constexpr double rounding = 1e-5; // of a pixel much brighter than the mean, in float32 sums
+
+} // namespace
+
+TEST_CASE("A render that was broken off, and again, has the film and counts of one that was not") {
+  const std::string integrator = GENERATE("path", "light", "bidir");
+  CAPTURE(integrator);
+  Broken whole = begun(integrator, 180, 0.05);
+  go_on(whole);
+  REQUIRE(whole.session.standing.place.end() == 180);
+
+  Broken broken = begun(integrator, 180);
+  go_on(broken, 2);
+  CHECK_FALSE(broken.session.standing.place.missing.empty()); // a launch that was in flight
+  through_a_file(broken);
+  const std::uint64_t paths = broken.session.standing.paths;
+  go_on(broken, 3);
+  CHECK(broken.session.standing.paths > paths);
+  CHECK(broken.session.standing.paths < whole.session.standing.paths);
+  through_a_file(broken);
+  go_on(broken);
+  CHECK((bytes_of(broken) == bytes_of(whole))); // too long to print
+}
+
+TEST_CASE("A render goes on to more samples, and from one that time was to end") {
+  const bool open_ended = GENERATE(false, true);
+  Broken whole = begun("path", 100);
+  go_on(whole);
+  Broken broken = begun("path", 10);
+  if (open_ended) broken.session.settings.time_limit = 1000.0;
+  go_on(broken, open_ended ? 5 : -1);
+  broken.session.settings.time_limit.reset();
+  broken.session.settings.samples_per_pixel = 100;
+  go_on(broken);
+  CHECK(broken.session.standing.paths == whole.session.standing.paths);
+  CHECK(broken.session.standing.rays == whole.session.standing.rays); // the same samples
+  CHECK(difference(broken.film, whole.film) < rounding);
+}
+
+TEST_CASE("Samples from a number on are those that come after that many") {
+  Broken whole = begun("path", 40), first = begun("path", 20), second = begun("path", 20);
+  second.session.settings.first_sample = 20;
+  for (Broken* broken : {&whole, &first, &second}) go_on(*broken);
+  CHECK(first.session.standing.rays + second.session.standing.rays == whole.session.standing.rays);
+  CHECK(first.session.standing.rays != second.session.standing.rays);
+}

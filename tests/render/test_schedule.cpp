@@ -1,0 +1,107 @@
+// How samples are cut into launches, and how a schedule goes on where another one stopped.
+#include "render/schedule.h"
+
+#include <catch2/catch.hpp>
+
+using namespace phlux::render;
+
+namespace {
+
+constexpr std::int64_t pixels = 7;
+
+// A block of one pixel: what the film gets in one addition.
+struct Job {
+  std::int64_t pixel, first_sample;
+  int samples;
+  bool operator==(const Job&) const = default;
+};
+
+// `most` launches of at most `jobs` jobs.
+std::vector<Job> jobs_of(Schedule& schedule, std::int64_t jobs, int most = 1000) {
+  std::vector<Job> all;
+  for (int i = 0; i < most; ++i) {
+    const auto launch = schedule.next([&](std::int64_t, int) { return jobs; });
+    if (!launch) break;
+    REQUIRE(launch->first_job < pixels);
+    for (std::int64_t job = launch->first_job; job < launch->first_job + launch->jobs; ++job)
+      all.push_back(
+          {job % pixels, launch->first_sample + job / pixels * launch->block_samples, launch->block_samples});
+  }
+  return all;
+}
+
+// Samples of every pixel, each of which may come once.
+std::vector<std::vector<int>> samples_in(const std::vector<Job>& jobs) {
+  std::vector<std::vector<int>> counts(pixels);
+  for (const Job& job : jobs) {
+    auto& count = counts[static_cast<std::size_t>(job.pixel)];
+    const auto end = static_cast<std::size_t>(job.first_sample + job.samples);
+    if (count.size() < end) count.resize(end);
+    for (auto i = static_cast<std::size_t>(job.first_sample); i < end; ++i) ++count[i];
+  }
+  return counts;
+}
+
+} // namespace
+
+TEST_CASE("a schedule goes on where another stopped with the jobs that were to come, in their order") {
+  const std::optional<std::int64_t> samples = GENERATE(std::optional<std::int64_t>(), 8, 16, 75);
+  const int most = samples ? 1000 : 60;
+  for (const std::int64_t length : {1, 3, 7, 10}) {
+    Schedule whole(pixels, samples);
+    const std::vector<Job> all = jobs_of(whole, length, most);
+    for (int launches = 0; launches <= 40; launches += 3) {
+      CAPTURE(samples.value_or(0), length, launches);
+      Schedule first(pixels, samples);
+      std::vector<Job> jobs = jobs_of(first, length, launches);
+      Schedule second(pixels, samples, first.place());
+      const std::vector<Job> rest = jobs_of(second, length, most);
+      jobs.insert(jobs.end(), rest.begin(), rest.end());
+      jobs.resize(std::min(jobs.size(), all.size())); // without an end the two were stopped at different jobs
+      CHECK(jobs == std::vector<Job>(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(jobs.size())));
+    }
+  }
+}
+
+TEST_CASE("what is missing is handed out first, however it is cut") {
+  Place place{32, 5, samples_per_block, {{3, 10, 16, 16}, {6, 2, 32, 16}}};
+  Schedule schedule(pixels, 64, place);
+  const std::vector<Job> jobs = jobs_of(schedule, 4);
+  CHECK(jobs.front() == Job{3, 16, 16});
+  CHECK(jobs[4] == Job{0, 32, 16});
+  CHECK(jobs[10] == Job{6, 32, 16});
+  CHECK(jobs[11] == Job{0, 48, 16});
+  CHECK(jobs[12] == Job{5, 32, 16});
+  CHECK(jobs.size() == 12 + 2 + pixels);
+
+  Schedule begun(pixels, 64, place);
+  CHECK(jobs_of(begun, 4, 2).size() == 8);
+  const Place later = begun.place();
+  REQUIRE(later.missing.size() == 2);
+  CHECK(later.missing[0].first_job == 4);
+  CHECK(later.missing[0].jobs == 2);
+  CHECK(later.missing[0].first_sample == 32);
+  CHECK(later.sample == 32);
+  CHECK(later.pixel == 5);
+}
+
+TEST_CASE("a schedule with another number of samples goes on without a gap and without repeating any") {
+  const std::optional<std::int64_t> before = GENERATE(std::optional<std::int64_t>(), 5, 20, 32);
+  for (const std::int64_t after : {32, 37, 64, 100})
+    for (int launches = 1; launches <= 11; ++launches) {
+      CAPTURE(before.value_or(0), after, launches);
+      Schedule first(pixels, before);
+      std::vector<Job> jobs = jobs_of(first, 4, launches);
+      const Place place = first.place();
+      if (place.end() > after) continue;
+      Schedule second(pixels, after, place);
+      const std::vector<Job> rest = jobs_of(second, 5);
+      jobs.insert(jobs.end(), rest.begin(), rest.end());
+      const std::vector<int> once(static_cast<std::size_t>(after), 1);
+      CHECK(samples_in(jobs) == std::vector<std::vector<int>>(pixels, once));
+      // Whole blocks again as soon as there can be.
+      for (const Job& job : rest)
+        CHECK((job.samples == samples_per_block || job.first_sample == place.sample ||
+               job.first_sample % samples_per_block != 0 || job.first_sample + job.samples == after));
+    }
+}
