@@ -215,6 +215,17 @@ void add_compare(CLI::App& program, std::optional<Command>& command) {
   app.final_callback([&command, options] { command = [options] { return compare(*options); }; });
 }
 
+void add_merge(CLI::App& program, std::optional<Command>& command) {
+  CLI::App& app = *program.add_subcommand("merge", "Makes one image of several renders of a scene");
+  const auto options = std::make_shared<MergeOptions>();
+  app.add_option("A.exr B.exr", options->images, "renders of different seeds, or of different samples of one")
+      ->type_name("")
+      ->required();
+  app.add_option("-o,--output", options->output, "the merged image")->type_name("OUT.exr")->required();
+  app.footer("Images are weighted by their samples. The variance of the mean is merged where all have it.");
+  app.final_callback([&command, options] { command = [options] { return merge(*options); }; });
+}
+
 std::vector<std::string> option_names(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::Option* option : app.get_options()) {
@@ -281,6 +292,7 @@ std::optional<Command> parse(int argc, char** argv) {
   add_render(program, command);
   add_devices(program, command);
   add_compare(program, command);
+  add_merge(program, command);
   add_bench(program, command);
   add_verify(program, command);
   try {

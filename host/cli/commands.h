@@ -15,6 +15,9 @@ namespace phlux::cli {
 /// and an image that cannot be compared in full should fail a check.
 [[nodiscard]] int compare(const CompareOptions& options);
 
+/// 0.
+[[nodiscard]] int merge(const MergeOptions& options);
+
 /// 0, or 1 when a check failed; then histograms of what failed are in the working directory.
 [[nodiscard]] int verify(const VerifyOptions& options);
 

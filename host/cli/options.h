@@ -32,6 +32,11 @@ struct CompareOptions {
   bool json = false;
 };
 
+struct MergeOptions {
+  std::vector<std::filesystem::path> images;
+  std::filesystem::path output;
+};
+
 struct DevicesOptions {
   bool json = false;
 };

@@ -1,0 +1,27 @@
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include "cli/commands.h"
+#include "errors.h"
+#include "files/exr.h"
+#include "files/merge.h"
+#include "files/output.h"
+
+namespace phlux::cli {
+
+int merge(const MergeOptions& options) {
+  if (options.images.size() < 2)
+    throw UsageError(
+        fmt::format("merge {}: one image: two or more are merged", options.images.front().string()));
+  files::check_writable(options.output);
+  files::Merger merger;
+  for (const std::filesystem::path& file : options.images) merger.add(file.string(), files::read_exr(file));
+  for (const std::string& note : merger.notes()) spdlog::warn("{}", note);
+  const files::Image image = merger.result();
+  files::write_exr(options.output, image);
+  fmt::print("{}: {}x{}, {:.6g} samples per pixel of {} images\n", options.output.string(), image.width,
+             image.height, image.info.samples, options.images.size());
+  return 0;
+}
+
+} // namespace phlux::cli

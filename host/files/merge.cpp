@@ -1,0 +1,152 @@
+#include "files/merge.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "errors.h"
+
+namespace phlux::files {
+namespace {
+
+constexpr std::array<const char*, 3> radiance_names = {"R", "G", "B"};
+constexpr std::array<const char*, 3> variance_names = {"variance.R", "variance.G", "variance.B"};
+constexpr const char* biased_strategy = "lobe-estimate-printed";
+
+bool has(const Image& image, const std::array<const char*, 3>& names) {
+  return std::ranges::all_of(names, [&](const char* name) { return image.channels.contains(name); });
+}
+
+void add_weighted(const Image& image, const std::array<const char*, 3>& names, double weight,
+                  std::array<std::vector<double>, 3>& sums) {
+  for (std::size_t channel = 0; channel < names.size(); ++channel) {
+    const std::vector<float>& values = image.channels.at(names[channel]);
+    sums[channel].resize(values.size());
+    for (std::size_t pixel = 0; pixel < values.size(); ++pixel)
+      sums[channel][pixel] += weight * static_cast<double>(values[pixel]);
+  }
+}
+
+void write_channels(const std::array<std::vector<double>, 3>& sums, double factor,
+                    const std::array<const char*, 3>& names, Image& image) {
+  for (std::size_t channel = 0; channel < names.size(); ++channel)
+    for (const double sum : sums[channel])
+      image.channels[names[channel]].push_back(static_cast<float>(factor * sum));
+}
+
+std::string bias_of(const RenderInfo& info) {
+  if (info.clamp) return fmt::format("was rendered with --clamp {:g}, a bias", *info.clamp);
+  if (info.strategy.find(biased_strategy) != std::string::npos)
+    return fmt::format("was rendered with --strategy {}, which has a bias", biased_strategy);
+  return "is without bias";
+}
+
+std::string method_of(const RenderInfo& info) {
+  return info.integrator + " " + info.strategy;
+}
+
+void append(const std::string& text, std::string& list) {
+  if ((", " + list + ", ").find(", " + text + ", ") == std::string::npos) list += ", " + text;
+}
+
+void add_info(const RenderInfo& info, RenderInfo& all) {
+  const double samples = all.samples + info.samples;
+  all.clamped_share = (all.samples * all.clamped_share + info.samples * info.clamped_share) / samples;
+  all.samples = samples;
+  all.seconds += info.seconds;
+  all.ranges.insert(all.ranges.end(), info.ranges.begin(), info.ranges.end());
+  append(info.integrator, all.integrator);
+  append(info.strategy, all.strategy);
+  append(info.device, all.device);
+  append(info.driver, all.driver);
+}
+
+bool overlap(const SampleRange& a, const SampleRange& b) {
+  return a.seed == b.seed && a.first < b.end && b.first < a.end;
+}
+
+// Two images that share samples would count them twice, and the variance would be wrong.
+void check_ranges(const std::string& name, const RenderInfo& info, const std::string& other_name,
+                  const RenderInfo& other) {
+  for (const SampleRange& range : info.ranges)
+    for (const SampleRange& taken : other.ranges)
+      if (overlap(range, taken))
+        throw SceneError(fmt::format(
+            "{}: has samples {} to {} of seed {}, and {} has samples {} to {}: render one of them with "
+            "another --seed, or with --first-sample {}",
+            name, range.first, range.end - 1, range.seed, other_name, taken.first, taken.end - 1, taken.end));
+}
+
+} // namespace
+
+void Merger::check(const Source& source, const Image& image) const {
+  const auto& [name, info, variance] = source;
+  if (!has(image, radiance_names))
+    throw SceneError(fmt::format("{}: lacks a channel of R, G and B: name a render of phlux", name));
+  if (!(info.samples > 0.0) || info.ranges.empty())
+    throw SceneError(
+        fmt::format("{}: does not say which samples it has, to weigh it by: name a render of phlux", name));
+  if (sources_.empty()) return;
+  const std::string& first = sources_.front().name;
+  const RenderInfo& other = sources_.front().info;
+  if (image.width != width_ || image.height != height_)
+    throw SceneError(
+        fmt::format("{}: is {}x{} pixels, but {} is {}x{}: only images of one size can be merged", name,
+                    image.width, image.height, first, width_, height_));
+  if (info.scene_digest != other.scene_digest)
+    throw SceneError(fmt::format("{}: is of another scene ({}) than {} ({}): only images of one scene can be "
+                                 "merged",
+                                 name, info.scene, first, other.scene));
+  if (info.max_depth != other.max_depth)
+    throw SceneError(
+        fmt::format("{}: has paths of --max-depth {}, but {} of {}: only images of the same light "
+                    "can be merged",
+                    name, info.max_depth, first, other.max_depth));
+  if (bias_of(info) != bias_of(other))
+    throw SceneError(fmt::format("{}: {}, but {} {}: only images with the same bias, or none, can be merged",
+                                 name, bias_of(info), first, bias_of(other)));
+  for (const Source& earlier : sources_) check_ranges(name, info, earlier.name, earlier.info);
+}
+
+void Merger::add(const std::string& name, const Image& image) {
+  const Source source{name, image.info, has(image, variance_names)};
+  check(source, image);
+  width_ = image.width;
+  height_ = image.height;
+  const double samples = image.info.samples;
+  add_weighted(image, radiance_names, samples, radiance_);
+  if (source.variance) add_weighted(image, variance_names, samples * samples, variance_);
+  sources_.push_back(source);
+}
+
+Image Merger::result() const {
+  Image image{.width = width_, .height = height_, .channels = {}, .info = sources_.front().info};
+  for (auto source = sources_.begin() + 1; source != sources_.end(); ++source)
+    add_info(source->info, image.info);
+  image.info.version = PHLUX_VERSION;
+  const double samples = image.info.samples;
+  write_channels(radiance_, 1.0 / samples, radiance_names, image);
+  if (std::ranges::all_of(sources_, &Source::variance))
+    write_channels(variance_, 1.0 / (samples * samples), variance_names, image);
+  return image;
+}
+
+std::vector<std::string> Merger::notes() const {
+  std::vector<std::string> notes;
+  const Source& first = sources_.front();
+  for (const Source& source : sources_)
+    if (method_of(source.info) != method_of(first.info)) {
+      notes.push_back(
+          fmt::format("{} is by {}, and {} by {}: the mean is right, but weights by samples are not "
+                      "the best for methods that differ in noise",
+                      source.name, method_of(source.info), first.name, method_of(first.info)));
+      break;
+    }
+  const auto without = std::ranges::find(sources_, false, &Source::variance);
+  if (without != sources_.end() && !std::ranges::none_of(sources_, &Source::variance))
+    notes.push_back(fmt::format("{} has no variance channels: the merged image has none: --moments adds them",
+                                without->name));
+  return notes;
+}
+
+} // namespace phlux::files

@@ -1,0 +1,61 @@
+// phlux merge, as a user runs it.
+#include <algorithm>
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "cli/program.h"
+#include "cli/scenes.h"
+#include "files/exr.h"
+
+using Catch::Contains;
+using phlux::files::read_exr;
+
+TEST_CASE("Renders of the two halves of a seed's samples merge to the render of them all") {
+  const TemporaryFolder place;
+  place.write("scene.xml", good_scene);
+  const auto render = [&](const std::string& samples, const std::string& first, const std::string& image) {
+    REQUIRE(run({{"render", "scene.xml", "-q", "--png", "none", "--moments", "-n", samples, "--first-sample",
+                  first, "-o", image},
+                 place.path(),
+                 {},
+                 {}})
+                .exit_code == 0);
+  };
+  const auto merge = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "merge");
+    return run({arguments, place.path(), {}, {}});
+  };
+  render("32", "0", "all.exr");
+  render("16", "0", "a.exr");
+  render("16", "16", "b.exr");
+  const Outcome outcome = merge({"a.exr", "b.exr", "-o", "merged.exr"});
+  CHECK(outcome.exit_code == 0);
+  CHECK(outcome.out == "merged.exr: 16x12, 32 samples per pixel of 2 images\n");
+  CHECK(outcome.err.empty());
+  const auto all = read_exr(place / "all.exr"), merged = read_exr(place / "merged.exr");
+  CHECK(merged.info.samples == 32.0);
+  CHECK(merged.info.seed == 0);
+  for (const char* name : {"R", "G", "B"}) {
+    const std::vector<float>&expected = all.channels.at(name), &values = merged.channels.at(name);
+    CHECK(std::ranges::equal(values, expected,
+                             [](float x, float y) { return std::abs(x - y) <= 1e-6F * (x + y); }));
+    CHECK(read_exr(place / "a.exr").channels.at(name) != expected);
+  }
+  double variance = 0.0, expected_variance = 0.0;
+  for (std::size_t pixel = 0; pixel < 16 * 12; ++pixel) {
+    variance += merged.channels.at("variance.G")[pixel];
+    expected_variance += all.channels.at("variance.G")[pixel];
+  }
+  CHECK(variance == Approx(expected_variance).epsilon(0.1)); // each half's is about its own mean
+
+  const Outcome twice = merge({"a.exr", "b.exr", "all.exr", "-o", "none.exr"});
+  CHECK(twice.exit_code == 3);
+  CHECK(twice.is_one_line_error());
+  CHECK_THAT(twice.err, Contains("all.exr: has samples 0 to 31 of seed 0, and a.exr has samples 0 to 15"));
+  CHECK(merge({"a.exr", "-o", "none.exr"}).exit_code == 2);
+  CHECK(merge({"a.exr", "b.exr"}).exit_code == 2);
+  CHECK(merge({"a.exr", "scene.xml", "-o", "none.exr"}).exit_code == 3);
+  CHECK(merge({"a.exr", "b.exr", "-o", "nowhere/none.exr"}).exit_code == 5);
+  CHECK_FALSE(place.names().contains("none.exr"));
+}

@@ -1,0 +1,126 @@
+#include "files/merge.h"
+
+#include <catch2/catch.hpp>
+
+#include "errors.h"
+#include "files/exr.h"
+#include "temporary_folder.h"
+
+using namespace phlux::files;
+using Catch::Contains;
+
+namespace {
+
+// 2x1 pixels of one value.
+Image flat(float radiance, float variance, double samples, SampleRange range) {
+  Image image{.width = 2, .height = 1, .channels = {}, .info = {}};
+  for (const char* name : {"R", "G", "B"}) {
+    image.channels[name] = {radiance, radiance};
+    image.channels[std::string("variance.") + name] = {variance, variance};
+  }
+  image.channels["reliability"] = {1, 1};
+  image.info = {.version = "0.0.9",
+                .scene = "box.xml",
+                .scene_digest = "12",
+                .integrator = "path",
+                .strategy = "exact",
+                .samples = samples,
+                .seed = range.seed,
+                .ranges = {range},
+                .max_depth = 8,
+                .device = "a",
+                .driver = "1",
+                .seconds = 2.0,
+                .clamp = {}};
+  return image;
+}
+
+const Image first = flat(1, 0.5, 10, {7, 0, 10}), second = flat(4, 0.25, 30, {8, 0, 30});
+
+std::string refusal(Image other, const std::function<void(Image&)>& change) {
+  change(other);
+  Merger merger;
+  merger.add("a.exr", first);
+  try {
+    merger.add("b.exr", other);
+  } catch (const phlux::SceneError& error) {
+    return error.what();
+  }
+  return "nothing";
+}
+
+std::string refusal(const std::function<void(Image&)>& change) {
+  return refusal(second, change);
+}
+
+} // namespace
+
+TEST_CASE("Images are weighted by their samples, and their variances by the squares of those weights") {
+  Merger merger;
+  merger.add("a.exr", first);
+  merger.add("b.exr", second);
+  CHECK(merger.notes().empty());
+  const TemporaryFolder folder;
+  write_exr(folder / "m.exr", merger.result());
+  const Image merged = read_exr(folder / "m.exr");
+  CHECK(merged.channels.size() == 6);
+  CHECK(merged.channels.at("G") == std::vector<float>(2, (10 * 1 + 30 * 4) / 40.0F));
+  CHECK(merged.channels.at("variance.B") == std::vector<float>(2, (100 * 0.5F + 900 * 0.25F) / 1600));
+  CHECK(merged.info.version == PHLUX_VERSION);
+  CHECK(merged.info.samples == 40.0);
+  CHECK(merged.info.seconds == 4.0);
+  CHECK(merged.info.seed == 7);
+  CHECK(merged.info.ranges == std::vector<SampleRange>{{7, 0, 10}, {8, 0, 30}});
+  CHECK(merged.info.scene_digest == "12");
+  CHECK(merged.info.max_depth == 8);
+  CHECK(merged.info.device == "a");
+
+  Merger more; // a merged image is an image
+  more.add("m.exr", merged);
+  more.add("c.exr", flat(2, 1, 40, {8, 30, 70}));
+  CHECK(more.result().channels.at("R")[0] == Approx((40 * 3.25 + 40 * 2) / 80));
+  CHECK(more.result().info.ranges.size() == 3);
+}
+
+TEST_CASE("Methods without bias may be merged, and what is lost is noted") {
+  Merger merger;
+  Image other = second;
+  other.info.integrator = "bidir";
+  other.channels.erase("variance.G");
+  merger.add("a.exr", first);
+  merger.add("b.exr", other);
+  REQUIRE(merger.notes().size() == 2);
+  CHECK_THAT(merger.notes()[0], Contains("b.exr is by bidir exact, and a.exr by path exact"));
+  CHECK_THAT(merger.notes()[1], Contains("b.exr has no variance channels"));
+  CHECK(merger.result().channels.size() == 3);
+  CHECK(merger.result().info.integrator == "path, bidir");
+  CHECK(merger.result().info.strategy == "exact");
+}
+
+TEST_CASE("What cannot be merged is refused, saying why") {
+  CHECK(refusal([](Image&) {}) == "nothing");
+  CHECK_THAT(refusal([](Image& i) { i.width = 1, i.height = 2; }),
+             Contains("b.exr: is 1x2 pixels, but a.exr is 2x1"));
+  CHECK_THAT(refusal([](Image& i) { i.info.scene_digest = "13"; }), Contains("b.exr: is of another scene"));
+  CHECK_THAT(refusal([](Image& i) { i.info.max_depth = -1; }),
+             Contains("paths of --max-depth -1, but a.exr of 8"));
+  CHECK_THAT(refusal([](Image& i) { i.info.samples = 0; }), Contains("does not say which samples it has"));
+  CHECK_THAT(refusal([](Image& i) { i.info.ranges.clear(); }), Contains("does not say which samples it has"));
+  CHECK_THAT(refusal([](Image& i) { i.channels.erase("G"); }), Contains("lacks a channel of R, G and B"));
+  CHECK_THAT(refusal([](Image& i) { i.info.clamp = 4.0; }),
+             Contains("b.exr: was rendered with --clamp 4, a bias, but a.exr is without bias"));
+  CHECK_THAT(refusal([](Image& i) { i.info.strategy = "lobe-estimate-printed"; }),
+             Contains("which has a bias"));
+  CHECK(refusal([](Image& i) { i.info.strategy = "lobe-estimate"; }) == "nothing");
+}
+
+TEST_CASE("Samples that two images share are refused") {
+  const auto with = [](SampleRange range) {
+    return refusal([&](Image& i) { i.info.ranges = {{9, 0, 5}, range}; });
+  };
+  CHECK_THAT(with({7, 0, 10}),
+             Contains("b.exr: has samples 0 to 9 of seed 7, and a.exr has samples 0 to 9: render"));
+  CHECK_THAT(with({7, 9, 20}), Contains("--first-sample 10"));
+  CHECK(with({7, 10, 20}) == "nothing");
+  CHECK(with({6, 0, 10}) == "nothing");
+}
