@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <optional>
 #include <set>
@@ -29,7 +28,7 @@ constexpr double sharp = 100, sharp_for_eye = 50;
 constexpr int longest_path = 9;       // edges: what is longer carries little
 constexpr double narrow_view = 0.002; // light paths that end in it are few
 constexpr double small_light = 1e-3;  // in SceneFacts' unit
-constexpr double small_spot = 0.02;
+constexpr double small_spot = 0.02, little_power = 0.05;
 
 struct Kind {
   const char* integrator;
@@ -144,21 +143,24 @@ std::optional<Vec3> source(const Surfaces& surfaces, const LightRecord& light, c
   }
 }
 
-// About the size of the place on the nearest surface that a light shines at, as far as its rays in evenly
-// spread directions (Fibonacci's) tell.
-double smallest_spot(const Surfaces& surfaces, const LightRecord& light) {
+// The part of a light's power that falls on surfaces nearer than `near`, as rays in evenly spread directions
+// (Fibonacci's) tell. A light that is larger than that makes no small spot.
+double part_on_near_surfaces(const Surfaces& surfaces, const LightRecord& light, double near) {
   constexpr int directions = 1000;
-  double nearest = std::numeric_limits<double>::infinity();
+  const bool planar = light.kind == LIGHT_PLANAR;
+  if ((planar || light.kind == LIGHT_SPHERE) && static_cast<double>(light.area) > near * near) return 0;
+  double all = 0, part = 0;
   for (int i = 0; i < directions; ++i) {
     const double z = 1 - (2 * i + 1.0) / directions, angle = 2 * std::numbers::pi * i * std::numbers::phi;
     const double across = std::sqrt(1 - z * z);
     const Vec3 way(across * std::cos(angle), across * std::sin(angle), z);
     const std::optional<Vec3> from = source(surfaces, light, way);
     if (!from) continue;
-    if (const auto hit = surfaces.first_hit(*from, way)) nearest = std::min(nearest, hit->distance);
+    const double power = planar ? glm::dot(way, surfaces.middle(light.primitive).normal) : 1;
+    all += power;
+    if (const auto hit = surfaces.first_hit(*from, way); hit && hit->distance < near) part += power;
   }
-  const bool surface = light.kind == LIGHT_PLANAR || light.kind == LIGHT_SPHERE;
-  return surface ? std::hypot(nearest, std::sqrt(static_cast<double>(light.area))) : nearest;
+  return all > 0 ? part / all : 0;
 }
 
 // Whether lobes are too sharp for directions that are chosen without them, so many times in a path: the
@@ -195,8 +197,8 @@ SceneFacts facts_of(const scene::Scene& scene) {
     const double unit = host.lights.unit / (spreads ? std::pow(host.geometry.radius, 2) : 1);
     for (const float power : light.power)
       facts.brightest = std::max(facts.brightest, unit * static_cast<double>(power));
-    facts.smallest_spot =
-        std::min(facts.smallest_spot, smallest_spot(surfaces, light) / host.geometry.radius);
+    facts.in_small_spots += static_cast<double>(light.probability) *
+                            part_on_near_surfaces(surfaces, light, small_spot * host.geometry.radius);
   }
   const double cross_section = std::numbers::pi * host.geometry.radius * host.geometry.radius;
   for (const accel::EmittingPrimitive& light : host.geometry.emitting)
@@ -239,7 +241,7 @@ std::string doubts(const Settings& method, const SceneFacts& facts) {
   if (!sampled_by_shape(method.strategy) && too_sharp(facts.largest_exponent, edges - 1, sharp))
     return "lobes found by chance";
   if (path && method.connect == Connect::none && facts.smallest_light < small_light) return "small light hit";
-  if (path && facts.smallest_spot < small_spot) return "small spot hit";
+  if (path && facts.in_small_spots > little_power) return "small spot hit";
   if (method.integrator == "bidir" && method.weights == Weights::uniform)
     return "connections without weights";
   return "";

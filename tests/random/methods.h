@@ -17,8 +17,8 @@ struct SceneFacts {
   double smallest_light = 1;   ///< area of the smallest emitter / that of the scene's largest cross-section
   double narrowest_view = 1;   ///< of what is about the camera, the part that it would see were all as near
                                ///< to it as the nearest thing in view
-  double smallest_spot = 1;    ///< where a light is next to a surface, the size of the place that it lights
-                               ///< there / the radius: what paths from the eye must hit
+  double in_small_spots = 0;   ///< part of the lights' power that falls on surfaces next to them: spots that
+                               ///< paths from the eye must hit
   bool lights_without_area = false; ///< point, spot or directional: nothing can hit them
 };
 
