@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include <fmt/format.h>
 
-#include "render/schedule.h"
 #include "tested_kernels.h"
 
 namespace phlux::test {
@@ -19,21 +17,9 @@ int part_of(int pixel, int length, int parts) {
   return pixel * parts / length;
 }
 
-device::KernelFiles kernel_files() {
-  const std::filesystem::path folder = tested_kernels();
-  return folder.empty() ? device::KernelFiles() : device::KernelFiles(folder);
-}
-
-// The scenes of a family have the same kernels; building anew what the driver has kept takes 80 ms each time.
-const cl::Program& program_for(const device::Device& device, const render::Parts& parts) {
-  static std::map<std::map<std::string, std::string>, cl::Program> kept;
-  constexpr std::size_t most = 16;
-  std::map<std::string, std::string> key = parts.defines();
-  key["file"] = parts.file();
-  if (const auto found = kept.find(key); found != kept.end()) return found->second;
-  if (kept.size() == most) kept.clear();
-  return kept.emplace(key, device::build(device, kernel_files(), {parts.file(), parts.defines(), {}}).program)
-      .first->second;
+render::Settings by_tested_kernels(render::Settings method) {
+  method.kernel_dir = tested_kernels();
+  return method;
 }
 
 // Three channels of the image, then three of each tile.
@@ -85,39 +71,18 @@ std::string defect_of(const film::Film& film, std::uint64_t nonfinite) {
 } // namespace
 
 RepeatedRender::RepeatedRender(const scene::Scene& scene, const render::Settings& method)
-    : scene_(scene), method_(method), device_(device::open_devices({}).front()),
-      host_(render::prepare(scene, method.traversal, method.lanes)),
-      parts_(render::find_parts(scene, host_.geometry, host_.lights, method, method.lanes)),
-      program_(program_for(device_, parts_)) {}
-
-film::Film RepeatedRender::image(std::uint64_t seed, int samples_per_pixel, std::uint64_t& nonfinite) const {
-  film::Film film(scene_.camera.width, scene_.camera.height);
-  film.set_unit(host_.lights.unit);
-  render::Settings settings = method_;
-  settings.seed = seed;
-  render::Launcher launcher(device_, program_, host_, parts_, settings);
-  render::Schedule schedule(static_cast<std::int64_t>(film.pixels().size()), samples_per_pixel);
-  while (const auto launch = schedule.next(
-             [&](std::int64_t left, int samples) { return launcher.wanted_jobs(left, samples); })) {
-    launcher.enqueue(*launch);
-    launcher.settle();
-    launcher.collect(film);
-  }
-  nonfinite += launcher.take_counts().nonfinite;
-  return film;
-}
+    : prepared_(scene, by_tested_kernels(method)), width_(scene.camera.width), height_(scene.camera.height) {}
 
 RepeatedMeans RepeatedRender::means(std::uint64_t seed, int renders, int samples_per_pixel) const {
-  const Tiles tiles(scene_.camera.width, scene_.camera.height);
+  const Tiles tiles(width_, height_);
   RepeatedMeans result;
   result.names = tiles.names();
   result.renders = renders;
   std::vector<std::vector<double>> all;
   for (int i = 0; i < renders; ++i) {
-    std::uint64_t nonfinite = 0;
-    const film::Film film = image(seed + static_cast<std::uint64_t>(i), samples_per_pixel, nonfinite);
-    if (result.defect.empty()) result.defect = defect_of(film, nonfinite);
-    all.push_back(tiles.means(film));
+    const auto image = prepared_.image(seed + static_cast<std::uint64_t>(i), samples_per_pixel);
+    if (result.defect.empty()) result.defect = defect_of(image.film, image.nonfinite);
+    all.push_back(tiles.means(image.film));
   }
   result.mean.resize(result.names.size());
   result.variance.resize(result.names.size());

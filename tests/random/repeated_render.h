@@ -1,14 +1,11 @@
-// Many renders of one scene by one method, whose kernels are built once.
+// Means of many renders of one scene by one method.
 #pragma once
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
-#include "device/program.h"
-#include "film/film.h"
-#include "render/device_scene.h"
-#include "render/launcher.h"
+#include "render/prepared_render.h"
 
 namespace phlux::test {
 
@@ -28,14 +25,8 @@ public:
   [[nodiscard]] RepeatedMeans means(std::uint64_t seed, int renders, int samples_per_pixel) const;
 
 private:
-  [[nodiscard]] film::Film image(std::uint64_t seed, int samples_per_pixel, std::uint64_t& nonfinite) const;
-
-  const scene::Scene& scene_;
-  render::Settings method_;
-  device::Device device_;
-  render::HostScene host_;
-  render::Parts parts_;
-  cl::Program program_;
+  PreparedRender prepared_;
+  int width_, height_;
 };
 
 } // namespace phlux::test

@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include "render/prepared_render.h"
 #include "sidak.h"
 
 namespace phlux::test {
@@ -27,14 +28,13 @@ render::Settings by(const Method& method, render::Settings settings) {
 
 Repeated repeated(const scene::Scene& scene, const Method& method, render::Settings with, int renders) {
   with = by(method, with);
-  const std::uint64_t first_seed = with.seed;
+  const PreparedRender prepared(scene, with);
   std::vector<Channels> means;
   Repeated result;
   result.renders = renders;
   for (int i = 0; i < renders; ++i) {
-    with.seed = first_seed + static_cast<std::uint64_t>(i);
-    const Render one = render_of(scene, with);
-    CHECK(one.statistics.nonfinite == 0);
+    const auto one = prepared.image(with.seed + static_cast<std::uint64_t>(i), with.samples_per_pixel);
+    CHECK(one.nonfinite == 0);
     const Estimate image = estimate_of(one.film);
     if (i == 0)
       result.image = closed_form(image.width, image.height, std::vector<Channels>(image.mean.size()));
