@@ -54,9 +54,12 @@ public:
     cl_uint index = bind_material(kernel);
     (kernel.setArg(index++, arguments), ...);
     kernel.setArg(index, out);
-    const auto lanes = static_cast<std::size_t>(lanes_);
+    // Of a size that is given: left to it, PoCL would choose one for each launch and build the kernel anew.
+    const std::size_t local = lanes_ == 1 ? 64 : 1, per_group = local * static_cast<std::size_t>(lanes_);
     std::vector<float> result(values);
-    device_.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange((elements + lanes - 1) / lanes));
+    device_.queue.enqueueNDRangeKernel(kernel, cl::NullRange,
+                                       cl::NDRange((elements + per_group - 1) / per_group * local),
+                                       cl::NDRange(local));
     device_.queue.enqueueReadBuffer(out, CL_TRUE, 0, values * sizeof(float), result.data());
     return result;
   } catch (const cl::Error& error) {

@@ -50,12 +50,13 @@ std::uint32_t word_for(double u) {
 
 DeviceModel::DeviceModel(const device::Device& device, const device::KernelFiles& files, int lanes,
                          const std::string& strategy, const render::MaterialTable& materials, bool with_lobe)
-    : device_(device), lanes_(static_cast<std::size_t>(lanes)),
+    : device_(device), lanes_(static_cast<std::size_t>(lanes)), local_size_(lanes == 1 ? 64 : 1),
       program_(device::build(device, files, source_of(strategy, lanes, with_lobe)).program),
       materials_(buffer_of(device, materials.records)), table_(buffer_of(device, materials.reflectivity)) {}
 
 std::size_t DeviceModel::items(std::size_t elements) const {
-  return (elements + lanes_ - 1) / lanes_;
+  const std::size_t per_group = lanes_ * local_size_;
+  return (elements + per_group - 1) / per_group * local_size_;
 }
 
 cl::Buffer DeviceModel::planes(const std::vector<std::uint32_t>& words) const {
@@ -76,7 +77,7 @@ std::vector<float> DeviceModel::run(cl::Kernel& kernel, cl_uint last, std::size_
   std::vector<float> results(work * lanes_ * values);
   const cl::Buffer memory(device_.context, CL_MEM_WRITE_ONLY, results.size() * sizeof(float));
   kernel.setArg(last, memory);
-  device_.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(work), cl::NullRange);
+  device_.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(work), cl::NDRange(local_size_));
   device_.queue.enqueueReadBuffer(memory, CL_TRUE, 0, results.size() * sizeof(float), results.data());
   return results;
 }

@@ -61,6 +61,7 @@ private:
 
   device::Device device_;
   std::size_t lanes_;
+  std::size_t local_size_; // left to PoCL it would differ between launches, and the kernel be built for each
   cl::Program program_;
   cl::Buffer materials_, table_;
 };
