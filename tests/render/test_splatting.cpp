@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "render/integrators.h"
+#include "render/prepared_render.h"
 #include "render/room.h"
 #include "temporary_folder.h"
 
@@ -58,6 +59,16 @@ TEST_CASE("light and bidir: the same seed gives the same bits, whatever the leng
     CHECK(same_bits(render_of(scene, settings).film, first.film));
     settings.seed = 8;
     CHECK_FALSE(same_bits(render_of(scene, settings).film, first.film));
+  }
+}
+
+TEST_CASE("a scene that is prepared once is rendered with each seed as it is by itself, bit for bit") {
+  const scene::Scene scene = shipped("cornell-box", 33, 17);
+  for (const Method& method : both) {
+    CAPTURE(name_of(method));
+    const PreparedRender prepared(scene, with(method, 100));
+    for (const std::uint64_t seed : {7, 8})
+      CHECK(same_bits(prepared.image(seed, 100).film, render_of(scene, with(method, 100, seed)).film));
   }
 }
 
