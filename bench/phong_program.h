@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "device/program.h"
+#include "device/work_groups.h"
 
 namespace phlux::bench {
 
@@ -54,12 +55,10 @@ public:
     cl_uint index = bind_material(kernel);
     (kernel.setArg(index++, arguments), ...);
     kernel.setArg(index, out);
-    // Of a size that is given: left to it, PoCL would choose one for each launch and build the kernel anew.
-    const std::size_t local = lanes_ == 1 ? 64 : 1, per_group = local * static_cast<std::size_t>(lanes_);
     std::vector<float> result(values);
     device_.queue.enqueueNDRangeKernel(kernel, cl::NullRange,
-                                       cl::NDRange((elements + per_group - 1) / per_group * local),
-                                       cl::NDRange(local));
+                                       cl::NDRange(device::items_for(elements, lanes_)),
+                                       cl::NDRange(device::group_size(lanes_)));
     device_.queue.enqueueReadBuffer(out, CL_TRUE, 0, values * sizeof(float), result.data());
     return result;
   } catch (const cl::Error& error) {

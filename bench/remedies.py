@@ -32,7 +32,8 @@ def draw(rows, theme):
         for row in (row for row in rows if row.remedy == remedy):
             i = methods.index(method_of(row))
             y = places[remedy].index(row.place) + 0.2 * (i - (len(methods) - 1) / 2)
-            axes.errorbar(row.gain, y, xerr=[[min(2 * row.gain_standard_error, 0.9 * row.gain)], [2 * row.gain_standard_error]], color=theme.color(i),
+            error = 2 * row.gain_standard_error
+            axes.errorbar(row.gain, y, xerr=[[min(error, 0.9 * row.gain)], [error]], color=theme.color(i),
                           marker=style.MARKERS[i], ls="none", lw=0.8, label=method_of(row))
         axes.axvline(1, color=theme.ink, lw=0.8)
         axes.set_xscale("log")

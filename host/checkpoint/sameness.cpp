@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "errors.h"
+#include "render/names.h"
 
 namespace phlux::checkpoint {
 namespace {
@@ -15,11 +16,6 @@ struct Option {
   std::string value; // empty: left out
 };
 
-template<class Names, class Value>
-const std::string& name_of(const Names& names, Value value) {
-  return names[static_cast<std::size_t>(value)];
-}
-
 std::string text_of(const std::optional<double>& value) {
   return value ? fmt::format("{}", *value) : "";
 }
@@ -28,9 +24,9 @@ std::string text_of(const std::optional<double>& value) {
 std::vector<Option> options_of(const render::Settings& settings) {
   return {{"--integrator", settings.integrator},
           {"--strategy", settings.strategy},
-          {"--connect", name_of(render::connect_names(), settings.connect)},
-          {"--weights", name_of(render::weights_names(), settings.weights)},
-          {"--light-selection", name_of(render::light_selection_names(), settings.light_selection)},
+          {"--connect", render::name_of(settings.connect)},
+          {"--weights", render::name_of(settings.weights)},
+          {"--light-selection", render::name_of(settings.light_selection)},
           {"--connections", std::to_string(settings.connections)},
           {"--contributions", settings.techniques ? "DIR" : ""},
           {"--ambient", text_of(settings.ambient)},

@@ -6,6 +6,7 @@
 
 #include "errors.h"
 #include "render/light_shares.h"
+#include "render/names.h"
 #include "render/quiet_log.h"
 #include "scene/image_size.h"
 
@@ -24,10 +25,10 @@ constexpr Method methods[] = {{"-i path", "path"}, {"-i bidir", "bidir"}, {"-i l
 
 std::string own_options(const Settings& s) {
   std::string text = "-i " + s.integrator;
-  if (s.integrator == "path") text += " --connect " + connect_names()[static_cast<std::size_t>(s.connect)];
-  if (s.integrator == "bidir") text += " --weights " + weights_names()[static_cast<std::size_t>(s.weights)];
+  if (s.integrator == "path") text += " --connect " + name_of(s.connect);
+  if (s.integrator == "bidir") text += " --weights " + name_of(s.weights);
   if (s.light_selection != Settings().light_selection)
-    text += " --light-selection " + light_selection_names()[static_cast<std::size_t>(s.light_selection)];
+    text += " --light-selection " + name_of(s.light_selection);
   if (s.connections != Settings().connections) text += fmt::format(" --connections {}", s.connections);
   return text;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "device/work_groups.h"
 #include "scene_data.h"
 
 namespace phlux::render {
@@ -41,9 +42,9 @@ std::size_t record_words(const Parts& parts) {
 }
 
 Planner::Planner(const device::DeviceInfo& device, const Parts& parts, double launch_seconds)
-    : device_(device), parts_(parts), launch_seconds_(launch_seconds), local_size_(parts.lanes == 1 ? 64 : 1),
-      units_(device.compute_units), first_items_(std::max(work_items(device) / 64, units_)),
-      items_(work_items(device)) {}
+    : device_(device), parts_(parts), launch_seconds_(launch_seconds),
+      local_size_(device::group_size(parts.lanes)), units_(device.compute_units),
+      first_items_(std::max(work_items(device) / 64, units_)), items_(work_items(device)) {}
 
 int Planner::batch_jobs(int block_samples) const {
   return parts_.lanes * least_lane_jobs(parts_.lanes, block_samples);

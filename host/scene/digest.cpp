@@ -5,6 +5,7 @@
 #include <concepts>
 #include <memory>
 
+#include <fmt/format.h>
 #include <xxhash.h>
 
 namespace phlux::scene {
@@ -22,14 +23,8 @@ public:
   }
 
   [[nodiscard]] std::string text() const {
-    XXH128_canonical_t bytes;
-    XXH128_canonicalFromHash(&bytes, XXH3_128bits_digest(state_.get()));
-    std::string result;
-    for (const unsigned char byte : bytes.digest) {
-      result += "0123456789abcdef"[byte >> 4];
-      result += "0123456789abcdef"[byte & 15];
-    }
-    return result;
+    const XXH128_hash_t hash = XXH3_128bits_digest(state_.get());
+    return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
   }
 
 private:

@@ -5,6 +5,8 @@
 #include <cctype>
 #include <cmath>
 
+#include "device/work_groups.h"
+
 namespace phlux::verify {
 namespace {
 
@@ -50,13 +52,12 @@ std::uint32_t word_for(double u) {
 
 DeviceModel::DeviceModel(const device::Device& device, const device::KernelFiles& files, int lanes,
                          const std::string& strategy, const render::MaterialTable& materials, bool with_lobe)
-    : device_(device), lanes_(static_cast<std::size_t>(lanes)), local_size_(lanes == 1 ? 64 : 1),
+    : device_(device), lanes_(lanes),
       program_(device::build(device, files, source_of(strategy, lanes, with_lobe)).program),
       materials_(buffer_of(device, materials.records)), table_(buffer_of(device, materials.reflectivity)) {}
 
-std::size_t DeviceModel::items(std::size_t elements) const {
-  const std::size_t per_group = lanes_ * local_size_;
-  return (elements + per_group - 1) / per_group * local_size_;
+std::size_t DeviceModel::elements_of_groups(std::size_t elements) const {
+  return device::items_for(elements, lanes_) * static_cast<std::size_t>(lanes_);
 }
 
 cl::Buffer DeviceModel::planes(const std::vector<std::uint32_t>& words) const {
@@ -73,18 +74,18 @@ cl::Kernel DeviceModel::kernel(const char* name, int material) const {
 
 std::vector<float> DeviceModel::run(cl::Kernel& kernel, cl_uint last, std::size_t elements,
                                     std::size_t values) const {
-  const std::size_t work = items(elements);
-  std::vector<float> results(work * lanes_ * values);
+  std::vector<float> results(elements_of_groups(elements) * values);
   const cl::Buffer memory(device_.context, CL_MEM_WRITE_ONLY, results.size() * sizeof(float));
   kernel.setArg(last, memory);
-  device_.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(work), cl::NDRange(local_size_));
+  device_.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(device::items_for(elements, lanes_)),
+                                     cl::NDRange(device::group_size(lanes_)));
   device_.queue.enqueueReadBuffer(memory, CL_TRUE, 0, results.size() * sizeof(float), results.data());
   return results;
 }
 
 std::vector<Sample> DeviceModel::run_samples(cl::Kernel& kernel, cl_uint last, std::size_t elements) const {
   const std::vector<float> results = run(kernel, last, elements, sample_values);
-  const std::size_t plane = items(elements) * lanes_;
+  const std::size_t plane = elements_of_groups(elements);
   std::vector<Sample> samples(elements);
   for (std::size_t i = 0; i < elements; ++i) {
     const auto at = [&](std::size_t k) -> double { return results[k * plane + i]; };
@@ -105,7 +106,7 @@ std::vector<Sample> DeviceModel::sample(int material, const Direction& fixed, st
 
 std::vector<Sample> DeviceModel::drive(int material, const Direction& fixed, const std::vector<Words>& words,
                                        bool roulette) const {
-  const std::size_t plane = items(words.size()) * lanes_;
+  const std::size_t plane = elements_of_groups(words.size());
   std::vector<std::uint32_t> arranged(4 * plane);
   for (std::size_t i = 0; i < plane; ++i)
     for (std::size_t k = 0; k < 4; ++k) arranged[k * plane + i] = words[std::min(i, words.size() - 1)][k];
@@ -118,7 +119,7 @@ std::vector<Sample> DeviceModel::drive(int material, const Direction& fixed, con
 }
 
 std::vector<PairValues> DeviceModel::evaluate(int material, const std::vector<Pair>& pairs) const {
-  const std::size_t plane = items(pairs.size()) * lanes_;
+  const std::size_t plane = elements_of_groups(pairs.size());
   std::vector<std::uint32_t> arranged(6 * plane);
   for (std::size_t i = 0; i < plane; ++i) {
     const Pair& pair = pairs[std::min(i, pairs.size() - 1)];
@@ -141,7 +142,7 @@ std::vector<PairValues> DeviceModel::evaluate(int material, const std::vector<Pa
 }
 
 std::vector<Rgb> DeviceModel::reflectivity(int material, const std::vector<double>& cosines) const {
-  const std::size_t plane = items(cosines.size()) * lanes_;
+  const std::size_t plane = elements_of_groups(cosines.size());
   std::vector<std::uint32_t> arranged(plane);
   for (std::size_t i = 0; i < plane; ++i)
     arranged[i] = std::bit_cast<std::uint32_t>(static_cast<float>(cosines[std::min(i, cosines.size() - 1)]));

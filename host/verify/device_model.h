@@ -51,7 +51,8 @@ public:
   [[nodiscard]] std::vector<Rgb> reflectivity(int material, const std::vector<double>& cosines) const;
 
 private:
-  [[nodiscard]] std::size_t items(std::size_t elements) const;
+  // A plane's length: what the lanes of whole groups hold.
+  [[nodiscard]] std::size_t elements_of_groups(std::size_t elements) const;
   [[nodiscard]] cl::Buffer planes(const std::vector<std::uint32_t>& words) const;
   [[nodiscard]] cl::Kernel kernel(const char* name, int material) const;
   /// Runs a kernel whose last argument, number `last`, is its result; returns that.
@@ -60,8 +61,7 @@ private:
   [[nodiscard]] std::vector<Sample> run_samples(cl::Kernel& kernel, cl_uint last, std::size_t elements) const;
 
   device::Device device_;
-  std::size_t lanes_;
-  std::size_t local_size_; // left to PoCL it would differ between launches, and the kernel be built for each
+  int lanes_;
   cl::Program program_;
   cl::Buffer materials_, table_;
 };
