@@ -1,32 +1,25 @@
 // Renders that are broken off and go on, by the program.
 #include <catch2/catch.hpp>
 
-#include "cli/program.h"
-#include "cli/scenes.h"
-#include "files/exr.h"
+#include "cli/workplace.h"
 
 using Catch::Contains;
 using phlux::files::Image;
-using phlux::files::read_exr;
 
 namespace {
 
-class Workplace : public TemporaryFolder {
-public:
-  Workplace() { write("scene.xml", good_scene); }
-
+struct Renders : Workplace {
   Outcome render(std::vector<std::string> arguments,
                  std::optional<std::chrono::milliseconds> interrupt_after = {}) const {
     arguments.insert(arguments.begin(), {"render", "scene.xml", "--png", "none"});
     return run({arguments, path(), {}, interrupt_after});
   }
-  [[nodiscard]] Image image(const std::string& name) const { return read_exr(*this / name); }
 };
 
 } // namespace
 
 TEST_CASE("An interrupted render goes on from its checkpoint to the image of one that was not") {
-  const Workplace place;
+  const Renders place;
   REQUIRE(place.render({"-n", "20", "--seed", "3", "-D", "radiance=10", "-o", "short.exr"}).exit_code == 0);
   const Outcome broken =
       place.render({"--time", "300", "--seed", "3", "-D", "radiance=10", "--checkpoint", "c"},
@@ -57,23 +50,23 @@ TEST_CASE("An interrupted render goes on from its checkpoint to the image of one
 }
 
 TEST_CASE("Checkpoints are written while the render runs, and it goes on from any of them") {
-  const Workplace place;
+  const Renders place;
   REQUIRE(place.render({"-n", "64", "--moments", "-o", "whole.exr"}).exit_code == 0);
   REQUIRE(place.render({"-n", "64", "--checkpoint", "first", "--checkpoint-every", "0.01"}).exit_code == 0);
   REQUIRE(place.render({"-n", "16", "--checkpoint", "second"}).exit_code == 0);
   for (const std::string name : {"first", "second"}) {
-    const std::string before = Workplace::read(place / name);
+    const std::string before = TemporaryFolder::read(place / name);
     REQUIRE(place.render({"--resume", name, "--checkpoint", "none", "-n", "64", "--moments", "-o", "on.exr"})
                 .exit_code == 0);
     CHECK(place.image("on.exr").channels == place.image("whole.exr").channels);
-    CHECK(Workplace::read(place / name) == before);
+    CHECK(TemporaryFolder::read(place / name) == before);
   }
   CHECK_THAT(place.render({"-n", "1", "--checkpoint", "second"}).err,
              Contains("--checkpoint second: takes the place of an earlier one"));
 }
 
 TEST_CASE("What is no checkpoint of this render is refused in one line, and nothing is written") {
-  const Workplace place;
+  const Renders place;
   REQUIRE(place.render({"-n", "2", "--checkpoint", "c", "-o", "a.exr"}).exit_code == 0);
   place.write("other.xml", scene_with(sphere_of("")));
   place.write("foreign", "no checkpoint");
@@ -104,9 +97,9 @@ TEST_CASE("What is no checkpoint of this render is refused in one line, and noth
 
 TEST_CASE(
     "A checkpoint that cannot be written leaves the earlier one, and the image is written all the same") {
-  const Workplace place;
+  const Renders place;
   REQUIRE(place.render({"-n", "2", "--size", "256x256", "--checkpoint", "c"}).exit_code == 0);
-  const std::string before = Workplace::read(place / "c");
+  const std::string before = TemporaryFolder::read(place / "c");
   std::filesystem::remove(place / "scene.exr");
   // Larger than the kernels that the driver keeps, smaller than the checkpoint.
   constexpr std::size_t largest_file = std::size_t{1} << 21;
@@ -120,5 +113,5 @@ TEST_CASE(
   CHECK(outcome.exit_code == 5);
   CHECK_THAT(outcome.err, Contains("c: cannot be written: File too large: make room"));
   CHECK(place.image("scene.exr").info.samples == 4.0);
-  CHECK(Workplace::read(place / "c") == before);
+  CHECK(TemporaryFolder::read(place / "c") == before);
 }

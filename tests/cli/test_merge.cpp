@@ -4,16 +4,12 @@
 
 #include <catch2/catch.hpp>
 
-#include "cli/program.h"
-#include "cli/scenes.h"
-#include "files/exr.h"
+#include "cli/workplace.h"
 
 using Catch::Contains;
-using phlux::files::read_exr;
 
 TEST_CASE("Renders of the two halves of a seed's samples merge to the render of them all") {
-  const TemporaryFolder place;
-  place.write("scene.xml", good_scene);
+  const Workplace place;
   const auto render = [&](const std::string& samples, const std::string& first, const std::string& image) {
     REQUIRE(run({{"render", "scene.xml", "-q", "--png", "none", "--moments", "-n", samples, "--first-sample",
                   first, "-o", image},
@@ -33,14 +29,14 @@ TEST_CASE("Renders of the two halves of a seed's samples merge to the render of 
   CHECK(outcome.exit_code == 0);
   CHECK(outcome.out == "merged.exr: 16x12, 32 samples per pixel of 2 images\n");
   CHECK(outcome.err.empty());
-  const auto all = read_exr(place / "all.exr"), merged = read_exr(place / "merged.exr");
+  const auto all = place.image("all.exr"), merged = place.image("merged.exr");
   CHECK(merged.info.samples == 32.0);
   CHECK(merged.info.seed == 0);
   for (const char* name : {"R", "G", "B"}) {
     const std::vector<float>&expected = all.channels.at(name), &values = merged.channels.at(name);
     CHECK(std::ranges::equal(values, expected,
                              [](float x, float y) { return std::abs(x - y) <= 1e-6F * (x + y); }));
-    CHECK(read_exr(place / "a.exr").channels.at(name) != expected);
+    CHECK(place.image("a.exr").channels.at(name) != expected);
   }
   double variance = 0.0, expected_variance = 0.0;
   for (std::size_t pixel = 0; pixel < 16 * 12; ++pixel) {

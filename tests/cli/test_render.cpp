@@ -4,20 +4,14 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "cli/program.h"
-#include "cli/scenes.h"
+#include "cli/workplace.h"
 #include "device/device.h"
-#include "files/exr.h"
 
 using phlux::files::Image;
-using phlux::files::read_exr;
 
 namespace {
 
-class Workplace : public TemporaryFolder {
-public:
-  Workplace() { write("scene.xml", good_scene); }
-
+struct Renders : Workplace {
   Outcome render(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin(), {"render", "scene.xml"});
     Outcome outcome = run({arguments, path(), {}, {}});
@@ -25,7 +19,6 @@ public:
     REQUIRE(outcome.exit_code == 0);
     return outcome;
   }
-  [[nodiscard]] Image image(const std::string& name = "scene.exr") const { return read_exr(*this / name); }
   [[nodiscard]] nlohmann::json json(const std::string& name) const {
     return nlohmann::json::parse(read(*this / name));
   }
@@ -40,7 +33,7 @@ double mean(const std::vector<float>& values) {
 } // namespace
 
 TEST_CASE("The plain command writes an image and a preview, named after the scene, and says so") {
-  const Workplace place;
+  const Renders place;
   const Outcome outcome = place.render({});
   CHECK(place.names() == std::set<std::string>{"scene.xml", "scene.exr", "scene.png"});
   CHECK(std::ranges::count(outcome.out, '\n') == 1);
@@ -64,7 +57,7 @@ TEST_CASE("The plain command writes an image and a preview, named after the scen
 }
 
 TEST_CASE("Options reach the files") {
-  const Workplace place;
+  const Renders place;
   const Outcome outcome =
       place.render({"-q",         "-n",     "3",         "--size", "20x10",       "--seed",  "7",
                     "--moments",  "-o",     "out.exr",   "--png",  "look.png",    "--stats", "stats.json",
@@ -80,11 +73,11 @@ TEST_CASE("Options reach the files") {
   CHECK(image.info.samples == 3.0);
   CHECK(image.info.seed == 7);
   CHECK(image.info.strategy == "cosine");
-  CHECK_THAT(Workplace::read(place / "look.png"), Catch::StartsWith("\x89PNG"));
+  CHECK_THAT(TemporaryFolder::read(place / "look.png"), Catch::StartsWith("\x89PNG"));
 }
 
 TEST_CASE("Statistics have the contract's keys with values of the right kind") {
-  const Workplace place;
+  const Renders place;
   place.render({"-n", "4", "--stats", "stats.json"});
   const nlohmann::json stats = place.json("stats.json");
   for (const char* key : {"integrator", "strategy", "device", "driver", "kernel_cache", "traversal"}) {
@@ -109,7 +102,7 @@ TEST_CASE("Statistics have the contract's keys with values of the right kind") {
 }
 
 TEST_CASE("The scene says which integrator, unless -i does") {
-  const Workplace place;
+  const Renders place;
   const auto integrator_of = [&](const std::string& plugin, std::vector<std::string> options) {
     std::string scene = good_scene;
     scene.replace(scene.find("\"path\""), 6, '"' + plugin + '"');
@@ -125,7 +118,7 @@ TEST_CASE("The scene says which integrator, unless -i does") {
 }
 
 TEST_CASE("Every width and traversal renders, and --stats says which") {
-  const Workplace place;
+  const Renders place;
   for (const char* width : {"1", "4", "8", "16"})
     for (const char* traversal : {"brute", "bvh"}) {
       CAPTURE(width, traversal);
@@ -139,7 +132,7 @@ TEST_CASE("Every width and traversal renders, and --stats says which") {
 
 TEST_CASE("--precision double renders the same image but for rounding, and --stats says so") {
   if (!phlux::device::open_devices({}).front().info.doubles) return;
-  const Workplace place;
+  const Renders place;
   place.render({"-o", "a.exr", "--width", "1"});
   place.render({"-o", "b.exr", "--precision", "double", "--stats", "stats.json"});
   const nlohmann::json stats = place.json("stats.json");
@@ -152,7 +145,7 @@ TEST_CASE("--precision double renders the same image but for rounding, and --sta
 }
 
 TEST_CASE("The same seed gives the same image, another seed another") {
-  const Workplace place;
+  const Renders place;
   place.render({"--seed", "1", "-o", "a.exr"});
   place.render({"--seed", "1", "-o", "b.exr"});
   place.render({"--seed", "2", "-o", "c.exr"});
@@ -161,7 +154,7 @@ TEST_CASE("The same seed gives the same image, another seed another") {
 }
 
 TEST_CASE("-D reaches the scene") {
-  const Workplace place;
+  const Renders place;
   place.render({"-o", "a.exr"});
   place.render({"-D", "radiance=40", "-o", "b.exr"});
   CHECK(mean(place.image("b.exr").channels.at("R")) ==
@@ -169,7 +162,7 @@ TEST_CASE("-D reaches the scene") {
 }
 
 TEST_CASE("--time and --error decide how many samples there are") {
-  const Workplace place;
+  const Renders place;
   place.render({"--time", "0.5", "--stats", "stats.json"});
   const nlohmann::json timed = place.json("stats.json");
   CHECK(timed["seconds"]["render"] >= 0.45);
@@ -181,7 +174,7 @@ TEST_CASE("--time and --error decide how many samples there are") {
 }
 
 TEST_CASE("An interrupted render writes the image so far and exits with 130") {
-  const Workplace place;
+  const Renders place;
   place.render({"--time", "0.1"}); // fills the kernel cache
   std::filesystem::remove(place / "scene.exr");
   const Outcome outcome = run({{"render", "scene.xml", "--time", "300", "--stats", "stats.json"},
@@ -197,7 +190,7 @@ TEST_CASE("An interrupted render writes the image so far and exits with 130") {
 }
 
 TEST_CASE("One sample has no variance: it is left out, not 0") {
-  const Workplace place;
+  const Renders place;
   const Outcome outcome = place.render({"-n", "1", "--moments", "--stats", "stats.json"});
   CHECK_THAT(outcome.err, Catch::Contains("--moments: a variance takes two samples in every pixel"));
   CHECK(place.image().channels.size() == 3);
@@ -207,7 +200,7 @@ TEST_CASE("One sample has no variance: it is left out, not 0") {
 }
 
 TEST_CASE("Lights beyond what float can square render; variances that a file cannot hold are named") {
-  const Workplace place;
+  const Renders place;
   place.render({"--stats", "plain.json"});
   const Outcome outcome = place.render({"-D", "radiance=2e25", "--moments", "--stats", "bright.json"});
   CHECK_THAT(outcome.err, Catch::Contains("--moments: variance.B has values beyond a float's 3e38"));
@@ -217,13 +210,13 @@ TEST_CASE("Lights beyond what float can square render; variances that a file can
 }
 
 TEST_CASE("--png none leaves the preview out") {
-  const Workplace place;
+  const Renders place;
   place.render({"--png", "none"});
   CHECK(place.names() == std::set<std::string>{"scene.xml", "scene.exr"});
 }
 
 TEST_CASE("--size keeps the field of view along fovAxis") {
-  const Workplace place;
+  const Renders place;
   std::string text = TemporaryFolder::read(place / "scene.xml");
   text.insert(text.find("<float name=\"fov\""), "<string name=\"fovAxis\" value=\"y\"/>");
   place.write("scene.xml", text);
@@ -240,7 +233,7 @@ TEST_CASE("--size keeps the field of view along fovAxis") {
 }
 
 TEST_CASE("An output that is not a regular file is written to, without a preview beside it") {
-  const Workplace place;
+  const Renders place;
   place.render({"-o", "/dev/null"});
   CHECK(std::filesystem::is_character_file("/dev/null"));
   CHECK(place.names() == std::set<std::string>{"scene.xml"});
