@@ -24,9 +24,9 @@ constexpr int rounds = 25;
 constexpr std::size_t elements_of_lane = 8; // of a work item, when timed: they stay in the nearest cache
 
 cl::Program build(const device::Device& device, const device::KernelFiles& files, int lanes, bool native) {
-  std::map<std::string, std::string> defines = {{"WIDTH", std::to_string(lanes)}, {"PHLUX_PHONG_LOBE", "1"}};
+  std::map<std::string, std::string> defines = {{"WIDTH", std::to_string(lanes)}, {"HAS_PHONG_LOBE", "1"}};
   if (native) defines["PHLUX_NATIVE"] = "1";
-  return device::build(device, files, {"arithmetic.cl", defines, {}}).program;
+  return device::build(device, files, {"measure/arithmetic.cl", defines, {}}).program;
 }
 
 double unit_in_last_place(double value) {

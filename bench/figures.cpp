@@ -35,7 +35,7 @@ class FigureKernels {
 public:
   explicit FigureKernels(const FiguresOptions& options)
       : program_(device::open_devices(options.devices).front(), kernel_files(options.kernel_dir),
-                 "figures.cl", "exact", options.lanes),
+                 "measure/figures.cl", "exact", options.lanes),
         seed_{{options.seed, 0}} {
     program_.set_material({diffuse, specular, exponent, incoming_degrees});
   }

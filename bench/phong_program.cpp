@@ -19,10 +19,11 @@ std::map<std::string, std::string> defines(const std::string& strategy, int lane
   const auto found = std::ranges::find(names, strategy);
   if (found == names.end())
     throw UsageError(fmt::format("--strategy {}: there is no such strategy", strategy));
-  more["WIDTH"] = std::to_string(lanes);
-  more["PHLUX_PHONG_LOBE"] = "1";
-  more["PHLUX_STRATEGY"] = std::to_string(found - names.begin() + 1);
-  more["PHONG_TABLE_INTERVALS"] = std::to_string(render::reflectivity_intervals);
+  render::Parts parts;
+  parts.lanes = lanes;
+  parts.phong_lobe = true;
+  parts.strategy = std::to_string(found - names.begin() + 1);
+  more.merge(parts.defines());
   return more;
 }
 

@@ -6,7 +6,7 @@
 
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
-#include "sampling_radiance.h"
+#include "measure/sampling_radiance.h"
 
 namespace phlux::bench {
 namespace {

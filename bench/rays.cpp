@@ -42,7 +42,7 @@ public:
   DeviceRays(const device::Device& device, const device::KernelFiles& files, const render::HostScene& host,
              const render::Parts& parts)
       : device_(device), scene_(device, host, parts), lanes_(parts.lanes),
-        program_(device::build(device, files, {"rays.cl", parts.defines(), {}}).program) {}
+        program_(device::build(device, files, {"measure/rays.cl", parts.defines(), {}}).program) {}
 
   // Seconds that the kernel took, by the device's clock.
   double run(const char* kernel_name, const std::vector<Ray>& rays, std::vector<float>& found) {

@@ -33,7 +33,7 @@ std::vector<float> directions_at(double degrees, int lanes) {
   return values;
 }
 
-constexpr const char* root = "sampling.cl";
+constexpr const char* root = "measure/sampling.cl";
 
 std::map<std::string, std::string> defines() {
   return {{"FIXED_DIRECTIONS", std::to_string(fixed_directions)}};

@@ -7,7 +7,7 @@
 
 #include "bench/radiance.h"
 #include "bench/sampler.h"
-#include "sampling_radiance.h"
+#include "measure/sampling_radiance.h"
 
 using namespace phlux;
 using namespace phlux::bench;
