@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "errors.h"
-#include "render/material_table.h"
 #include "render/parts.h"
+#include "tables/material_table.h"
 
 namespace phlux::bench {
 namespace {

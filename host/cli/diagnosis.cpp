@@ -5,7 +5,7 @@
 #include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
-#include "render/advice.h"
+#include "advice/advice.h"
 
 namespace phlux::cli {
 namespace {

@@ -3,9 +3,9 @@
 
 #include "accel/geometry.h"
 #include "device/device.h"
-#include "render/light_table.h"
-#include "render/material_table.h"
 #include "render/parts.h"
+#include "tables/light_table.h"
+#include "tables/material_table.h"
 
 namespace phlux::render {
 

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "errors.h"
-#include "render/material_table.h"
+#include "tables/material_table.h"
 
 namespace phlux::render {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "accel/geometry.h"
 #include "device/device.h"
-#include "render/light_table.h"
 #include "render/render.h"
+#include "tables/light_table.h"
 
 namespace phlux::render {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "render/material_table.h"
+#include "tables/material_table.h"
 #include "verify/sphere_grid.h"
 #include "verify/strategy.h"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "device/program.h"
-#include "render/material_table.h"
+#include "tables/material_table.h"
 #include "verify/model.h"
 
 namespace phlux::verify {

@@ -6,7 +6,7 @@
 #include "device_test.h"
 #include "material_test.h"
 #include "quadrature.h"
-#include "render/material_table.h"
+#include "tables/material_table.h"
 
 using namespace device_test;
 

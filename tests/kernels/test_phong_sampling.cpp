@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "render/material_table.h"
 #include "sampling_test.h"
+#include "tables/material_table.h"
 
 using namespace device_test;
 
