@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "errors.h"
+#include "phong/reflectivity.h"
 #include "render/parts.h"
 #include "tables/material_table.h"
 
@@ -22,7 +23,7 @@ std::map<std::string, std::string> defines(const std::string& strategy, int lane
   more["WIDTH"] = std::to_string(lanes);
   more["PHLUX_PHONG_LOBE"] = "1";
   more["PHLUX_STRATEGY"] = std::to_string(found - names.begin() + 1);
-  more["PHONG_TABLE_INTERVALS"] = std::to_string(render::reflectivity_intervals);
+  more["PHONG_TABLE_INTERVALS"] = std::to_string(phong::reflectivity_intervals);
   return more;
 }
 
@@ -38,7 +39,7 @@ scene::Material material_of(const Case& one) {
 
 double exact_reflectivity(const Case& one) {
   const double cosine = std::cos(one.degrees * std::numbers::pi / 180);
-  return one.diffuse + one.specular * render::lobe_reflectivity(one.exponent, cosine);
+  return one.diffuse + one.specular * phong::lobe_reflectivity(one.exponent, cosine);
 }
 
 device::KernelFiles kernel_files(const std::filesystem::path& folder) {
@@ -61,7 +62,7 @@ std::string PhongProgram::text(const device::KernelFiles& files, const std::stri
 
 void PhongProgram::set_material(const Case& one) {
   if (one == material_) return;
-  const render::MaterialTable table = render::material_table({material_of(one)});
+  const tables::MaterialTable table = tables::material_table({material_of(one)});
   records_ = upload(table.records);
   reflectivity_ = upload(table.reflectivity.empty() ? std::vector<float>{0} : table.reflectivity);
   material_ = one;

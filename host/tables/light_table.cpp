@@ -7,7 +7,7 @@
 
 #include "tables/light_tree.h"
 
-namespace phlux::render {
+namespace phlux::tables {
 namespace {
 
 using scene::Rgb;
@@ -210,4 +210,4 @@ LightTable light_table(const scene::Scene& scene, accel::Geometry& geometry, boo
   return std::move(collector.table);
 }
 
-} // namespace phlux::render
+} // namespace phlux::tables

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "device/work_groups.h"
+#include "phong/reflectivity.h"
 
 namespace phlux::verify {
 namespace {
@@ -23,7 +24,7 @@ device::ProgramSource source_of(const std::string& strategy, int lanes, bool wit
                                {{"WIDTH", std::to_string(lanes)},
                                 {"PHLUX_GIVEN_WORDS", "1"},
                                 {"PHLUX_STRATEGY", macro_of(strategy)},
-                                {"PHONG_TABLE_INTERVALS", std::to_string(render::reflectivity_intervals)}},
+                                {"PHONG_TABLE_INTERVALS", std::to_string(phong::reflectivity_intervals)}},
                                ""};
   if (with_lobe) source.defines["PHLUX_PHONG_LOBE"] = "1";
   return source;
@@ -51,7 +52,7 @@ std::uint32_t word_for(double u) {
 }
 
 DeviceModel::DeviceModel(const device::Device& device, const device::KernelFiles& files, int lanes,
-                         const std::string& strategy, const render::MaterialTable& materials, bool with_lobe)
+                         const std::string& strategy, const tables::MaterialTable& materials, bool with_lobe)
     : device_(device), lanes_(lanes),
       program_(device::build(device, files, source_of(strategy, lanes, with_lobe)).program),
       materials_(buffer_of(device, materials.records)), table_(buffer_of(device, materials.reflectivity)) {}

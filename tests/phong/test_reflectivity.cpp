@@ -7,7 +7,7 @@
 
 #include <boost/math/quadrature/tanh_sinh.hpp>
 
-#include "tables/material_table.h"
+#include "phong/reflectivity.h"
 
 namespace {
 
@@ -49,13 +49,13 @@ TEST_CASE("lobe_reflectivity is the integral's, by quadrature") {
     for (const double angle : {0.0, 1e-3, 5.0, 30.0, 45.0, 60.0, 75.0, 85.0, 88.0, 89.0, 89.9, 89.99, 90.0}) {
       CAPTURE(exponent, angle);
       const double by_quadrature = reflectivity_by_quadrature(exponent, angle == 90 ? 0.0 : degrees(angle));
-      const double closed = phlux::render::lobe_reflectivity(exponent, angle == 90 ? 0.0 : degrees(angle));
+      const double closed = phlux::phong::lobe_reflectivity(exponent, angle == 90 ? 0.0 : degrees(angle));
       CHECK(std::abs(closed - by_quadrature) <= 1e-9 * by_quadrature);
     }
 }
 
 TEST_CASE("lobe_reflectivity has the known values") {
-  using phlux::render::lobe_reflectivity;
+  using phlux::phong::lobe_reflectivity;
   CHECK(lobe_reflectivity(50, degrees(30)) == Approx(0.86602540).margin(5e-9));
   CHECK(lobe_reflectivity(10, degrees(60)) == Approx(0.50473595).margin(5e-9));
   CHECK(lobe_reflectivity(10, degrees(75)) == Approx(0.29190102).margin(5e-9));
