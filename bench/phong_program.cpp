@@ -7,8 +7,9 @@
 #include <fmt/format.h>
 
 #include "errors.h"
-#include "render/material_table.h"
+#include "phong/reflectivity.h"
 #include "render/parts.h"
+#include "tables/material_table.h"
 
 namespace phlux::bench {
 namespace {
@@ -39,7 +40,7 @@ scene::Material material_of(const Case& one) {
 
 double exact_reflectivity(const Case& one) {
   const double cosine = std::cos(one.degrees * std::numbers::pi / 180);
-  return one.diffuse + one.specular * render::lobe_reflectivity(one.exponent, cosine);
+  return one.diffuse + one.specular * phong::lobe_reflectivity(one.exponent, cosine);
 }
 
 device::KernelFiles kernel_files(const std::filesystem::path& folder) {
@@ -62,7 +63,7 @@ std::string PhongProgram::text(const device::KernelFiles& files, const std::stri
 
 void PhongProgram::set_material(const Case& one) {
   if (one == material_) return;
-  const render::MaterialTable table = render::material_table({material_of(one)});
+  const tables::MaterialTable table = tables::material_table({material_of(one)});
   records_ = upload(table.records);
   reflectivity_ = upload(table.reflectivity.empty() ? std::vector<float>{0} : table.reflectivity);
   material_ = one;

@@ -84,8 +84,8 @@ HostScene prepare(const scene::Scene& scene, Traversal traversal, int lanes, boo
   if (host.geometry.primitive_count == 0)
     throw SceneError(
         "no shape of the scene has an area that single precision can tell from 0: scale them up");
-  host.lights = light_table(scene, host.geometry, tree_of_lights);
-  host.materials = material_table(scene.materials);
+  host.lights = tables::light_table(scene, host.geometry, tree_of_lights);
+  host.materials = tables::material_table(scene.materials);
   host.camera = camera_record(scene.camera, host.geometry.origin);
   return host;
 }

@@ -3,17 +3,17 @@
 
 #include "accel/geometry.h"
 #include "device/device.h"
-#include "render/light_table.h"
-#include "render/material_table.h"
 #include "render/parts.h"
+#include "tables/light_table.h"
+#include "tables/material_table.h"
 
 namespace phlux::render {
 
 /// Everything that the host computes about a scene for one WIDTH, precision and traversal.
 struct HostScene {
   accel::Geometry geometry;
-  LightTable lights;
-  MaterialTable materials;
+  tables::LightTable lights;
+  tables::MaterialTable materials;
   CameraRecord camera{};
 };
 

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "errors.h"
-#include "render/material_table.h"
+#include "phong/reflectivity.h"
 
 namespace phlux::render {
 namespace {
@@ -71,7 +71,7 @@ Integrator find_integrator(const std::string& name) {
   throw UsageError("integrator " + name + ": there is no such integrator: path, light, bidir");
 }
 
-Connect possible_connect(const Settings& settings, const LightTable& lights) {
+Connect possible_connect(const Settings& settings, const tables::LightTable& lights) {
   const bool hittable = lights.has(LIGHT_PLANAR) || lights.has(LIGHT_SPHERE) || lights.has(LIGHT_CONSTANT);
   if (settings.integrator == "path" && settings.connect == Connect::none && !lights.records.empty() &&
       !hittable)
@@ -87,7 +87,7 @@ double proposals(const scene::Material& m) {
   const double diffuse = std::max({m.diffuse.r, m.diffuse.g, m.diffuse.b});
   const double specular = std::max({m.specular.r, m.specular.g, m.specular.b});
   const double highest = diffuse + specular * (m.exponent_u / 2 + 1);
-  return highest / (diffuse + specular * lobe_reflectivity(m.exponent_u, 0.0));
+  return highest / (diffuse + specular * phong::lobe_reflectivity(m.exponent_u, 0.0));
 }
 
 void refuse_endless_rejection(const scene::Material& m) {
@@ -147,7 +147,7 @@ bool wants_light_tree(const Settings& settings) {
   return samples_lights(settings) && settings.light_selection == LightSelection::contribution;
 }
 
-Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, const LightTable& lights,
+Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, const tables::LightTable& lights,
                  const Settings& settings, int lanes) {
   Parts parts;
   parts.lanes = lanes;
@@ -243,7 +243,7 @@ std::map<std::string, std::string> Parts::defines() const {
   macros["WEIGHTS"] = weights == Weights::balance ? "WEIGHTS_BALANCE"
                       : weights == Weights::power ? "WEIGHTS_POWER"
                                                   : "WEIGHTS_UNIFORM";
-  macros["PHONG_TABLE_INTERVALS"] = std::to_string(reflectivity_intervals);
+  macros["PHONG_TABLE_INTERVALS"] = std::to_string(phong::reflectivity_intervals);
   if (double_precision) macros["PHLUX_DOUBLE"] = "1";
   macros["WIDTH"] = std::to_string(lanes);
   macros["STRATEGY"] = strategy;

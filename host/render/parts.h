@@ -9,8 +9,8 @@
 
 #include "accel/geometry.h"
 #include "device/device.h"
-#include "render/light_table.h"
 #include "render/render.h"
+#include "tables/light_table.h"
 
 namespace phlux::render {
 
@@ -61,6 +61,6 @@ struct Parts {
 /// @throws UsageError for an integrator that there is not, and for a strategy, a --connect or an --ambient
 /// that cannot render this scene
 [[nodiscard]] Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry,
-                               const LightTable& lights, const Settings& settings, int lanes);
+                               const tables::LightTable& lights, const Settings& settings, int lanes);
 
 } // namespace phlux::render

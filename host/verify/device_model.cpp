@@ -51,7 +51,7 @@ std::uint32_t word_for(double u) {
 }
 
 DeviceModel::DeviceModel(const device::Device& device, const device::KernelFiles& files, int lanes,
-                         const std::string& strategy, const render::MaterialTable& materials, bool with_lobe)
+                         const std::string& strategy, const tables::MaterialTable& materials, bool with_lobe)
     : device_(device), lanes_(lanes),
       program_(device::build(device, files, source_of(strategy, lanes, with_lobe)).program),
       materials_(buffer_of(device, materials.records)), table_(buffer_of(device, materials.reflectivity)) {}

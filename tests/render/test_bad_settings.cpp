@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "errors.h"
-#include "render/scenes.h"
+#include "images/scenes.h"
 
 using namespace phlux;
 using namespace phlux::test;

@@ -5,8 +5,8 @@
 #include <catch2/catch.hpp>
 
 #include "device/program.h"
+#include "images/scenes.h"
 #include "render/device_scene.h"
-#include "render/scenes.h"
 #include "temporary_folder.h"
 
 using namespace phlux;

@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "render/scenes.h"
+#include "images/scenes.h"
 
 using namespace phlux;
 using namespace phlux::test;
