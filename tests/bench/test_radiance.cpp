@@ -5,8 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "bench/radiance.h"
-#include "bench/sampler.h"
+#include "bench/sampling/radiance.h"
 #include "measure/sampling_radiance.h"
 
 using namespace phlux;
