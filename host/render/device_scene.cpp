@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "errors.h"
+#include "tables/used_materials.h"
 
 namespace phlux::render {
 namespace {
@@ -85,7 +86,8 @@ HostScene prepare(const scene::Scene& scene, Traversal traversal, int lanes, boo
     throw SceneError(
         "no shape of the scene has an area that single precision can tell from 0: scale them up");
   host.lights = tables::light_table(scene, host.geometry, tree_of_lights);
-  host.materials = tables::material_table(scene.materials);
+  host.materials =
+      lobes::material_table(scene.materials, lobes::models_of(tables::used_materials(scene, host.geometry)));
   host.camera = camera_record(scene.camera, host.geometry.origin);
   return host;
 }
@@ -98,7 +100,8 @@ DeviceScene::DeviceScene(const device::Device& device, const HostScene& scene, c
       light_tree_probability_(static_cast<float>(scene.lights.tree_probability)),
       camera_(upload(device, std::vector<CameraRecord>{scene.camera}, "camera")),
       primitives_(upload(device, scene.geometry.primitives, "primitives")),
-      materials_(upload(device, scene.materials.records, "materials")),
+      materials_(upload(device, scene.materials.records, "materials",
+                        scene.materials.records.size() / scene.materials.count)),
       lights_(upload(device, scene.lights.records, "lights")),
       planars_(parts.double_precision
                    ? upload(device, scene.geometry.double_planars, "triangles", PLANAR_FLOATS)
@@ -108,7 +111,7 @@ DeviceScene::DeviceScene(const device::Device& device, const HostScene& scene, c
                    : upload(device, scene.geometry.spheres, "spheres", SPHERE_FLOATS)),
       nodes_(upload(device, scene.geometry.nodes, "hierarchy")),
       light_nodes_(upload(device, scene.lights.nodes, "tree of lights")),
-      reflectivity_(upload(device, scene.materials.reflectivity, "reflectivities")),
+      lobe_tables_(upload(device, scene.materials.tables, "reflectivities")),
       corners_(upload(device, scene.geometry.corners, "triangles' corners")),
       vertex_normals_(upload(device, scene.geometry.vertex_normals, "vertex normals")) {}
 
@@ -117,7 +120,7 @@ cl_uint DeviceScene::bind(cl::Kernel& kernel) const {
   const auto bind_all = [&](const auto&... arguments) { (kernel.setArg(index++, arguments), ...); };
   bind_all(camera_, primitives_, materials_, lights_, light_count_, planars_, triangle_end_,
            parallelogram_end_, ellipse_end_, spheres_, first_sphere_, sphere_count_, nodes_, root_,
-           light_nodes_, light_tree_probability_, reflectivity_, corners_, vertex_normals_);
+           light_nodes_, light_tree_probability_, lobe_tables_, corners_, vertex_normals_);
   return index;
 }
 

@@ -151,11 +151,10 @@ void check_paths_end(const scene::Scene& scene, const Settings& settings) {
   constexpr double nearly_all = 0.999;
   if (settings.rr_depth >= 0 || settings.max_depth >= 0) return;
   for (const scene::Material& m : scene.materials)
-    for (int channel = 0; channel < 3; ++channel)
-      if (m.diffuse[channel] + m.specular[channel] >= nearly_all)
-        throw UsageError(
-            "--rr-depth -1 --max-depth -1: a material reflects everything, and nothing would end a path "
-            "in a closed room: give one of the two");
+    if (lobes::largest_reflectance(m) >= nearly_all)
+      throw UsageError(
+          "--rr-depth -1 --max-depth -1: a material reflects everything, and nothing would end a path "
+          "in a closed room: give one of the two");
 }
 
 // What the settings make of the scene without being wrong.
@@ -168,7 +167,7 @@ void warn(const scene::Scene& scene, const Settings& settings) {
                  lost);
   const auto anisotropic = [&](const auto& shape) {
     const scene::Material& m = scene.materials[static_cast<std::size_t>(shape.surface.material)];
-    return m.kind == scene::Material::Kind::anisotropic_phong && m.exponent_u != m.exponent_v;
+    return m.model == lobes::shipped("anisotropicphong") && m.value("exponent_u") != m.value("exponent_v");
   };
   if (std::any_of(scene.meshes.begin(), scene.meshes.end(), anisotropic))
     spdlog::warn("anisotropicphong on a mesh: texture coordinates are not read, and exponentU is along each "
@@ -187,8 +186,8 @@ class Workshop {
 public:
   Workshop(const scene::Scene& scene, const Settings& settings, const Events& events)
       : scene_(scene), settings_(settings), events_(events),
-        files_(settings.kernel_dir.empty() ? device::KernelFiles()
-                                           : device::KernelFiles(settings.kernel_dir)) {}
+        files_(settings.kernel_dir.empty() ? sources::KernelFiles()
+                                           : sources::KernelFiles(settings.kernel_dir)) {}
 
   // Of the radiances that devices hand over.
   [[nodiscard]] double unit() const { return host_->lights.unit; }
@@ -203,12 +202,12 @@ public:
                       wants_light_tree(settings_));
     Worker worker;
     worker.parts = find_parts(scene_, host_->geometry, host_->lights, settings_, lanes);
-    if (!worker.parts.phong_lobe) warn_of_plain_strategy();
+    if (!worker.parts.has_model("phong")) warn_of_plain_strategy();
     warn_of_darkness();
     warn_of_size();
     statistics.seconds_setup += seconds_since(begin);
-    const device::BuiltProgram built = device::build(
-        device, files_, {worker.parts.file(), worker.parts.defines(), {}}, events_.building_kernels);
+    const device::BuiltProgram built =
+        device::build(device, files_, worker.parts.source(worker.parts.file()), events_.building_kernels);
     statistics.kernels_from_cache = built.from_cache;
     worker.launcher = std::make_unique<Launcher>(device, built.program, *host_, worker.parts, settings_);
     const Clock::time_point warm_up_begin = Clock::now();
@@ -244,7 +243,7 @@ private:
   const scene::Scene& scene_;
   const Settings& settings_;
   const Events& events_;
-  device::KernelFiles files_;
+  sources::KernelFiles files_;
   std::optional<HostScene> host_;
   int lanes_ = 0;
 };

@@ -72,20 +72,6 @@ Estimate expected(const scene::Camera& camera, const std::function<Channels(cons
   return closed_form(camera.width, camera.height, std::move(means));
 }
 
-scene::Material diffuse(const Rgb& reflectance) {
-  scene::Material material;
-  material.diffuse = reflectance;
-  return material;
-}
-
-scene::Material phong(const Rgb& diffuse, const Rgb& specular, double exponent) {
-  scene::Material material;
-  material.diffuse = diffuse;
-  material.specular = specular;
-  material.exponent_u = exponent;
-  return material;
-}
-
 scene::Patch square(const Vec3& center, const Vec3& edge_u, const Vec3& edge_v, double half,
                     scene::Surface surface) {
   return {scene::Patch::Region::parallelogram, center, half * edge_u, half * edge_v, surface};

@@ -77,7 +77,7 @@ TEST_CASE("clamping is in radiance, whatever the unit of the light table") {
 }
 
 TEST_CASE("a sample that is not finite is dropped, counted, and its block is named") {
-  const KernelCopy broken("film.cl", "const Real total = radiance.x",
+  const KernelCopy broken("transport/film.cl", "const Real total = radiance.x",
                           "const Mask chosen = (job->pixel == 37) & (sample_number(list, *job) == 21);\n"
                           "  radiance.x = chosen ? (Real)(NAN) : radiance.x;\n"
                           "  const Real total = radiance.x");
@@ -88,7 +88,7 @@ TEST_CASE("a sample that is not finite is dropped, counted, and its block is nam
 
 TEST_CASE("splats and connections that are not finite are dropped, counted, and their path is named") {
   // Path 0 of a batch: sample 0 of the pixel that the batch begins with.
-  const KernelCopy broken("contributions.cl", "Mask recorded = m;",
+  const KernelCopy broken("transport/contributions.cl", "Mask recorded = m;",
                           "Mask recorded = m;\n"
                           "  c.value.x = c.path == 0 ? (Real)(INFINITY) : c.value.x;");
   for (const std::string integrator : {"light", "bidir"}) {

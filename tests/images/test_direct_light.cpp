@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "images/scenes.h"
+#include "materials.h"
 
 using namespace phlux;
 using namespace phlux::test;
@@ -31,7 +32,8 @@ scene::Scene plane(const scene::Material& material) {
 Rgb reflectance(const scene::Material& m, const Vec3& wi, const Vec3& wo) {
   const Vec3 mirrored(-wi.x, -wi.y, wi.z);
   const double cosine = std::max(0.0, glm::dot(mirrored, wo));
-  return m.diffuse / pi + m.specular * (m.exponent_u + 2) / (2 * pi) * std::pow(cosine, m.exponent_u);
+  return phlux::test::diffuse_of(m) / pi + phlux::test::specular_of(m) * (phlux::test::exponent_of(m) + 2) /
+                                               (2 * pi) * std::pow(cosine, phlux::test::exponent_of(m));
 }
 
 // What the camera sees of the plane when light of intensity(direction away from the light) comes from

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "images/scenes.h"
+#include "materials.h"
 #include "phong/reflectivity.h"
 
 using namespace phlux;
@@ -55,12 +56,13 @@ scene::Scene sphere_furnace(double fov, int size, const scene::Material& materia
 }
 
 Estimate sphere_reference(const scene::Scene& scene, const scene::Material& material) {
-  const LobeReflectivity lobe(material.exponent_u);
+  const LobeReflectivity lobe(phlux::test::exponent_of(material));
   return expected(scene.camera, [&](const Vec3& direction) {
     const double cosine = cosine_on_sphere(direction);
     Channels result = sky;
     for (int c = 0; c < 3 && cosine >= 0; ++c)
-      result[static_cast<std::size_t>(c)] *= material.diffuse[c] + material.specular[c] * lobe(cosine);
+      result[static_cast<std::size_t>(c)] *=
+          phlux::test::diffuse_of(material)[c] + phlux::test::specular_of(material)[c] * lobe(cosine);
     return result;
   });
 }
@@ -97,7 +99,7 @@ TEST_CASE("furnace box: every depth cuts the series 1 + 1/2 + 1/4 + ... where it
 }
 
 TEST_CASE("furnace sphere: the reflectivity in every pixel, the sky around it") {
-  const scene::Material material = phong(kd, ks, 50);
+  const scene::Material material = test::phong(kd, ks, 50);
   scene::Scene scene = sphere_furnace(40, 16, material);
   const Render sphere = render_of(scene, settings(1024));
   Estimate reference = sphere_reference(scene, material), image = estimate_of(sphere.film);
@@ -131,7 +133,7 @@ double largest_exponent(const std::string& strategy) {
 
 void check_sphere(double exponent, const std::string& strategy, Connect connect) {
   CAPTURE(exponent, strategy, static_cast<int>(connect));
-  const scene::Material material = phong(kd, ks, exponent);
+  const scene::Material material = test::phong(kd, ks, exponent);
   const scene::Scene scene = sphere_furnace(18, 6, material);
   render::Settings with = settings(2048);
   with.strategy = strategy;
@@ -179,7 +181,7 @@ TEST_CASE("a million samples a pixel: the mean does not stall") {
     }
   }
   SECTION("with noise, to its standard error of a thousandth") {
-    const scene::Material material = phong(kd, ks, 50);
+    const scene::Material material = test::phong(kd, ks, 50);
     const scene::Scene scene = sphere_furnace(18, 2, material);
     const Render sphere = render_of(scene, settings(1'000'000));
     CHECK(sphere.film.relative_standard_error() < 1e-3);

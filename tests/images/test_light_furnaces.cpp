@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "images/integrators.h"
+#include "materials.h"
 #include "phong/reflectivity.h"
 
 using namespace phlux;
@@ -32,8 +33,9 @@ Estimate sphere_reference(const scene::Scene& scene, const scene::Material& mate
       scene.camera,
       [&](const Vec3& direction) {
         const double along = 4 * direction.z, cosine = std::sqrt(along * along - 15);
-        const Rgb rho = sky * (material.diffuse +
-                               material.specular * phong::lobe_reflectivity(material.exponent_u, cosine));
+        const Rgb rho = sky * (phlux::test::diffuse_of(material) +
+                               phlux::test::specular_of(material) *
+                                   phong::lobe_reflectivity(phlux::test::exponent_of(material), cosine));
         return Channels{rho.r, rho.g, rho.b};
       },
       8);
@@ -41,7 +43,7 @@ Estimate sphere_reference(const scene::Scene& scene, const scene::Material& mate
 
 void check_sphere(const Method& method, double exponent, const std::string& strategy, int samples) {
   CAPTURE(name_of(method), exponent, strategy);
-  const scene::Material material = phong(kd, ks, exponent);
+  const scene::Material material = test::phong(kd, ks, exponent);
   const scene::Scene scene = sphere_furnace(material);
   render::Settings settings = with(method, samples);
   settings.strategy = strategy;
