@@ -12,17 +12,6 @@ namespace {
 
 constexpr std::size_t counters_per_item = 2; // rays, shadow rays
 
-const char* kernel_name(Integrator integrator) {
-  switch (integrator) {
-  case Integrator::light:
-    return "trace_light";
-  case Integrator::bidir:
-    return "trace_bidir";
-  default:
-    return "trace_paths";
-  }
-}
-
 cl_int bounded(int edges) {
   return edges < 0 ? std::numeric_limits<cl_int>::max() : edges;
 }
@@ -37,7 +26,8 @@ double seconds_of(const cl::Event& kernel_done) {
 
 Launcher::Launcher(const device::Device& device, const cl::Program& program, const HostScene& scene,
                    const Parts& parts, const Settings& settings)
-    : device_(device), scene_(device, scene, parts), kernel_(program, kernel_name(parts.integrator)),
+    : device_(device), scene_(device, scene, parts),
+      kernel_(program, settings::info_of(parts.integrator).kernel),
       first_launch_argument_(scene_.bind(kernel_)), parts_(parts),
       planner_(device.info, parts, settings.launch_seconds), sky_light_(std::max(scene.lights.constant, 0)),
       pixels_(static_cast<std::int64_t>(scene.camera.width) * scene.camera.height) {
@@ -83,15 +73,15 @@ void Launcher::reserve(Buffer& buffer, std::size_t bytes, const char* what) cons
   if (bytes > device_.info.largest_buffer)
     throw DeviceError(
         fmt::format("{}: the {} of a launch take {} MB and a buffer may have {} MB: shorten the paths "
-                    "(--max-depth, --rr-depth)",
+                    "(`max-depth`, `rr-depth`)",
                     device_.info.name, what, bytes >> 20, device_.info.largest_buffer >> 20));
   buffer = {}; // before there is another: memory may be short
   try {
     buffer.memory = cl::Buffer(device_.context, CL_MEM_READ_WRITE, bytes);
   } catch (const cl::Error& error) {
     throw DeviceError(
-        fmt::format("{}: no room for the {} of a launch ({} MB): {}: shorten the paths (--max-depth, "
-                    "--rr-depth)",
+        fmt::format("{}: no room for the {} of a launch ({} MB): {}: shorten the paths (`max-depth`, "
+                    "`rr-depth`)",
                     device_.info.name, what, bytes >> 20, device::error_name(error.err())));
   }
   buffer.bytes = bytes;

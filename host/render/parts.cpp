@@ -41,46 +41,13 @@ constexpr NamedPart named_parts[] = {
     {&Parts::ambient, "ambient", "PHLUX_AMBIENT"},
 };
 
-struct NamedStrategy {
-  const char* name;
-  const char* macro;
-};
-constexpr NamedStrategy strategies[] = {{"uniform", "STRATEGY_UNIFORM"},
-                                        {"theta-phi", "STRATEGY_THETA_PHI"},
-                                        {"cosine", "STRATEGY_COSINE"},
-                                        {"disk", "STRATEGY_DISK"},
-                                        {"rejection", "STRATEGY_REJECTION"},
-                                        {"lobe-ks", "STRATEGY_LOBE_KS"},
-                                        {"lobe-estimate-printed", "STRATEGY_LOBE_ESTIMATE_PRINTED"},
-                                        {"lobe-estimate", "STRATEGY_LOBE_ESTIMATE"},
-                                        {"lobe-rho", "STRATEGY_LOBE_RHO"},
-                                        {"mixture", "STRATEGY_MIXTURE"},
-                                        {"fold", "STRATEGY_FOLD"},
-                                        {"exact", "STRATEGY_EXACT"}};
-
-const NamedStrategy& find_strategy(const std::string& name) {
-  const auto found = std::find_if(std::begin(strategies), std::end(strategies),
-                                  [&](const auto& s) { return s.name == name; });
-  if (found != std::end(strategies)) return *found;
-  std::string list;
-  for (const auto& s : strategies) list += (list.empty() ? "" : ", ") + std::string(s.name);
-  throw UsageError("--strategy " + name + ": there is no such strategy: " + list);
-}
-
-Integrator find_integrator(const std::string& name) {
-  if (name == "path") return Integrator::path;
-  if (name == "light") return Integrator::light;
-  if (name == "bidir") return Integrator::bidir;
-  throw UsageError("integrator " + name + ": there is no such integrator: path, light, bidir");
-}
-
 Connect possible_connect(const Settings& settings, const tables::LightTable& lights) {
   const bool hittable = lights.has(LIGHT_PLANAR) || lights.has(LIGHT_SPHERE) || lights.has(LIGHT_CONSTANT);
   if (settings.integrator == "path" && settings.connect == Connect::none && !lights.records.empty() &&
       !hittable)
     throw UsageError(
-        "--connect none: no path can hit the point, spot and directional lights, which are all that the "
-        "scene has: use --connect light or mis");
+        "`connect` none: no path can hit the point, spot and directional lights, which are all that the "
+        "scene has: use `connect` light or mis");
   if (settings.integrator == "light" || !lights.shines()) return Connect::none;
   return settings.integrator == "bidir" ? Connect::mis : settings.connect;
 }
@@ -97,7 +64,7 @@ void refuse_endless_rejection(const scene::Material& m) {
   constexpr double most_proposals = 1e4;
   if (proposals(m) > most_proposals)
     throw UsageError(
-        fmt::format("--strategy rejection: a phong of exponent {:g} takes {:.0g} draws a sample: use "
+        fmt::format("`strategy` rejection: a phong of exponent {:g} takes {:.0g} draws a sample: use "
                     "another strategy",
                     m.exponent_u, proposals(m)));
 }
@@ -116,24 +83,15 @@ std::vector<const scene::Material*> used_materials(const scene::Scene& scene,
 
 } // namespace
 
-const std::vector<std::string>& strategy_names() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> list;
-    for (const auto& s : strategies) list.emplace_back(s.name);
-    return list;
-  }();
-  return names;
-}
-
 int lanes_for(const device::DeviceInfo& device, const Settings& settings) {
   if (!settings.double_precision) return settings.lanes != 0 ? settings.lanes : device.lanes;
   if (settings.lanes > 1)
     throw UsageError(fmt::format(
-        "--precision double: doubles go one path at a time, not {}: leave --width out", settings.lanes));
+        "`precision` double: doubles go one path at a time, not {}: leave `width` out", settings.lanes));
   if (!device.doubles)
     throw DeviceError(fmt::format(
-        "{}: --precision double: the device has no doubles (cl_khr_fp64): use --precision single, or "
-        "--device with one for which `phlux devices --json` says doubles",
+        "{}: `precision` double: the device has no doubles (cl_khr_fp64): use `precision` single, or "
+        "a device that has them",
         device.name));
   return 1;
 }
@@ -141,38 +99,30 @@ int lanes_for(const device::DeviceInfo& device, const Settings& settings) {
 // Of fewer, the walk down a tree and up again costs more than it brings (bench/saved/REMEDIES.md).
 constexpr std::size_t fewest_lights_of_tree = 8;
 
-bool samples_lights(const Settings& settings) {
-  return settings.integrator == "bidir" ||
-         (settings.integrator == "path" && settings.connect != Connect::none);
-}
-
-bool wants_light_tree(const Settings& settings) {
-  return samples_lights(settings) && settings.light_selection == LightSelection::contribution;
-}
-
 Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, const tables::LightTable& lights,
                  const Settings& settings, int lanes) {
   Parts parts;
   parts.lanes = lanes;
   parts.double_precision = settings.double_precision;
-  parts.integrator = find_integrator(settings.integrator);
+  parts.integrator = settings::integrator_named(settings.integrator).integrator;
   parts.weights = settings.weights;
   parts.techniques = settings.techniques;
   if (parts.techniques && parts.integrator == Integrator::path)
-    throw UsageError("--contributions: a path from the eye is made in one way: use -i bidir or light");
+    throw UsageError(
+        "`contributions`: a path from the eye is made in one way: use `integrator` bidir or light");
   // What a technique brings by itself is shown whole.
   if (parts.integrator == Integrator::bidir && !parts.techniques) parts.connections = settings.connections;
   if (settings.clamp) parts.clamp = *settings.clamp / lights.unit;
   if (parts.clamp && parts.techniques)
-    throw UsageError("--clamp: what techniques bring is not clamped: leave out --contributions");
+    throw UsageError("`clamp`: what techniques bring is not clamped: leave out `contributions`");
   parts.ambient = settings.ambient.has_value();
   if (parts.ambient && parts.integrator != Integrator::path)
-    throw UsageError("--ambient: only paths from the eye can carry the ambient term: use -i path");
+    throw UsageError("`ambient`: only paths from the eye can carry the ambient term: use `integrator` path");
   if (!lights.shines()) { // the image is black, which is best left to the one that chooses no light
     parts.integrator = Integrator::path;
     parts.techniques = false;
   }
-  parts.strategy = find_strategy(settings.strategy).macro;
+  parts.strategy = settings::strategy_named(settings.strategy).macro;
   parts.connect = possible_connect(settings, lights);
   parts.hierarchy = !geometry.nodes.empty() || geometry.root < 0;
   parts.triangles = geometry.has_triangles;
@@ -192,7 +142,7 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
   }
   if (parts.ambient && parts.anisotropic)
     throw UsageError(
-        "--ambient: the reflectivity of anisotropicphong has no closed form to weigh the ambient term "
+        "`ambient`: the reflectivity of anisotropicphong has no closed form to weigh the ambient term "
         "with: leave it out or use phong");
   parts.emission = lights.has(LIGHT_PLANAR) || lights.has(LIGHT_SPHERE);
   parts.light_planar = lights.has(LIGHT_PLANAR);
@@ -220,14 +170,7 @@ std::vector<std::string> Parts::names() const {
 }
 
 const char* Parts::file() const {
-  switch (integrator) {
-  case Integrator::light:
-    return "light.cl";
-  case Integrator::bidir:
-    return "bidir.cl";
-  default:
-    return "path.cl";
-  }
+  return settings::info_of(integrator).kernel_file;
 }
 
 std::map<std::string, std::string> Parts::defines() const {
