@@ -210,7 +210,7 @@ public:
     const device::BuiltProgram built = device::build(
         device, files_, {worker.parts.file(), worker.parts.defines(), {}}, events_.building_kernels);
     statistics.kernels_from_cache = built.from_cache;
-    worker.launcher = std::make_unique<Launcher>(device, built.program, *host_, worker.parts, settings_);
+    worker.launcher = std::make_unique<Launcher>(device, built, *host_, worker.parts, settings_);
     const Clock::time_point warm_up_begin = Clock::now();
     worker.launcher->warm_up();
     statistics.seconds_build_kernels += built.seconds + seconds_since(warm_up_begin);
