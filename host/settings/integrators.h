@@ -26,9 +26,9 @@ struct IntegratorInfo {
 
 /// In the order of Integrator.
 inline constexpr std::array<IntegratorInfo, 3> integrators = {{
-    {Integrator::path, "path", "path", "path.cl", "trace_paths", true, false},
-    {Integrator::light, "light", "ptracer", "light.cl", "trace_light", false, true},
-    {Integrator::bidir, "bidir", "bdpt", "bidir.cl", "trace_bidir", true, true},
+    {Integrator::path, "path", "path", "transport/path.cl", "trace_paths", true, false},
+    {Integrator::light, "light", "ptracer", "transport/light.cl", "trace_light", false, true},
+    {Integrator::bidir, "bidir", "bdpt", "transport/bidir.cl", "trace_bidir", true, true},
 }};
 
 [[nodiscard]] constexpr const IntegratorInfo& info_of(Integrator integrator) {

@@ -5,7 +5,7 @@
 
 #include "accel/geometry.h"
 #include "scene/scene.h"
-#include "scene_data.h"
+#include "scene/scene_data.h"
 
 namespace phlux::tables {
 

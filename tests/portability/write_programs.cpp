@@ -84,7 +84,7 @@ Parts with_techniques(Parts parts) {
 
 // A scene-less program that measures the sampler.
 std::map<std::string, std::string> sampler(const std::string& strategy) {
-  return {{"PHLUX_STRATEGY", strategy}, {"PHLUX_PHONG_LOBE", "1"}, {"FIXED_DIRECTIONS", "16"}};
+  return {{"STRATEGY", strategy}, {"HAS_PHONG_LOBE", "1"}, {"FIXED_DIRECTIONS", "16"}};
 }
 
 bool write(const std::filesystem::path& folder, const std::string& name, const std::string& root, int lanes,
@@ -130,7 +130,7 @@ int main(int argc, char** argv) {
       good = good &&
              write(folder, "sampling-" + strategy, "sampling.cl", lanes, sampler("STRATEGY_" + strategy));
     good = good && write(folder, "figures", "figures.cl", lanes, sampler("STRATEGY_EXACT"));
-    good = good && write(folder, "arithmetic", "arithmetic.cl", lanes, {{"PHLUX_PHONG_LOBE", "1"}});
+    good = good && write(folder, "arithmetic", "arithmetic.cl", lanes, {{"HAS_PHONG_LOBE", "1"}});
   }
   return good ? 0 : 1;
 }
