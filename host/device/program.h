@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "device/argument_names.h"
 #include "device/device.h"
 #include "sources/kernel_files.h"
 
@@ -37,6 +38,7 @@ struct BuiltProgram {
   cl::Program program;
   bool from_cache = false; ///< it had been built before and was kept, by phlux or by the driver
   double seconds = 0.0;
+  ArgumentNames arguments; ///< of its kernels
 };
 
 /// Builds for one device, from the binary cache where it can. The cache is keyed by text, options, device,

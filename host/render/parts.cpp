@@ -39,34 +39,13 @@ constexpr NamedPart named_parts[] = {
     {&Parts::ambient, "ambient", "HAS_AMBIENT"},
 };
 
-const std::vector<std::string>& known_strategies() {
-  static const std::vector<std::string> names{
-      "uniform",       "theta-phi", "cosine",  "disk", "rejection", "lobe-ks", "lobe-estimate-printed",
-      "lobe-estimate", "lobe-rho",  "mixture", "fold", "exact"};
-  return names;
-}
-
-void require_strategy(const std::string& name) {
-  const auto& names = known_strategies();
-  if (std::ranges::find(names, name) == names.end())
-    throw UsageError(
-        fmt::format("--strategy {}: there is no such strategy: {}", name, fmt::join(names, ", ")));
-}
-
-Integrator find_integrator(const std::string& name) {
-  if (name == "path") return Integrator::path;
-  if (name == "light") return Integrator::light;
-  if (name == "bidir") return Integrator::bidir;
-  throw UsageError("integrator " + name + ": there is no such integrator: path, light, bidir");
-}
-
 Connect possible_connect(const Settings& settings, const tables::LightTable& lights) {
   const bool hittable = lights.has(LIGHT_PLANAR) || lights.has(LIGHT_SPHERE) || lights.has(LIGHT_CONSTANT);
   if (settings.integrator == "path" && settings.connect == Connect::none && !lights.records.empty() &&
       !hittable)
     throw UsageError(
-        "--connect none: no path can hit the point, spot and directional lights, which are all that the "
-        "scene has: use --connect light or mis");
+        "`connect` none: no path can hit the point, spot and directional lights, which are all that the "
+        "scene has: use `connect` light or mis");
   if (settings.integrator == "light" || !lights.shines()) return Connect::none;
   return settings.integrator == "bidir" ? Connect::mis : settings.connect;
 }
@@ -83,26 +62,22 @@ void refuse_endless_rejection(const scene::Material& m) {
   constexpr double most_proposals = 1e4;
   if (proposals(m) > most_proposals)
     throw UsageError(
-        fmt::format("--strategy rejection: a phong of exponent {:g} takes {:.0g} draws a sample: use "
+        fmt::format("`strategy` rejection: a phong of exponent {:g} takes {:.0g} draws a sample: use "
                     "another strategy",
                     m.value("exponent").x, proposals(m)));
 }
 
 } // namespace
 
-const std::vector<std::string>& strategy_names() {
-  return known_strategies();
-}
-
 int lanes_for(const device::DeviceInfo& device, const Settings& settings) {
   if (!settings.double_precision) return settings.lanes != 0 ? settings.lanes : device.lanes;
   if (settings.lanes > 1)
     throw UsageError(fmt::format(
-        "--precision double: doubles go one path at a time, not {}: leave --width out", settings.lanes));
+        "`precision` double: doubles go one path at a time, not {}: leave `width` out", settings.lanes));
   if (!device.doubles)
     throw DeviceError(fmt::format(
-        "{}: --precision double: the device has no doubles (cl_khr_fp64): use --precision single, or "
-        "--device with one for which `phlux devices --json` says doubles",
+        "{}: `precision` double: the device has no doubles (cl_khr_fp64): use `precision` single, or "
+        "a device that has them",
         device.name));
   return 1;
 }
@@ -110,39 +85,30 @@ int lanes_for(const device::DeviceInfo& device, const Settings& settings) {
 // Of fewer, the walk down a tree and up again costs more than it brings (bench/saved/REMEDIES.md).
 constexpr std::size_t fewest_lights_of_tree = 8;
 
-bool samples_lights(const Settings& settings) {
-  return settings.integrator == "bidir" ||
-         (settings.integrator == "path" && settings.connect != Connect::none);
-}
-
-bool wants_light_tree(const Settings& settings) {
-  return samples_lights(settings) && settings.light_selection == LightSelection::contribution;
-}
-
 Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, const tables::LightTable& lights,
                  const Settings& settings, int lanes) {
   Parts parts;
   parts.lanes = lanes;
   parts.double_precision = settings.double_precision;
-  parts.integrator = find_integrator(settings.integrator);
+  parts.integrator = settings::integrator_named(settings.integrator).integrator;
   parts.weights = settings.weights;
   parts.techniques = settings.techniques;
   if (parts.techniques && parts.integrator == Integrator::path)
-    throw UsageError("--contributions: a path from the eye is made in one way: use -i bidir or light");
+    throw UsageError(
+        "`contributions`: a path from the eye is made in one way: use `integrator` bidir or light");
   // What a technique brings by itself is shown whole.
   if (parts.integrator == Integrator::bidir && !parts.techniques) parts.connections = settings.connections;
   if (settings.clamp) parts.clamp = *settings.clamp / lights.unit;
   if (parts.clamp && parts.techniques)
-    throw UsageError("--clamp: what techniques bring is not clamped: leave out --contributions");
+    throw UsageError("`clamp`: what techniques bring is not clamped: leave out `contributions`");
   parts.ambient = settings.ambient.has_value();
   if (parts.ambient && parts.integrator != Integrator::path)
-    throw UsageError("--ambient: only paths from the eye can carry the ambient term: use -i path");
+    throw UsageError("`ambient`: only paths from the eye can carry the ambient term: use `integrator` path");
   if (!lights.shines()) { // the image is black, which is best left to the one that chooses no light
     parts.integrator = Integrator::path;
     parts.techniques = false;
   }
-  require_strategy(settings.strategy);
-  parts.strategy = settings.strategy;
+  parts.strategy = settings::strategy_named(settings.strategy).name;
   parts.connect = possible_connect(settings, lights);
   parts.hierarchy = !geometry.nodes.empty() || geometry.root < 0;
   parts.triangles = geometry.has_triangles;
@@ -160,8 +126,8 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
   for (const auto& model : parts.models)
     if (parts.ambient && model->reflectivity_is_estimate)
       throw UsageError(fmt::format(
-          "--ambient: the reflectivity of {} has no closed form to weigh the ambient term with: leave it "
-          "out or use phong",
+          "`ambient`: the reflectivity of {} has no closed form to weigh the ambient term with: leave it out "
+          "or use phong",
           model->name));
   parts.light_planar = lights.has(LIGHT_PLANAR);
   parts.light_sphere = lights.has(LIGHT_SPHERE);
@@ -197,14 +163,7 @@ std::vector<std::string> Parts::names() const {
 }
 
 const char* Parts::file() const {
-  switch (integrator) {
-  case Integrator::light:
-    return "transport/light.cl";
-  case Integrator::bidir:
-    return "transport/bidir.cl";
-  default:
-    return "transport/path.cl";
-  }
+  return settings::info_of(integrator).kernel_file;
 }
 
 std::map<std::string, std::string> Parts::defines() const {

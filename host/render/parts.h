@@ -18,8 +18,6 @@ namespace phlux::render {
 /// Tables of no more entries are few enough to be permuted in the registers of a CPU (kernels/lanes.h).
 inline constexpr std::size_t few_entries = 16;
 
-enum class Integrator { path, light, bidir };
-
 struct Parts {
   Integrator integrator = Integrator::path;
   int lanes = 1;
@@ -57,13 +55,8 @@ struct Parts {
 /// where the device has none
 [[nodiscard]] int lanes_for(const device::DeviceInfo& device, const Settings& settings);
 
-/// Whether paths from the eye sample lights, if there are any.
-[[nodiscard]] bool samples_lights(const Settings& settings);
-/// Whether those samples choose by contribution.
-[[nodiscard]] bool wants_light_tree(const Settings& settings);
-
-/// @throws UsageError for an integrator that there is not, and for a strategy, a --connect or an --ambient
-/// that cannot render this scene
+/// @throws UsageError for an integrator or a strategy that there is not, and for settings that cannot render
+/// this scene
 [[nodiscard]] Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry,
                                const tables::LightTable& lights, const Settings& settings, int lanes);
 

@@ -49,7 +49,7 @@ Rgb read_parameter(Properties& properties, const Parameter& parameter, const std
                         : Rgb(properties.real(name, parameter.otherwise));
   const bool too_high = glm::compMax(value) > parameter.highest && !may_be_scaled(parameter, excess);
   if (glm::compMin(value) < parameter.lowest || too_high)
-    properties.fail_at(name, parameter.name + " " + text(value) + " is out of range", range_of(parameter));
+    properties.fail_at(name, text(value) + " is out of range", range_of(parameter));
   return value;
 }
 

@@ -10,7 +10,8 @@ using namespace phlux::test;
 
 TEST_CASE("where path tracing cannot be trusted, trials say what can") {
   render::Settings with = settings(16);
-  const auto bidir = Catch::Contains("try -i bidir"), light = Catch::Contains("try -i light");
+  const auto bidir = Catch::Contains("try `integrator` bidir"),
+             light = Catch::Contains("try `integrator` light");
   advice::Advice advice;
   // A machine with other work needs longer for as many samples.
   for (double seconds = 0.5; seconds <= 8 && !(bidir || light).match(advice.words); seconds *= 2)

@@ -9,9 +9,9 @@ namespace phlux::test {
 namespace {
 
 // Variants of a scene have the same kernels.
-const cl::Program& program_for(const device::Device& device, const render::Parts& parts,
-                               const std::filesystem::path& kernels) {
-  static std::map<std::map<std::string, std::string>, cl::Program> kept;
+const device::BuiltProgram& program_for(const device::Device& device, const render::Parts& parts,
+                                        const std::filesystem::path& kernels) {
+  static std::map<std::map<std::string, std::string>, device::BuiltProgram> kept;
   constexpr std::size_t most = 16;
   std::map<std::string, std::string> key = parts.defines();
   key["file"] = parts.file();
@@ -19,7 +19,7 @@ const cl::Program& program_for(const device::Device& device, const render::Parts
   if (const auto found = kept.find(key); found != kept.end()) return found->second;
   if (kept.size() == most) kept.clear();
   const sources::KernelFiles files = kernels.empty() ? sources::KernelFiles() : sources::KernelFiles(kernels);
-  return kept.emplace(key, device::build(device, files, parts.source(parts.file())).program).first->second;
+  return kept.emplace(key, device::build(device, files, parts.source(parts.file()))).first->second;
 }
 
 } // namespace

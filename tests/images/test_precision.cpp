@@ -62,7 +62,7 @@ TEST_CASE("doubles: one path at a time, on a device that has them") {
   with.double_precision = true;
   CHECK_THROWS_WITH(render::lanes_for(device, with), Contains("pocket calculator") &&
                                                          Contains("has no doubles") &&
-                                                         Contains("--precision single"));
+                                                         Contains("`precision` single"));
   CHECK_THROWS_AS(render::lanes_for(device, with), DeviceError);
   device.doubles = true;
   CHECK(render::lanes_for(device, with) == 1);
@@ -70,7 +70,7 @@ TEST_CASE("doubles: one path at a time, on a device that has them") {
   CHECK(render::lanes_for(device, with) == 1);
   with.lanes = 8;
   CHECK_THROWS_WITH(render::lanes_for(device, with),
-                    Contains("--precision double") && Contains("leave --width out"));
+                    Contains("`precision` double") && Contains("leave `width` out"));
   CHECK_THROWS_AS(render::lanes_for(device, with), UsageError);
 }
 

@@ -25,9 +25,9 @@ public:
 
   template<typename... Arguments>
   void run(const char* name, std::size_t count, const Arguments&... arguments) const {
-    cl::Kernel kernel = program_->kernel(name);
-    const cl_uint first = device_.bind(kernel);
-    program_->run_bound(kernel, first, count, arguments...);
+    phlux::device::Kernel kernel = program_->kernel(name);
+    device_.bind(kernel);
+    program_->run_bound(std::move(kernel), count, arguments...);
   }
 
   [[nodiscard]] const phlux::render::HostScene& host() const { return host_; }

@@ -35,7 +35,7 @@ TEST_CASE("hits alone are refused where no path can hit a light") {
   render::Settings with = settings(1);
   with.connect = Connect::none;
   CHECK_THROWS_AS(render_of(shipped("point-light", 4, 4), with), UsageError);
-  CHECK_THROWS_WITH(render_of(shipped("point-light", 4, 4), with), Contains("--connect light or mis"));
+  CHECK_THROWS_WITH(render_of(shipped("point-light", 4, 4), with), Contains("`connect` light or mis"));
 }
 
 TEST_CASE("a scene without shapes is a bad scene, one without light is black") {

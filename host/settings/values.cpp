@@ -1,4 +1,4 @@
-#include "cli/values.h"
+#include "settings/values.h"
 
 #include <algorithm>
 #include <charconv>
@@ -11,12 +11,12 @@
 
 #include "errors.h"
 
-namespace phlux::cli {
+namespace phlux::settings {
 namespace {
 
-[[noreturn]] void wrong(const std::string& option, const std::string& text,
+[[noreturn]] void wrong(const std::string& name, const std::string& text,
                         const std::string& what_would_be_right) {
-  throw UsageError(fmt::format("{} {}: {}", option, text.empty() ? "''" : text, what_would_be_right));
+  throw UsageError(fmt::format("{} {}: {}", name, text.empty() ? "''" : text, what_would_be_right));
 }
 
 template<class Number>
@@ -46,35 +46,35 @@ std::size_t edits(const std::string& a, const std::string& b) {
 
 } // namespace
 
-std::uint64_t whole_number(const std::string& option, const std::string& text, std::uint64_t least,
+std::uint64_t whole_number(const std::string& name, const std::string& text, std::uint64_t least,
                            std::uint64_t most) {
   const std::optional<std::uint64_t> number = parse<std::uint64_t>(text);
   if (!number || *number < least || *number > most)
-    wrong(option, text, fmt::format("must be a whole number from {} to {}", least, most));
+    wrong(name, text, fmt::format("must be a whole number from {} to {}", least, most));
   return *number;
 }
 
-int depth(const std::string& option, const std::string& text) {
+int depth(const std::string& name, const std::string& text) {
   const std::optional<int> number = parse<int>(text);
   if (!number || (*number < 1 && *number != -1))
-    wrong(option, text, "must be a whole number of 1 or more, or -1 for unbounded");
+    wrong(name, text, "must be a whole number of 1 or more, or -1 for unbounded");
   return *number;
 }
 
-double positive_number(const std::string& option, const std::string& text) {
+double positive_number(const std::string& name, const std::string& text) {
   const std::optional<double> number = parse<double>(text);
-  if (!number || !std::isfinite(*number) || *number <= 0.0) wrong(option, text, "must be a number above 0");
+  if (!number || !std::isfinite(*number) || *number <= 0.0) wrong(name, text, "must be a number above 0");
   return *number;
 }
 
-double number_within(const std::string& option, const std::string& text, double least, double most) {
+double number_within(const std::string& name, const std::string& text, double least, double most) {
   const std::optional<double> number = parse<double>(text);
   if (!number || !(*number >= least && *number <= most))
-    wrong(option, text, fmt::format("must be a number from {} to {}", least, most));
+    wrong(name, text, fmt::format("must be a number from {} to {}", least, most));
   return *number;
 }
 
-std::array<int, 2> size(const std::string& option, const std::string& text) {
+std::array<int, 2> size(const std::string& name, const std::string& text) {
   constexpr std::int64_t most_pixels = std::int64_t{1} << 28;
   const std::size_t x = text.find_first_of("xX");
   if (x != std::string::npos) {
@@ -82,22 +82,29 @@ std::array<int, 2> size(const std::string& option, const std::string& text) {
     if (width && height && *width > 0 && *height > 0 && *width <= most_pixels / *height)
       return {*width, *height};
   }
-  wrong(option, text, "must be WIDTHxHEIGHT in pixels, such as 640x480, of at most 2^28 pixels");
+  wrong(name, text, "must be WIDTHxHEIGHT in pixels, such as 640x480, of at most 2^28 pixels");
 }
 
-std::pair<std::string, std::string> definition(const std::string& option, const std::string& text) {
+std::pair<std::string, std::string> definition(const std::string& name, const std::string& text) {
   const std::size_t equals = text.find('=');
-  if (equals == std::string::npos || equals == 0) wrong(option, text, "must be NAME=VALUE");
+  if (equals == std::string::npos || equals == 0) wrong(name, text, "must be NAME=VALUE");
   return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
-std::size_t choice(const std::string& option, const std::string& text,
-                   const std::vector<std::string>& names) {
+std::size_t choice(const std::string& name, const std::string& text, const std::vector<std::string>& names) {
   const auto found = std::ranges::find(names, text);
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
   const std::string meant = nearest(text, names);
-  if (meant.empty()) wrong(option, text, fmt::format("must be one of {}", fmt::join(names, ", ")));
-  wrong(option, text, fmt::format("did you mean {}? It must be one of {}", meant, fmt::join(names, ", ")));
+  if (meant.empty()) wrong(name, text, "must be one of " + joined(names));
+  wrong(name, text, fmt::format("did you mean {}? It must be one of {}", meant, joined(names)));
+}
+
+std::string quoted(const std::string& name) {
+  return fmt::format("`{}`", name);
+}
+
+std::string joined(const std::vector<std::string>& names) {
+  return fmt::format("{}", fmt::join(names, ", "));
 }
 
 std::string nearest(const std::string& text, const std::vector<std::string>& names) {
@@ -112,4 +119,4 @@ std::string nearest(const std::string& text, const std::vector<std::string>& nam
   return best;
 }
 
-} // namespace phlux::cli
+} // namespace phlux::settings
