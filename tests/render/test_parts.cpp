@@ -25,17 +25,16 @@ render::Parts parts_of(const scene::Scene& scene, render::Connect connect = rend
 
 TEST_CASE("the parts of each shipped scene are just what is in it") {
   const std::map<std::string, Names> expected = {
-      {"caustic",
-       {"parallelograms", "ellipses", "spheres", "two_sided", "black", "phong_lobe", "light_planar"}},
-      {"cornell-box", {"parallelograms", "spheres", "black", "phong_lobe", "light_planar"}},
-      {"furnace-box", {"parallelograms", "light_planar", "light_choice"}},
-      {"furnace-sphere", {"spheres", "phong_lobe", "light_constant"}},
-      {"glossy-box", {"parallelograms", "spheres", "black", "phong_lobe", "light_planar"}},
+      {"caustic", {"parallelograms", "ellipses", "spheres", "two_sided", "black", "light_planar", "phong"}},
+      {"cornell-box", {"parallelograms", "spheres", "black", "light_planar", "phong"}},
+      {"furnace-box", {"parallelograms", "light_planar", "light_choice", "diffuse"}},
+      {"furnace-sphere", {"spheres", "light_constant", "phong"}},
+      {"glossy-box", {"parallelograms", "spheres", "black", "light_planar", "phong"}},
       {"mesh",
-       {"hierarchy", "triangles", "parallelograms", "smooth_normals", "black", "phong_lobe", "light_planar",
-        "light_constant", "light_choice"}},
-      {"point-light", {"parallelograms", "spheres", "phong_lobe", "light_point"}},
-      {"two-phong-spheres", {"parallelograms", "spheres", "black", "phong_lobe", "light_planar"}},
+       {"hierarchy", "triangles", "parallelograms", "smooth_normals", "black", "light_planar",
+        "light_constant", "light_choice", "phong"}},
+      {"point-light", {"parallelograms", "spheres", "light_point", "phong"}},
+      {"two-phong-spheres", {"parallelograms", "spheres", "black", "light_planar", "phong"}},
   };
   for (const std::string& name : shipped_names()) {
     CAPTURE(name);
