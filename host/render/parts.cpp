@@ -158,6 +158,7 @@ std::vector<std::string> Parts::names() const {
   std::vector<std::string> list;
   for (const NamedPart& part : named_parts)
     if (this->*part.member) list.emplace_back(part.name);
+  if (double_precision) list.emplace_back("double_precision");
   for (const auto& model : models) list.push_back(model->name);
   return list;
 }
