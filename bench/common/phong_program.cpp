@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "errors.h"
 #include "render/material_table.h"
@@ -15,10 +16,11 @@ namespace {
 
 std::map<std::string, std::string> defines(const std::string& strategy, int lanes,
                                            std::map<std::string, std::string> more) {
-  const auto& names = render::strategy_names(); // in the order of phong.cl's numbers, from 1
+  const auto& names = render::strategy_names(); // in the order of the numbers in phong.cl, which begin at 1
   const auto found = std::ranges::find(names, strategy);
   if (found == names.end())
-    throw UsageError(fmt::format("--strategy {}: there is no such strategy", strategy));
+    throw UsageError(
+        fmt::format("strategy {}: unknown: must be one of {}", strategy, fmt::join(names, ", ")));
   more["WIDTH"] = std::to_string(lanes);
   more["PHLUX_PHONG_LOBE"] = "1";
   more["PHLUX_STRATEGY"] = std::to_string(found - names.begin() + 1);
