@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "errors.h"
 #include "lobes/program.h"
@@ -17,7 +18,8 @@ namespace {
 device::ProgramSource source_of(const std::string& root, const std::string& strategy, int lanes,
                                 std::map<std::string, std::string> more) {
   if (std::ranges::find(render::strategy_names(), strategy) == render::strategy_names().end())
-    throw UsageError(fmt::format("--strategy {}: there is no such strategy", strategy));
+    throw UsageError(fmt::format("strategy {}: unknown: must be one of {}", strategy,
+                                 fmt::join(render::strategy_names(), ", ")));
   render::Parts parts;
   parts.lanes = lanes;
   parts.models = {lobes::shipped("phong")};

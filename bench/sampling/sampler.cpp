@@ -14,12 +14,12 @@
 namespace phlux::bench {
 namespace {
 
-// Float sums of so many terms lose at most a few parts in 1e6 of their standard deviation.
+// Sums of this many float32 terms have a rounding error of a few 1e-6 of their standard deviation.
 constexpr std::uint64_t most_block_samples = 256;
-constexpr int fixed_directions = 16; // a block has a whole multiple of them
+constexpr int fixed_directions = 16; // the size of a block is a multiple of this
 constexpr int powers = 4, counters = 3;
 
-// Directions at the case's angle and even longitudes, in the layout that the kernel reads.
+// Directions at this angle and equidistant longitudes, in the layout of the kernel.
 std::vector<float> directions_at(double degrees, int lanes) {
   const double angle = degrees * std::numbers::pi / 180;
   std::vector<float> values;
@@ -50,8 +50,8 @@ double rejection_proposals(const Case& one) {
   return (one.diffuse + one.specular * (one.exponent + 2) / 2) / exact_reflectivity(one);
 }
 
-// In the coordinates of kernels/phong-sampling.md the horizon is the longitude psi = pi / 2 - theta, and the
-// lobe's density separates into powers of cos(beta) and cos(psi).
+// In the coordinates of kernels/phong-sampling.md the horizon is at longitude psi = pi / 2 - theta, and the
+// density of the lobe is a product of powers of cos(beta) and cos(psi).
 double printed_loss(const Case& one) {
   const double sine = std::sin(one.degrees * std::numbers::pi / 180);
   return boost::math::ibeta((one.exponent + 1) / 2, 0.5, sine * sine) / 2;
