@@ -4,7 +4,7 @@
 // PHLUX_GIVEN_WORDS lets the host choose a sampler's random numbers.
 #include "only_material.cl"
 
-#define PLANE(k) ((k)*get_global_size(0) + get_global_id(0))
+#define PLANE(k) ((size_t)(k)*get_global_size(0) + get_global_id(0))
 
 #define VERIFY_PARAMETERS __global const MaterialRecord *materials, __global const float *table, int material
 #define VERIFY_MATERIAL only_material(materials + material, table)

@@ -1,0 +1,105 @@
+// That the programs compiled for other devices hold everything that is in kernels/, so that no part is left
+// out.
+#include <algorithm>
+#include <filesystem>
+#include <regex>
+#include <set>
+
+#include <catch2/catch.hpp>
+
+#include "device/program.h"
+#include "portability/programs.h"
+#include "temporary_folder.h"
+
+using namespace phlux;
+using namespace phlux::test;
+
+namespace {
+
+using Names = std::set<std::string>;
+
+const std::filesystem::path kernels = PHLUX_SOURCE_DIR "/kernels";
+
+// All texts that `pattern`'s only group matches.
+Names found_in(const std::string& text, const std::regex& pattern) {
+  Names names;
+  for (std::sregex_iterator match(text.begin(), text.end(), pattern), end; match != end; ++match)
+    names.insert((*match)[1]);
+  return names;
+}
+
+Names without(const Names& all, const Names& some) {
+  Names rest;
+  std::ranges::set_difference(all, some, std::inserter(rest, rest.end()));
+  return rest;
+}
+
+// Kernel files by their path in kernels/.
+Names kernel_files() {
+  Names names;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(kernels))
+    if (entry.path().extension() == ".cl" || entry.path().extension() == ".h")
+      names.insert(std::filesystem::relative(entry.path(), kernels));
+  return names;
+}
+
+Names union_over_programs(const std::function<Names(const Program&)>& names_of) {
+  Names all;
+  for (const Program& program : programs()) all.merge(names_of(program));
+  return all;
+}
+
+// Macros that are defined and not 0.
+Names switched_on(const Program& program) {
+  Names names;
+  for (const auto& [macro, value] : program.defines)
+    if (value != "0") names.insert(macro);
+  return names;
+}
+
+} // namespace
+
+TEST_CASE("portability: every part is on in one program and off in another") {
+  for (const std::string& part : render::Parts::all_names()) {
+    CAPTURE(part);
+    std::size_t on = 0;
+    for (const SceneProgram& scene : scene_programs()) {
+      const std::vector<std::string> names = scene.parts.names();
+      on += static_cast<std::size_t>(std::ranges::count(names, part));
+    }
+    CHECK(on > 0);
+    CHECK(on < scene_programs().size());
+  }
+}
+
+TEST_CASE("portability: every macro that the host defines for kernels is on in some program") {
+  std::string text;
+  for (const std::string& file : kernel_files()) text += TemporaryFolder::read(kernels / file);
+  const Names used = found_in(text, std::regex(R"(\b((?:PHLUX|HAS)_[A-Z0-9_]+)\b)"));
+  const Names defined_in_kernels = found_in(text, std::regex(R"(#\s*define\s+(\w+))"));
+  const Names switches = without(used, defined_in_kernels);
+  CHECK(switches.size() > render::Parts::all_names().size());
+  CHECK(without(switches, union_over_programs(switched_on)) == Names{});
+}
+
+TEST_CASE("portability: every kernel file is in some program") {
+  const Names included = union_over_programs([](const Program& program) {
+    return found_in(device::expand({}, {program.root, program.defines, ""}),
+                    std::regex(R"r(#line \d+ "([^"]+)")r"));
+  });
+  CHECK(without(kernel_files(), included) == Names{});
+}
+
+TEST_CASE("portability: every strategy is in some program") {
+  const Names compiled =
+      union_over_programs([](const Program& program) { return Names{program.defines.at("PHLUX_STRATEGY")}; });
+  CHECK(compiled.size() == render::strategy_names().size());
+}
+
+TEST_CASE("portability: no two programs share a name") {
+  Names names;
+  for (const Program& program : programs()) {
+    CAPTURE(program.name);
+    CHECK(names.insert(program.name).second);
+  }
+}
