@@ -10,7 +10,7 @@
 #include "render/quiet_log.h"
 #include "scene/image_size.h"
 
-namespace phlux::render {
+namespace phlux::advice {
 namespace {
 
 constexpr int longest_side = 64; // pixels of a trial's image
@@ -23,25 +23,28 @@ struct Method {
 };
 constexpr Method methods[] = {{"-i path", "path"}, {"-i bidir", "bidir"}, {"-i light", "light"}};
 
-std::string own_options(const Settings& s) {
+std::string own_options(const render::Settings& s) {
   std::string text = "-i " + s.integrator;
-  if (s.integrator == "path") text += " --connect " + name_of(s.connect);
-  if (s.integrator == "bidir") text += " --weights " + name_of(s.weights);
-  if (s.light_selection != Settings().light_selection)
-    text += " --light-selection " + name_of(s.light_selection);
-  if (s.connections != Settings().connections) text += fmt::format(" --connections {}", s.connections);
+  if (s.integrator == "path") text += " --connect " + render::name_of(s.connect);
+  if (s.integrator == "bidir") text += " --weights " + render::name_of(s.weights);
+  if (s.light_selection != render::Settings().light_selection)
+    text += " --light-selection " + render::name_of(s.light_selection);
+  if (s.connections != render::Settings().connections)
+    text += fmt::format(" --connections {}", s.connections);
   return text;
 }
 
-bool is_default(const Settings& settings, const Method& method) {
-  return settings.integrator == method.integrator && settings.connect == Settings().connect &&
-         settings.weights == Settings().weights && settings.light_selection == Settings().light_selection &&
-         settings.connections == Settings().connections;
+bool is_default(const render::Settings& settings, const Method& method) {
+  return settings.integrator == method.integrator && settings.connect == render::Settings().connect &&
+         settings.weights == render::Settings().weights &&
+         settings.light_selection == render::Settings().light_selection &&
+         settings.connections == render::Settings().connections;
 }
 
-Trial try_method(const scene::Scene& scene, const Settings& settings, const std::string& options) try {
+Trial try_method(const scene::Scene& scene, const render::Settings& settings,
+                 const std::string& options) try {
   film::Film film(scene.camera.width, scene.camera.height);
-  const Statistics statistics = render(scene, settings, film, {});
+  const render::Statistics statistics = render::render(scene, settings, film, {});
   const auto samples = static_cast<double>(film.samples());
   const film::Reliability reliability = film::reliability_of(film);
   return {.options = options,
@@ -88,21 +91,21 @@ std::size_t trials_of(const scene::Scene& scene) {
   return std::size(methods) + 1 + lights_told_apart(scene);
 }
 
-Advice advise(scene::Scene scene, const Settings& settings, double seconds) {
-  const QuietLog quiet;
+Advice advise(scene::Scene scene, const render::Settings& settings, double seconds) {
+  const render::QuietLog quiet;
   scene::shrink_image(scene.camera, longest_side);
-  Settings trial = settings;
+  render::Settings trial = settings;
   trial.time_limit = seconds;
   trial.target_error.reset();
   trial.clamp.reset();
   trial.techniques = false;
-  const Settings own = trial;
+  const render::Settings own = trial;
   Advice advice;
   advice.trials.push_back(try_method(scene, trial, own_options(settings)));
-  trial.connect = Settings().connect;
-  trial.weights = Settings().weights;
-  trial.light_selection = Settings().light_selection;
-  trial.connections = Settings().connections;
+  trial.connect = render::Settings().connect;
+  trial.weights = render::Settings().weights;
+  trial.light_selection = render::Settings().light_selection;
+  trial.connections = render::Settings().connections;
   trial.ambient.reset();
   for (const Method& method : methods) {
     if (is_default(settings, method)) continue;
@@ -114,4 +117,4 @@ Advice advise(scene::Scene scene, const Settings& settings, double seconds) {
   return advice;
 }
 
-} // namespace phlux::render
+} // namespace phlux::advice

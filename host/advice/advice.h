@@ -7,7 +7,7 @@
 #include "film/reliability.h"
 #include "render/render.h"
 
-namespace phlux::render {
+namespace phlux::advice {
 
 /// One method on a small image of the scene.
 struct Trial {
@@ -28,6 +28,6 @@ struct Advice {
 /// Renders small images of the scene by the settings' method and by the others, each for `seconds` once its
 /// kernels are built, and says which of those that can be trusted is more than twice as efficient and, where
 /// one light makes the most of the variance, which. @throws DeviceError
-[[nodiscard]] Advice advise(scene::Scene scene, const Settings& settings, double seconds);
+[[nodiscard]] Advice advise(scene::Scene scene, const render::Settings& settings, double seconds);
 
-} // namespace phlux::render
+} // namespace phlux::advice

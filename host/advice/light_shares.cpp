@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-namespace phlux::render {
+namespace phlux::advice {
 namespace {
 
 struct Light {
@@ -47,7 +47,7 @@ std::size_t lights_told_apart(const scene::Scene& scene) {
   return count > 1 && count <= most_lights_told_apart ? count : 0;
 }
 
-std::vector<LightShare> light_shares(scene::Scene& scene, const Settings& settings) {
+std::vector<LightShare> light_shares(scene::Scene& scene, const render::Settings& settings) {
   std::vector<LightShare> shares;
   if (lights_told_apart(scene) == 0) return shares;
   const std::vector<Light> lights = lights_of(scene);
@@ -57,7 +57,7 @@ std::vector<LightShare> light_shares(scene::Scene& scene, const Settings& settin
   for (std::size_t i = 0; i < lights.size(); ++i) {
     film::Film film(scene.camera.width, scene.camera.height);
     *lights[i].power = powers[i];
-    if (powers[i] != scene::Rgb(0.0)) (void)render(scene, settings, film, {});
+    if (powers[i] != scene::Rgb(0.0)) (void)render::render(scene, settings, film, {});
     *lights[i].power = scene::Rgb(0.0);
     shares.push_back({lights[i].name, variance_of_sample(film)});
     total += shares.back().share;
@@ -69,4 +69,4 @@ std::vector<LightShare> light_shares(scene::Scene& scene, const Settings& settin
   return shares;
 }
 
-} // namespace phlux::render
+} // namespace phlux::advice

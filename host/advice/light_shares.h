@@ -6,7 +6,7 @@
 
 #include "render/render.h"
 
-namespace phlux::render {
+namespace phlux::advice {
 
 struct LightShare {
   std::string light;  ///< such as "area light 2": the second one in the scene file
@@ -21,6 +21,6 @@ inline constexpr std::size_t most_lights_told_apart = 8;
 
 /// Renders each light alone by these settings, for their time_limit. What the lights bring adds up, and their
 /// variances nearly do. The scene comes back as it was. @throws UsageError, DeviceError
-[[nodiscard]] std::vector<LightShare> light_shares(scene::Scene& scene, const Settings& settings);
+[[nodiscard]] std::vector<LightShare> light_shares(scene::Scene& scene, const render::Settings& settings);
 
-} // namespace phlux::render
+} // namespace phlux::advice

@@ -84,8 +84,8 @@ HostScene prepare(const scene::Scene& scene, Traversal traversal, int lanes, boo
   if (host.geometry.primitive_count == 0)
     throw SceneError(
         "no shape of the scene has an area that single precision can tell from 0: scale them up");
-  host.lights = light_table(scene, host.geometry, tree_of_lights);
-  host.materials = material_table(scene.materials);
+  host.lights = tables::light_table(scene, host.geometry, tree_of_lights);
+  host.materials = tables::material_table(scene.materials);
   host.camera = camera_record(scene.camera, host.geometry.origin);
   return host;
 }
@@ -115,13 +115,9 @@ DeviceScene::DeviceScene(const device::Device& device, const HostScene& scene, c
 cl_uint DeviceScene::bind(cl::Kernel& kernel) const {
   cl_uint index = 0;
   const auto bind_all = [&](const auto&... arguments) { (kernel.setArg(index++, arguments), ...); };
-  bind_all(camera_, primitives_, materials_, lights_, light_count_);
-  if (parts_.planars) bind_all(planars_, triangle_end_, parallelogram_end_, ellipse_end_);
-  if (parts_.spheres) bind_all(spheres_, first_sphere_, sphere_count_);
-  if (parts_.hierarchy) bind_all(nodes_, root_);
-  if (parts_.light_tree) bind_all(light_nodes_, light_tree_probability_);
-  if (parts_.phong_lobe) bind_all(reflectivity_);
-  if (parts_.smooth_normals) bind_all(corners_, vertex_normals_);
+  bind_all(camera_, primitives_, materials_, lights_, light_count_, planars_, triangle_end_,
+           parallelogram_end_, ellipse_end_, spheres_, first_sphere_, sphere_count_, nodes_, root_,
+           light_nodes_, light_tree_probability_, reflectivity_, corners_, vertex_normals_);
   return index;
 }
 

@@ -12,8 +12,8 @@ namespace phlux::render {
 /// Everything that the host computes about a scene for one WIDTH, precision and traversal.
 struct HostScene {
   accel::Geometry geometry;
-  LightTable lights;
-  MaterialTable materials;
+  tables::LightTable lights;
+  tables::MaterialTable materials;
   CameraRecord camera{};
 };
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "device/work_groups.h"
-#include "scene_data.h"
+#include "scene/scene_data.h"
 
 namespace phlux::render {
 namespace {

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "errors.h"
-#include "tables/material_table.h"
+#include "phong/reflectivity.h"
 
 namespace phlux::render {
 namespace {
@@ -18,28 +18,25 @@ struct NamedPart {
 };
 
 constexpr NamedPart named_parts[] = {
-    {&Parts::hierarchy, "hierarchy", "PHLUX_BVH"},
-    {&Parts::double_precision, "double_precision", "PHLUX_DOUBLE"},
-    {&Parts::planars, "planars", "PHLUX_PLANARS"},
-    {&Parts::triangles, "triangles", "PHLUX_TRIANGLES"},
-    {&Parts::parallelograms, "parallelograms", "PHLUX_PARALLELOGRAMS"},
-    {&Parts::ellipses, "ellipses", "PHLUX_ELLIPSES"},
-    {&Parts::spheres, "spheres", "PHLUX_SPHERES"},
-    {&Parts::smooth_normals, "smooth_normals", "PHLUX_SMOOTH_NORMALS"},
-    {&Parts::two_sided, "two_sided", "PHLUX_TWO_SIDED"},
-    {&Parts::black, "black", "PHLUX_BLACK"},
-    {&Parts::phong_lobe, "phong_lobe", "PHLUX_PHONG_LOBE"},
-    {&Parts::anisotropic, "anisotropic", "PHLUX_ANISOTROPIC"},
-    {&Parts::emission, "emission", "PHLUX_EMISSION"},
-    {&Parts::light_planar, "light_planar", "PHLUX_LIGHT_PLANAR"},
-    {&Parts::light_sphere, "light_sphere", "PHLUX_LIGHT_SPHERE"},
-    {&Parts::light_point, "light_point", "PHLUX_LIGHT_POINT"},
-    {&Parts::light_spot, "light_spot", "PHLUX_LIGHT_SPOT"},
-    {&Parts::light_directional, "light_directional", "PHLUX_LIGHT_DIRECTIONAL"},
-    {&Parts::light_constant, "light_constant", "PHLUX_LIGHT_CONSTANT"},
-    {&Parts::light_choice, "light_choice", "PHLUX_LIGHT_CHOICE"},
-    {&Parts::light_tree, "light_tree", "PHLUX_LIGHT_TREE"},
-    {&Parts::ambient, "ambient", "PHLUX_AMBIENT"},
+    {&Parts::hierarchy, "hierarchy", "HAS_BVH"},
+    {&Parts::triangles, "triangles", "HAS_TRIANGLES"},
+    {&Parts::parallelograms, "parallelograms", "HAS_PARALLELOGRAMS"},
+    {&Parts::ellipses, "ellipses", "HAS_ELLIPSES"},
+    {&Parts::spheres, "spheres", "HAS_SPHERES"},
+    {&Parts::smooth_normals, "smooth_normals", "HAS_SMOOTH_NORMALS"},
+    {&Parts::two_sided, "two_sided", "HAS_TWO_SIDED"},
+    {&Parts::black, "black", "HAS_BLACK"},
+    {&Parts::phong_lobe, "phong_lobe", "HAS_PHONG_LOBE"},
+    {&Parts::anisotropic, "anisotropic", "HAS_ANISOTROPIC"},
+    {&Parts::light_planar, "light_planar", "HAS_PLANAR_LIGHTS"},
+    {&Parts::light_sphere, "light_sphere", "HAS_SPHERE_LIGHTS"},
+    {&Parts::light_point, "light_point", "HAS_POINT_LIGHTS"},
+    {&Parts::light_spot, "light_spot", "HAS_SPOT_LIGHTS"},
+    {&Parts::light_directional, "light_directional", "HAS_DIRECTIONAL_LIGHTS"},
+    {&Parts::light_constant, "light_constant", "HAS_CONSTANT_LIGHT"},
+    {&Parts::light_choice, "light_choice", "HAS_LIGHT_CHOICE"},
+    {&Parts::light_tree, "light_tree", "HAS_LIGHT_TREE"},
+    {&Parts::ambient, "ambient", "HAS_AMBIENT"},
 };
 
 struct NamedStrategy {
@@ -75,7 +72,7 @@ Integrator find_integrator(const std::string& name) {
   throw UsageError("integrator " + name + ": there is no such integrator: path, light, bidir");
 }
 
-Connect possible_connect(const Settings& settings, const LightTable& lights) {
+Connect possible_connect(const Settings& settings, const tables::LightTable& lights) {
   const bool hittable = lights.has(LIGHT_PLANAR) || lights.has(LIGHT_SPHERE) || lights.has(LIGHT_CONSTANT);
   if (settings.integrator == "path" && settings.connect == Connect::none && !lights.records.empty() &&
       !hittable)
@@ -91,7 +88,7 @@ double proposals(const scene::Material& m) {
   const double diffuse = std::max({m.diffuse.r, m.diffuse.g, m.diffuse.b});
   const double specular = std::max({m.specular.r, m.specular.g, m.specular.b});
   const double highest = diffuse + specular * (m.exponent_u / 2 + 1);
-  return highest / (diffuse + specular * lobe_reflectivity(m.exponent_u, 0.0));
+  return highest / (diffuse + specular * phong::lobe_reflectivity(m.exponent_u, 0.0));
 }
 
 void refuse_endless_rejection(const scene::Material& m) {
@@ -151,7 +148,7 @@ bool wants_light_tree(const Settings& settings) {
   return samples_lights(settings) && settings.light_selection == LightSelection::contribution;
 }
 
-Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, const LightTable& lights,
+Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, const tables::LightTable& lights,
                  const Settings& settings, int lanes) {
   Parts parts;
   parts.lanes = lanes;
@@ -235,45 +232,37 @@ void Parts::set(const std::string& name, bool on) {
 const char* Parts::file() const {
   switch (integrator) {
   case Integrator::light:
-    return "light.cl";
+    return "transport/light.cl";
   case Integrator::bidir:
-    return "bidir.cl";
+    return "transport/bidir.cl";
   default:
-    return "path.cl";
+    return "transport/path.cl";
   }
 }
 
 std::map<std::string, std::string> Parts::defines() const {
   std::map<std::string, std::string> macros;
-  for (const NamedPart& part : named_parts)
-    if (this->*part.member) macros[part.macro] = "1";
-  const int kinds =
-      light_planar + light_sphere + light_point + light_spot + light_directional + light_constant;
-  const int regions = triangles + parallelograms + ellipses;
-  if (kinds > 1) macros["PHLUX_LIGHT_KINDS"] = "1";
-  if (regions > 1) macros["PHLUX_MIXED_REGIONS"] = "1";
-  if (emission || light_constant) macros["PHLUX_HITTABLE_LIGHTS"] = "1";
-  if (one_light) macros["PHLUX_ONE_LIGHT"] = "1";
-  if (lanes == static_cast<int>(few_entries)) {
-    if (few_lights) macros["PHLUX_FEW_LIGHTS"] = "1";
-    if (few_materials) macros["PHLUX_FEW_MATERIALS"] = "1";
-    if (few_primitives) macros["PHLUX_FEW_PRIMITIVES"] = "1";
-  }
-  if (phong_lobe) macros["PHONG_TABLE_INTERVALS"] = std::to_string(reflectivity_intervals);
-  if (techniques) macros["PHLUX_TECHNIQUES"] = "1";
-  if (clamp && integrator != Integrator::light) macros["PHLUX_CLAMP"] = fmt::format("{:a}f", *clamp);
-  if (integrator == Integrator::bidir) {
-    macros["PHLUX_BIDIR"] = "1";
-    if (connections > 0) macros["PHLUX_CONNECTIONS"] = fmt::format("{}.0f", connections);
-    macros["PHLUX_WEIGHTS"] = weights == Weights::balance ? "WEIGHTS_BALANCE"
-                              : weights == Weights::power ? "WEIGHTS_POWER"
-                                                          : "WEIGHTS_UNIFORM";
-  }
+  const auto define = [&](const char* name, bool value) { macros[name] = value ? "1" : "0"; };
+  for (const NamedPart& part : named_parts) define(part.macro, this->*part.member);
+  define("ONE_LIGHT", one_light);
+  define("FEW_LIGHTS", few_lights);
+  define("FEW_MATERIALS", few_materials);
+  define("FEW_PRIMITIVES", few_primitives);
+  define("RECORD_TECHNIQUES", techniques);
+  define("HAS_CLAMP", clamp && integrator != Integrator::light);
+  define("IS_BIDIR", integrator == Integrator::bidir);
+  macros["CLAMP_RADIANCE"] = fmt::format("{:a}f", clamp.value_or(0));
+  macros["CONNECTIONS"] = std::to_string(integrator == Integrator::bidir ? connections : 0);
+  macros["WEIGHTS"] = weights == Weights::balance ? "WEIGHTS_BALANCE"
+                      : weights == Weights::power ? "WEIGHTS_POWER"
+                                                  : "WEIGHTS_UNIFORM";
+  macros["PHONG_TABLE_INTERVALS"] = std::to_string(phong::reflectivity_intervals);
+  if (double_precision) macros["PHLUX_DOUBLE"] = "1";
   macros["WIDTH"] = std::to_string(lanes);
-  macros["PHLUX_STRATEGY"] = strategy;
-  macros["PHLUX_CONNECT"] = connect == Connect::none    ? "CONNECT_NONE"
-                            : connect == Connect::light ? "CONNECT_LIGHT"
-                                                        : "CONNECT_MIS";
+  macros["STRATEGY"] = strategy;
+  macros["CONNECT"] = connect == Connect::none    ? "CONNECT_NONE"
+                      : connect == Connect::light ? "CONNECT_LIGHT"
+                                                  : "CONNECT_MIS";
   return macros;
 }
 

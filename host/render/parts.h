@@ -65,6 +65,6 @@ struct Parts {
 /// @throws UsageError for an integrator that there is not, and for a strategy, a --connect or an --ambient
 /// that cannot render this scene
 [[nodiscard]] Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry,
-                               const LightTable& lights, const Settings& settings, int lanes);
+                               const tables::LightTable& lights, const Settings& settings, int lanes);
 
 } // namespace phlux::render

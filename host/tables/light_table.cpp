@@ -7,7 +7,7 @@
 
 #include "tables/light_tree.h"
 
-namespace phlux::render {
+namespace phlux::tables {
 namespace {
 
 using scene::Rgb;
@@ -26,7 +26,7 @@ LightRecord record_of(LightKinds kind, const Rgb& power) {
   LightRecord record{};
   record.kind = kind;
   record.primitive = -1;
-  set(record.power, power);
+  set(record.radiance, power);
   return record;
 }
 
@@ -172,7 +172,7 @@ double unit_of(const std::vector<LightRecord>& records, double radius) {
   constexpr int ordinary_exponent = 32;
   double most = 0;
   for (const LightRecord& record : records) {
-    const double power = std::max({record.power[0], record.power[1], record.power[2]});
+    const double power = std::max({record.radiance[0], record.radiance[1], record.radiance[2]});
     const bool spreads = record.kind == LIGHT_POINT || record.kind == LIGHT_SPOT;
     most = std::max(most, spreads ? power / (radius * radius) : power);
   }
@@ -183,7 +183,7 @@ double unit_of(const std::vector<LightRecord>& records, double radius) {
 void use_unit(LightTable& table, double unit) {
   table.unit = unit;
   for (LightRecord& record : table.records)
-    for (float& power : record.power) power = static_cast<float>(power / unit);
+    for (float& power : record.radiance) power = static_cast<float>(power / unit);
 }
 
 } // namespace
@@ -210,4 +210,4 @@ LightTable light_table(const scene::Scene& scene, accel::Geometry& geometry, boo
   return std::move(collector.table);
 }
 
-} // namespace phlux::render
+} // namespace phlux::tables

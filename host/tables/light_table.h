@@ -5,9 +5,9 @@
 
 #include "accel/geometry.h"
 #include "scene/scene.h"
-#include "scene_data.h"
+#include "scene/scene_data.h"
 
-namespace phlux::render {
+namespace phlux::tables {
 
 struct LightTable {
   std::vector<LightRecord> records;
@@ -27,4 +27,4 @@ struct LightTable {
 [[nodiscard]] LightTable light_table(const scene::Scene& scene, accel::Geometry& geometry,
                                      bool with_tree = true);
 
-} // namespace phlux::render
+} // namespace phlux::tables

@@ -9,7 +9,7 @@
 
 #include "accel/tree.h"
 
-namespace phlux::render {
+namespace phlux::tables {
 namespace {
 
 using scene::Vec3;
@@ -118,4 +118,4 @@ std::vector<LightNodeRecord> light_tree(std::span<const PlacedLight> lights,
   return layout.take();
 }
 
-} // namespace phlux::render
+} // namespace phlux::tables

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "scene/scene.h"
-#include "scene_data.h"
+#include "scene/scene_data.h"
 
-namespace phlux::render {
+namespace phlux::tables {
 
 /// What bounds the light that one light sends.
 struct PlacedLight {
@@ -24,4 +24,4 @@ struct PlacedLight {
 [[nodiscard]] std::vector<LightNodeRecord> light_tree(std::span<const PlacedLight> lights,
                                                       std::vector<LightRecord>& records);
 
-} // namespace phlux::render
+} // namespace phlux::tables

@@ -26,7 +26,7 @@ std::string rgb_text(const Rgb& c) {
 
 } // namespace
 
-Case make_case(const render::MaterialTable& table, int material, double degrees) {
+Case make_case(const tables::MaterialTable& table, int material, double degrees) {
   Case one;
   one.material = material;
   one.degrees = degrees;
@@ -57,7 +57,7 @@ Cases make_cases(bool quick) {
       materials.push_back(m);
     angles = {0, 30, 60, 75, 85, 89.9};
   }
-  Cases cases{render::material_table(materials), {}};
+  Cases cases{tables::material_table(materials), {}};
   for (std::size_t m = 0; m < materials.size(); ++m)
     for (const double angle : angles)
       cases.cases.push_back(make_case(cases.table, static_cast<int>(m), angle));

@@ -18,7 +18,7 @@ struct Case {
 };
 
 struct Cases {
-  render::MaterialTable table;
+  tables::MaterialTable table;
   std::vector<Case> cases;
 };
 
@@ -26,7 +26,7 @@ struct Cases {
 [[nodiscard]] Cases make_cases(bool quick);
 
 /// One case of a table's material; the fixed direction is that of float32, off the axes.
-[[nodiscard]] Case make_case(const render::MaterialTable& table, int material, double degrees);
+[[nodiscard]] Case make_case(const tables::MaterialTable& table, int material, double degrees);
 
 /// What the parts of all strategies have in the cells of a grid about the lobe, integrated in float64.
 struct CaseCells {

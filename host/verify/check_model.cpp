@@ -69,7 +69,7 @@ ModelCases make_model_cases(bool quick) {
   for (const auto& known : known_values)
     materials.push_back(phong(Rgb(known.diffuse), Rgb(known.specular), known.exponent));
   for (const auto& known : known_reflectivities) materials.push_back(phong(Rgb(0), Rgb(1), known.exponent));
-  cases.table = render::material_table(materials);
+  cases.table = tables::material_table(materials);
   return cases;
 }
 

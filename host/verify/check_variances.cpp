@@ -108,7 +108,7 @@ VarianceCases make_variance_cases() {
   };
   for (const auto& known : known_variances) add(known.diffuse, known.specular, known.exponent);
   for (const auto& known : known_losses) add(0, 1, known.exponent);
-  return {render::material_table(materials)};
+  return {tables::material_table(materials)};
 }
 
 void check_variances(const Subject& subject, const DeviceModel& device, const VarianceCases& cases) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "device/work_groups.h"
+#include "render/parts.h"
 
 namespace phlux::verify {
 namespace {
@@ -19,13 +20,12 @@ std::string macro_of(const std::string& strategy) {
 }
 
 device::ProgramSource source_of(const std::string& strategy, int lanes, bool with_lobe) {
-  device::ProgramSource source{"verify.cl",
-                               {{"WIDTH", std::to_string(lanes)},
-                                {"PHLUX_GIVEN_WORDS", "1"},
-                                {"PHLUX_STRATEGY", macro_of(strategy)},
-                                {"PHONG_TABLE_INTERVALS", std::to_string(render::reflectivity_intervals)}},
-                               ""};
-  if (with_lobe) source.defines["PHLUX_PHONG_LOBE"] = "1";
+  render::Parts parts;
+  parts.lanes = lanes;
+  parts.strategy = macro_of(strategy);
+  parts.phong_lobe = with_lobe;
+  device::ProgramSource source{"measure/verify.cl", parts.defines(), ""};
+  source.defines["PHLUX_GIVEN_WORDS"] = "1";
   return source;
 }
 
@@ -51,7 +51,7 @@ std::uint32_t word_for(double u) {
 }
 
 DeviceModel::DeviceModel(const device::Device& device, const device::KernelFiles& files, int lanes,
-                         const std::string& strategy, const render::MaterialTable& materials, bool with_lobe)
+                         const std::string& strategy, const tables::MaterialTable& materials, bool with_lobe)
     : device_(device), lanes_(lanes),
       program_(device::build(device, files, source_of(strategy, lanes, with_lobe)).program),
       materials_(buffer_of(device, materials.records)), table_(buffer_of(device, materials.reflectivity)) {}

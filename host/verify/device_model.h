@@ -39,7 +39,7 @@ class DeviceModel {
 public:
   /// Builds the kernels. @throws DeviceError
   DeviceModel(const device::Device& device, const device::KernelFiles& files, int lanes,
-              const std::string& strategy, const render::MaterialTable& materials, bool with_lobe = true);
+              const std::string& strategy, const tables::MaterialTable& materials, bool with_lobe = true);
 
   /// `count` samples of the sequence `seed`, from its path `first` on; materials by their index in the table.
   [[nodiscard]] std::vector<Sample> sample(int material, const Direction& fixed, std::size_t count,

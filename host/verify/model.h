@@ -7,7 +7,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "scene_data.h"
+#include "scene/scene_data.h"
 
 namespace phlux::verify {
 

@@ -11,10 +11,10 @@ using namespace phlux::test;
 TEST_CASE("where path tracing cannot be trusted, trials say what can") {
   render::Settings with = settings(16);
   const auto bidir = Catch::Contains("try -i bidir"), light = Catch::Contains("try -i light");
-  render::Advice advice;
+  advice::Advice advice;
   // A machine with other work needs longer for as many samples.
   for (double seconds = 0.5; seconds <= 8 && !(bidir || light).match(advice.words); seconds *= 2)
-    advice = render::advise(shipped("caustic", 32, 24), with, seconds);
+    advice = advice::advise(shipped("caustic", 32, 24), with, seconds);
   REQUIRE(advice.trials.size() == 3); // path is its own method
   CHECK_FALSE(advice.trials[0].reliability.trusted);
   CHECK_THAT(advice.words, bidir || light);
@@ -26,8 +26,8 @@ TEST_CASE("the light that makes the variance is named") {
   scene.point_lights = {lamp, lamp};
   const scene::Scene before = scene;
   render::Settings with = settings(64);
-  REQUIRE(render::lights_told_apart(scene) == 3);
-  std::vector<render::LightShare> shares = render::light_shares(scene, with);
+  REQUIRE(advice::lights_told_apart(scene) == 3);
+  std::vector<advice::LightShare> shares = advice::light_shares(scene, with);
   REQUIRE(shares.size() == 3);
   CHECK(shares[0].light == "area light 1");
   CHECK(shares[0].share > 0.95); // the caustic
@@ -36,6 +36,6 @@ TEST_CASE("the light that makes the variance is named") {
   CHECK(shares[0].share + shares[1].share + shares[2].share == Approx(1.0));
   CHECK(scene.area_emitters[0].radiance == before.area_emitters[0].radiance);
   CHECK(scene.point_lights[1].intensity == before.point_lights[1].intensity);
-  scene.point_lights.assign(render::most_lights_told_apart, lamp); // one too many
-  CHECK(render::light_shares(scene, with).empty());
+  scene.point_lights.assign(advice::most_lights_told_apart, lamp); // one too many
+  CHECK(advice::light_shares(scene, with).empty());
 }

@@ -3,10 +3,10 @@
 
 #include <catch2/catch.hpp>
 
-#include "bench/arithmetic.h"
-#include "bench/csv.h"
-#include "bench/phong_program.h"
-#include "bench/saved_table.h"
+#include "bench/arithmetic/arithmetic.h"
+#include "bench/common/phong_program.h"
+#include "bench/common/tables/csv.h"
+#include "bench/common/tables/saved_table.h"
 #include "kernel_copy.h"
 #include "temporary_folder.h"
 

@@ -5,9 +5,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "bench/scene_bench.h"
-#include "bench/stability.h"
-#include "bench/stability_scene.h"
+#include "bench/common/methods/scene_bench.h"
+#include "bench/stability/stability.h"
+#include "bench/stability/stability_scene.h"
 
 using namespace phlux;
 using namespace phlux::bench;

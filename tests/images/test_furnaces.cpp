@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "images/scenes.h"
-#include "tables/material_table.h"
+#include "phong/reflectivity.h"
 
 using namespace phlux;
 using namespace phlux::test;
@@ -21,7 +21,7 @@ class LobeReflectivity {
 public:
   explicit LobeReflectivity(double exponent) {
     for (int i = 0; i <= intervals; ++i)
-      values_.push_back(render::lobe_reflectivity(exponent, static_cast<double>(i) / intervals));
+      values_.push_back(phong::lobe_reflectivity(exponent, static_cast<double>(i) / intervals));
   }
   double operator()(double cosine) const {
     const double position = std::min(cosine, 1.0) * intervals;

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "images/integrators.h"
-#include "tables/material_table.h"
+#include "phong/reflectivity.h"
 
 using namespace phlux;
 using namespace phlux::test;
@@ -33,7 +33,7 @@ Estimate sphere_reference(const scene::Scene& scene, const scene::Material& mate
       [&](const Vec3& direction) {
         const double along = 4 * direction.z, cosine = std::sqrt(along * along - 15);
         const Rgb rho = sky * (material.diffuse +
-                               material.specular * render::lobe_reflectivity(material.exponent_u, cosine));
+                               material.specular * phong::lobe_reflectivity(material.exponent_u, cosine));
         return Channels{rho.r, rho.g, rho.b};
       },
       8);

@@ -8,8 +8,8 @@
 
 #include "film/reliability.h"
 #include "images/integrators.h"
+#include "phong/reflectivity.h"
 #include "scene_file/load.h"
-#include "tables/material_table.h"
 #include "temporary_folder.h"
 
 using namespace phlux;
@@ -160,7 +160,7 @@ TEST_CASE("a corridor whose walls emit what they absorb is as bright everywhere"
 TEST_CASE("a glossy floor at grazing angles is as bright as its reflectivity") {
   const scene::Scene scene = stability("grazing");
   const Estimate reference = expected(scene.camera, [](const Vec3& direction) {
-    const double radiance = 0.9 * render::lobe_reflectivity(50, -direction.y);
+    const double radiance = 0.9 * phong::lobe_reflectivity(50, -direction.y);
     return Channels{radiance, radiance, radiance};
   });
   for (const Method& method : {path_hits, bidir}) {
@@ -292,7 +292,7 @@ TEST_CASE(
   const Estimate reference = expected(
       scene.camera,
       [&](const Vec3& direction) {
-        const double lobe = 0.1 * render::lobe_reflectivity(10, -direction.y);
+        const double lobe = 0.1 * phong::lobe_reflectivity(10, -direction.y);
         return Channels{sky * (0.6 + lobe), 0.9 * sky * (0.55 + lobe), 0.7 * sky * (0.5 + lobe)};
       },
       4);

@@ -1,4 +1,4 @@
-#include "emission.cl"
+#include "scene/emission.cl"
 
 typedef struct {
   Vec3 origin, direction, radiance, position, normal;

@@ -1,4 +1,4 @@
-#include "material.cl"
+#include "lobes/material.cl"
 
 #define AT get_global_id(0)
 

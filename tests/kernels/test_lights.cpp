@@ -308,7 +308,7 @@ TEST_CASE("lights: a light of another side, or that faces away, is hardly ever c
   const auto of = [&](const Choices& choices, std::size_t shape) { // lights stand in the primitives' order
     const auto& records = program.host().lights.records;
     for (std::size_t light = 0; light < records.size(); ++light)
-      if (records[light].power[0] == static_cast<float>(1 + shape))
+      if (records[light].radiance[0] == static_cast<float>(1 + shape))
         return by_tree(program, choices, light, 0);
     return -1.0;
   };

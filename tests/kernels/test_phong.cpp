@@ -5,8 +5,8 @@
 
 #include "device_test.h"
 #include "material_test.h"
+#include "phong/reflectivity.h"
 #include "quadrature.h"
-#include "tables/material_table.h"
 
 using namespace device_test;
 
@@ -94,7 +94,7 @@ TEST_CASE("phong: reflectivity on the device is the closed form's to the table's
       CAPTURE(v, exponents[m]);
       const auto values = program.reflectivity(static_cast<int>(m), cosines);
       for (std::size_t i = 0; i < cosines.size(); ++i) {
-        const double lobe = phlux::render::lobe_reflectivity(exponents[m], cosines[i]);
+        const double lobe = phlux::phong::lobe_reflectivity(exponents[m], cosines[i]);
         const glm::dvec3 right = materials[m].diffuse + materials[m].specular * lobe;
         for (int channel = 0; channel < 3; ++channel)
           REQUIRE(std::abs(to_double(values[i])[channel] - right[channel]) <= 7e-5 * right[channel] + 2e-7);

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "phong/reflectivity.h"
 #include "sampling_test.h"
-#include "tables/material_table.h"
 
 using namespace device_test;
 
@@ -56,7 +56,7 @@ std::vector<Case> cases_of(const Strategy& strategy) {
       if ((strategy.traits & no_peaks) != 0 && materials[m].exponent_u > 100) continue;
       // At an odd longitude, so that x and y are not mistaken for one another.
       const Float3 fixed = to_float(polar(angle * std::numbers::pi / 180, 1.1));
-      const double lobe = phlux::render::lobe_reflectivity(materials[m].exponent_u, fixed.z);
+      const double lobe = phlux::phong::lobe_reflectivity(materials[m].exponent_u, fixed.z);
       cases.push_back({static_cast<int>(m), fixed, materials[m].diffuse + materials[m].specular * lobe});
     }
   return cases;
@@ -125,7 +125,7 @@ TEST_CASE("phong: the printed estimate loses as much energy as it must") {
   double sum = 0;
   const std::size_t count = thinned(400000);
   for (const Sample& s : program.sample(0, fixed, count, 77, true)) sum += s.survives != 0 ? s.weight.x : 0;
-  const double lobe = phlux::render::lobe_reflectivity(50, fixed.z);
+  const double lobe = phlux::phong::lobe_reflectivity(50, fixed.z);
   CHECK(sum / static_cast<double>(count) / lobe ==
         Approx(1 - 0.107).margin(5 / std::sqrt(static_cast<double>(count))));
 }

@@ -83,7 +83,7 @@ std::vector<double> weights_of(const GivenPath& path, std::size_t edges, std::si
 std::vector<TechniqueWeights> weigh(Variant v, std::size_t heuristic, const std::vector<GivenPath>& paths,
                                     std::size_t edges) {
   std::vector<TechniqueWeights> weights(paths.size());
-  program_of("weights.cl", v, {{"PHLUX_WEIGHTS", heuristics[heuristic]}})
+  program_of("weights.cl", v, {{"WEIGHTS", heuristics[heuristic]}})
       .run("weigh", paths.size(), paths, static_cast<int>(edges), out(weights));
   return weights;
 }

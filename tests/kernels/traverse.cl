@@ -1,4 +1,4 @@
-#include "surface.cl"
+#include "scene/surface.cl"
 
 typedef struct {
   Real distance;

@@ -1,4 +1,4 @@
-#include "weights.cl"
+#include "transport/weights.cl"
 
 // A path of x_0 (on a light) to x_edges (the eye), by the densities and cosines at its vertices (per solid angle):
 // `forward` is that of the direction to the next vertex for a path that comes from the light, `backward` that of the

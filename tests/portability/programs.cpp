@@ -5,6 +5,8 @@
 #include <sstream>
 #include <utility>
 
+#include <fmt/format.h>
+
 namespace phlux::test {
 namespace {
 
@@ -41,7 +43,7 @@ Parts without(Parts parts, const std::string& name) {
   return parts;
 }
 
-// Doubles make a program of their own. No scene has both an ambient term and an anisotropic lobe, whose
+// No scene has both an ambient term and an anisotropic lobe, whose
 // reflectivity has no closed form.
 Parts everything(Integrator integrator = Integrator::path) {
   Parts parts;
@@ -49,7 +51,7 @@ Parts everything(Integrator integrator = Integrator::path) {
   parts.integrator = integrator;
   parts.connect = integrator == Integrator::light ? Connect::none : Connect::mis;
   parts.strategy = macro_of("exact");
-  return without(without(parts, "double_precision"), "ambient");
+  return without(parts, "ambient");
 }
 
 Parts by(Integrator integrator, Parts parts, Weights weights = Weights::balance) {
@@ -89,21 +91,21 @@ Parts few_of_all(Parts parts) {
   return parts;
 }
 
-constexpr char diffuse[] = "planars parallelograms emission light_planar";
-constexpr char glossy[] = "planars parallelograms spheres phong_lobe emission light_planar";
-constexpr char ambient[] = "planars parallelograms spheres phong_lobe black emission light_sphere ambient";
+constexpr char diffuse[] = "parallelograms light_planar";
+constexpr char glossy[] = "parallelograms spheres phong_lobe light_planar";
+constexpr char ambient[] = "parallelograms spheres phong_lobe black light_sphere ambient";
 constexpr char triangles[] =
-    "hierarchy planars triangles smooth_normals phong_lobe emission light_planar light_choice light_tree";
+    "hierarchy triangles smooth_normals phong_lobe light_planar light_choice light_tree";
 constexpr char sky[] = "spheres phong_lobe light_constant";
 
 // The reflectance model alone.
-Program phong_program(const std::string& root, const std::string& strategy, int width) {
-  return {root.substr(0, root.find('.')) + "-" + strategy + "." + std::to_string(width),
-          root,
-          {{"PHLUX_STRATEGY", macro_of(strategy)},
-           {"PHLUX_PHONG_LOBE", "1"},
-           {"FIXED_DIRECTIONS", "16"},
-           {"WIDTH", std::to_string(width)}}};
+Program phong_program(const std::string& name, const std::string& strategy, int width) {
+  Parts parts = parts_of("phong_lobe", strategy);
+  parts.lanes = width;
+  Program program{fmt::format("{}-{}.{}", name, strategy, width), fmt::format("measure/{}.cl", name),
+                  parts.defines()};
+  program.defines["FIXED_DIRECTIONS"] = "16"; // of sampling.cl and figures.cl
+  return program;
 }
 
 Program defining(Program program, const std::string& macro) {
@@ -142,7 +144,7 @@ const std::vector<SceneProgram>& scene_programs() {
 Program program_of(const SceneProgram& scene, int width) {
   Parts parts = scene.parts;
   parts.lanes = width;
-  return {scene.name + "." + std::to_string(width), parts.file(), parts.defines()};
+  return {fmt::format("{}.{}", scene.name, width), parts.file(), parts.defines()};
 }
 
 std::vector<Program> programs() {
@@ -151,14 +153,14 @@ std::vector<Program> programs() {
     for (const SceneProgram& scene : scene_programs())
       if (width == 1 || !scene.parts.double_precision) list.push_back(program_of(scene, width));
     for (const std::string& strategy : render::strategy_names())
-      list.push_back(phong_program("sampling.cl", strategy, width));
-    list.push_back(phong_program("figures.cl", "exact", width));
-    list.push_back(phong_program("arithmetic.cl", "exact", width));
-    list.push_back(defining(phong_program("arithmetic.cl", "fold", width), "PHLUX_NATIVE"));
-    list.back().name = "arithmetic-native." + std::to_string(width);
-    list.push_back(defining(phong_program("verify.cl", "exact", width), "PHLUX_GIVEN_WORDS"));
+      list.push_back(phong_program("sampling", strategy, width));
+    list.push_back(phong_program("figures", "exact", width));
+    list.push_back(phong_program("arithmetic", "exact", width));
+    list.push_back(defining(phong_program("arithmetic", "fold", width), "PHLUX_NATIVE"));
+    list.back().name = fmt::format("arithmetic-native.{}", width);
+    list.push_back(defining(phong_program("verify", "exact", width), "PHLUX_GIVEN_WORDS"));
     list.push_back(program_of({"rays", everything()}, width));
-    list.back().root = "rays.cl";
+    list.back().root = "measure/rays.cl";
   }
   return list;
 }

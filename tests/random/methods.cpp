@@ -195,7 +195,7 @@ SceneFacts facts_of(const scene::Scene& scene) {
   for (const LightRecord& light : host.lights.records) {
     const bool spreads = light.kind == LIGHT_POINT || light.kind == LIGHT_SPOT;
     const double unit = host.lights.unit / (spreads ? std::pow(host.geometry.radius, 2) : 1);
-    for (const float power : light.power)
+    for (const float power : light.radiance)
       facts.brightest = std::max(facts.brightest, unit * static_cast<double>(power));
     facts.in_small_spots += static_cast<double>(light.probability) *
                             part_on_near_surfaces(surfaces, light, small_spot * host.geometry.radius);

@@ -8,8 +8,8 @@
 #include <catch2/catch.hpp>
 
 using namespace phlux;
-using render::PlacedLight;
 using scene::Vec3;
+using tables::PlacedLight;
 
 namespace {
 
@@ -25,7 +25,7 @@ std::vector<PlacedLight> points(int count, const Vec3& from, const Vec3& step) {
 // Checks what kernels rely on; the depth of the deepest leaf.
 int check_tree(const std::vector<PlacedLight>& lights) {
   std::vector<LightRecord> records(lights.size());
-  const std::vector<LightNodeRecord> nodes = render::light_tree(lights, records);
+  const std::vector<LightNodeRecord> nodes = tables::light_tree(lights, records);
   REQUIRE(nodes.size() == 2 * lights.size());
   int deepest = 0;
   for (std::size_t light = 0; light < lights.size(); ++light) {
@@ -63,6 +63,6 @@ TEST_CASE("thousands of point lights in a row, or at one place, make no deep tre
 
 TEST_CASE("one light leaves nothing to choose") {
   std::vector<LightRecord> records(1);
-  CHECK(render::light_tree(points(1, {0, 0, 0}, {0, 0, 0}), records).empty());
-  CHECK(render::light_tree({}, records).empty());
+  CHECK(tables::light_tree(points(1, {0, 0, 0}, {0, 0, 0}), records).empty());
+  CHECK(tables::light_tree({}, records).empty());
 }
