@@ -8,7 +8,7 @@
 // direction was fixed. alpha is the angle between `generated` and the mirror image of `fixed`, clamped to pi / 2.
 // Densities are per solid angle. phong_sample takes the mask of the lanes that matter and draws for no others.
 //
-// STRATEGY chooses how phong_sample draws. PHLUX_PHONG_LOBE is defined where some material has ks > 0; without
+// STRATEGY chooses how phong_sample draws. HAS_PHONG_LOBE is 1 where some material has ks > 0; without
 // it the model is kd / pi and no code of the lobe is compiled. phong-sampling.md derives what is not in CW 197.
 #ifndef PHLUX_PHONG_CL
 #define PHLUX_PHONG_CL

@@ -20,7 +20,7 @@ enum PlanarRegions {
   REGION_NONE = 3           // fills up a block: never hit
 };
 
-// How PHLUX_CONNECT says what reaches the lights.
+// How CONNECT says what reaches the lights.
 #define CONNECT_NONE 0
 #define CONNECT_LIGHT 1
 #define CONNECT_MIS 2

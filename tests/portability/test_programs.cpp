@@ -75,8 +75,9 @@ TEST_CASE("portability: every part is on in one program and off in another") {
 TEST_CASE("portability: every switch of the kernels is on in one program and off in another") {
   const Names on = union_over_programs([](const Program& program) { return defined_as("1", program); });
   Names off = union_over_programs([](const Program& program) { return defined_as("0", program); });
-  off.insert({"WIDTH", "PHLUX_DOUBLE", "PHLUX_GIVEN_WORDS", "PHLUX_NATIVE"}); // not 0, but undefined or a number
-  CHECK(without(off, on) == Names{"CONNECTIONS"});                            // how many
+  off.insert(
+      {"WIDTH", "PHLUX_DOUBLE", "PHLUX_GIVEN_WORDS", "PHLUX_NATIVE"}); // not 0, but undefined or a number
+  CHECK(without(off, on) == Names{"CONNECTIONS"});                     // how many
   CHECK(without(on, off) == Names{});
 }
 
