@@ -20,7 +20,7 @@
 #include "bench/rays/embree_rays.h"
 #include "bench/rays/knot_scene.h"
 #include "clock.h"
-#include "device/program.h"
+#include "device/kernel.h"
 #include "errors.h"
 #include "render/device_scene.h"
 
@@ -39,26 +39,26 @@ double seconds_of(const std::function<void()>& work) {
 
 class DeviceRays {
 public:
-  DeviceRays(const device::Device& device, const device::KernelFiles& files, const render::HostScene& host,
+  DeviceRays(const device::Device& device, const sources::KernelFiles& files, const render::HostScene& host,
              const render::Parts& parts)
       : device_(device), scene_(device, host, parts), lanes_(parts.lanes),
-        program_(device::build(device, files, {"measure/rays.cl", parts.defines(), {}}).program) {}
+        program_(device::build(device, files, parts.source("measure/rays.cl"))) {}
 
   // Seconds that the kernel took, by the device's clock.
   double run(const char* kernel_name, const std::vector<Ray>& rays, std::vector<float>& found) {
     const cl::Buffer in(device_.context, CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR, rays.size() * sizeof(Ray),
                         const_cast<Ray*>(rays.data()));
     const cl::Buffer out(device_.context, CL_MEM_WRITE_ONLY, found.size() * sizeof(float));
-    cl::Kernel kernel(program_, kernel_name);
-    const cl_uint first = scene_.bind(kernel);
-    kernel.setArg(first, in);
-    kernel.setArg(first + 1, static_cast<cl_int>(rays.size()));
-    kernel.setArg(first + 2, out);
+    device::Kernel kernel(program_, kernel_name);
+    scene_.bind(kernel);
+    kernel.set("rays", in);
+    kernel.set("ray_count", static_cast<cl_int>(rays.size()));
+    kernel.set("found", out);
     const std::size_t items =
         lanes_ == 1 && device_.info.type != "cpu" ? (rays.size() + 7) / 8 : device_.info.compute_units * 8;
     const std::size_t local = lanes_ == 1 ? std::min<std::size_t>(64, items) : 1;
     cl::Event done;
-    device_.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(items / local * local),
+    device_.queue.enqueueNDRangeKernel(kernel.ready(), cl::NullRange, cl::NDRange(items / local * local),
                                        cl::NDRange(local), nullptr, &done);
     device_.queue.enqueueReadBuffer(out, CL_TRUE, 0, found.size() * sizeof(float), found.data());
     return 1e-9 * static_cast<double>(done.getProfilingInfo<CL_PROFILING_COMMAND_END>() -
@@ -69,7 +69,7 @@ private:
   device::Device device_;
   render::DeviceScene scene_;
   int lanes_;
-  cl::Program program_;
+  device::BuiltProgram program_;
 };
 
 // ---- Rays
@@ -175,8 +175,8 @@ void measure_rays(const RaysOptions& options) {
   CsvFile table(options.folder, "rays.csv", columns);
   fmt::print("{}\n", columns);
   const device::Device device = device::open_devices(options.devices).front();
-  const device::KernelFiles files =
-      options.kernel_dir.empty() ? device::KernelFiles() : device::KernelFiles(options.kernel_dir);
+  const sources::KernelFiles files =
+      options.kernel_dir.empty() ? sources::KernelFiles() : sources::KernelFiles(options.kernel_dir);
   const int lanes = options.lanes_on(device.info);
   for (const std::uint64_t triangles : options.triangles) {
     const scene::Scene scene = knot_scene(triangles);

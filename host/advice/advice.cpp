@@ -6,8 +6,6 @@
 
 #include "advice/light_shares.h"
 #include "errors.h"
-#include "render/names.h"
-#include "render/quiet_log.h"
 #include "scene/image_size.h"
 
 namespace phlux::advice {
@@ -17,42 +15,26 @@ constexpr int longest_side = 64; // pixels of a trial's image
 constexpr double worth_saying = 2.0;
 constexpr double most_of_it = 0.8; // of the variance
 
-struct Method {
-  const char* options;
-  const char* integrator;
-};
-constexpr Method methods[] = {{"-i path", "path"}, {"-i bidir", "bidir"}, {"-i light", "light"}};
-
-std::string own_options(const render::Settings& s) {
-  std::string text = "-i " + s.integrator;
-  if (s.integrator == "path") text += " --connect " + render::name_of(s.connect);
-  if (s.integrator == "bidir") text += " --weights " + render::name_of(s.weights);
-  if (s.light_selection != render::Settings().light_selection)
-    text += " --light-selection " + render::name_of(s.light_selection);
-  if (s.connections != render::Settings().connections)
-    text += fmt::format(" --connections {}", s.connections);
+// Of the settings that choose a method, those that differ from the defaults.
+std::string method_of(const render::Settings& of) {
+  std::string text = "`integrator` " + of.integrator;
+  for (const settings::Setting& setting : settings::all())
+    if (!setting.conditions.empty() && setting.value(of) != setting.value({}))
+      text += fmt::format(" {} {}", settings::quoted(setting.name), setting.text(of));
   return text;
 }
 
-bool is_default(const render::Settings& settings, const Method& method) {
-  return settings.integrator == method.integrator && settings.connect == render::Settings().connect &&
-         settings.weights == render::Settings().weights &&
-         settings.light_selection == render::Settings().light_selection &&
-         settings.connections == render::Settings().connections;
-}
-
-Trial try_method(const scene::Scene& scene, const render::Settings& settings,
-                 const std::string& options) try {
+Trial try_method(const scene::Scene& scene, const render::Settings& settings, const std::string& method) try {
   film::Film film(scene.camera.width, scene.camera.height);
   const render::Statistics statistics = render::render(scene, settings, film, {});
   const auto samples = static_cast<double>(film.samples());
   const film::Reliability reliability = film::reliability_of(film);
-  return {.options = options,
+  return {.method = method,
           .refusal = {},
           .cost = reliability.variance * statistics.seconds_render / samples,
           .reliability = reliability};
 } catch (const UsageError& error) {
-  return {.options = options, .refusal = error.what(), .cost = 0.0, .reliability = {}};
+  return {.method = method, .refusal = error.what(), .cost = 0.0, .reliability = {}};
 }
 
 // To one digit: trials of seconds say no more.
@@ -71,9 +53,9 @@ std::string words_for(const std::vector<Trial>& trials, double seconds) {
   if (own.cost > 0.0 && times < worth_saying) return {};
   // What is rare may not have been met in so short a time, and counts for nothing then.
   if (!(own.cost > 0.0))
-    return fmt::format("try {}: in {:.2g} s this method finds no light, and that one does", best->options,
+    return fmt::format("try {}: in {:.2g} s this method finds no light, and that one does", best->method,
                        seconds);
-  return fmt::format("try {}: at least {:g} times as efficient in {:.2g} s", best->options, rounded(times),
+  return fmt::format("try {}: at least {:g} times as efficient in {:.2g} s", best->method, rounded(times),
                      seconds);
 }
 
@@ -88,11 +70,10 @@ std::string words_for(const std::vector<LightShare>& shares) {
 } // namespace
 
 std::size_t trials_of(const scene::Scene& scene) {
-  return std::size(methods) + 1 + lights_told_apart(scene);
+  return settings::integrators.size() + 1 + lights_told_apart(scene);
 }
 
 Advice advise(scene::Scene scene, const render::Settings& settings, double seconds) {
-  const render::QuietLog quiet;
   scene::shrink_image(scene.camera, longest_side);
   render::Settings trial = settings;
   trial.time_limit = seconds;
@@ -101,16 +82,13 @@ Advice advise(scene::Scene scene, const render::Settings& settings, double secon
   trial.techniques = false;
   const render::Settings own = trial;
   Advice advice;
-  advice.trials.push_back(try_method(scene, trial, own_options(settings)));
-  trial.connect = render::Settings().connect;
-  trial.weights = render::Settings().weights;
-  trial.light_selection = render::Settings().light_selection;
-  trial.connections = render::Settings().connections;
-  trial.ambient.reset();
-  for (const Method& method : methods) {
-    if (is_default(settings, method)) continue;
-    trial.integrator = method.integrator;
-    advice.trials.push_back(try_method(scene, trial, method.options));
+  advice.trials.push_back(try_method(scene, own, method_of(own)));
+  for (const settings::Setting& setting : settings::all())
+    if (!setting.conditions.empty()) setting.copy({}, trial);
+  for (const settings::IntegratorInfo& info : settings::integrators) {
+    trial.integrator = info.name;
+    if (const std::string method = method_of(trial); method != method_of(own))
+      advice.trials.push_back(try_method(scene, trial, method));
   }
   advice.words = words_for(advice.trials, seconds);
   if (!advice.words.empty()) advice.words += words_for(light_shares(scene, own));

@@ -11,7 +11,7 @@ namespace phlux::advice {
 
 /// One method on a small image of the scene.
 struct Trial {
-  std::string options; ///< that choose it, such as "-i bidir"
+  std::string method;  ///< the settings that choose it, such as "`integrator` bidir"
   std::string refusal; ///< why it cannot render the scene; the rest is empty then
   double cost = 0.0;   ///< relative variance of one sample x seconds of one
   film::Reliability reliability;

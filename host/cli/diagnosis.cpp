@@ -6,6 +6,7 @@
 #include <spdlog/spdlog.h>
 
 #include "advice/advice.h"
+#include "cli/spelling.h"
 
 namespace phlux::cli {
 namespace {
@@ -34,7 +35,7 @@ Diagnosis diagnose(const film::Film& film, const render::Statistics& statistics,
   Diagnosis diagnosis{.reliability = film::reliability_of(film), .advice = {}};
   if (!doubtful(diagnosis.reliability, statistics) || statistics.interrupted) return diagnosis;
   if (const double seconds = trial_seconds(statistics, advice::trials_of(scene), insist); seconds > 0.0)
-    diagnosis.advice = advice::advise(std::move(scene), settings, seconds).words;
+    diagnosis.advice = with_options(advice::advise(std::move(scene), settings, seconds).words);
   return diagnosis;
 }
 

@@ -55,7 +55,7 @@ private:
 
 std::string cache_key(const Device& device, const std::string& text) {
   const cl::Platform platform(device.handle.getInfo<CL_DEVICE_PLATFORM>());
-  return fmt::format("phlux {}\n{}\n{}\n{}\n{}\n{}\n{}", PHLUX_VERSION, device.info.platform,
+  return fmt::format("phlux {}, named arguments\n{}\n{}\n{}\n{}\n{}\n{}", PHLUX_VERSION, device.info.platform,
                      platform.getInfo<CL_PLATFORM_VERSION>(), device.info.name, device.info.driver,
                      build_options(), significant(text));
 }
@@ -157,7 +157,7 @@ std::string first_error(const std::string& log, const std::string& text) {
   return fmt::format("{}:{}: {}", file, line, found.str(3));
 }
 
-BuiltProgram build(const Device& device, const KernelFiles& files, const ProgramSource& source,
+BuiltProgram build(const Device& device, const sources::KernelFiles& files, const ProgramSource& source,
                    const std::function<void()>& slow) {
   const Clock::time_point start = Clock::now();
   const Watcher watcher(slow);
@@ -169,14 +169,18 @@ BuiltProgram build(const Device& device, const KernelFiles& files, const Program
     const bool known = records.load(key).has_value();
     const auto program = build_text(device, name, text);
     if (!known) records.store(key, {1});
-    return {program, known, seconds_since(start)};
+    return {program, known, seconds_since(start), argument_names(program)};
   }
   const BinaryCache cache(binary_cache_folder());
-  if (const auto binary = cache.load(key))
-    if (const auto program = build_binary(device, *binary)) return {*program, true, seconds_since(start)};
+  if (const auto bytes = cache.load(key)) { // with names: drivers need not know them of binaries
+    NamedBinary kept = decode(*bytes);
+    if (const auto program = build_binary(device, kept.binary))
+      return {*program, true, seconds_since(start), std::move(kept.arguments)};
+  }
   const auto program = build_text(device, name, text);
-  cache.store(key, binary_of(program));
-  return {program, false, seconds_since(start)};
+  const NamedBinary built{argument_names(program), binary_of(program)};
+  cache.store(key, encode(built));
+  return {program, false, seconds_since(start), built.arguments};
 }
 
 } // namespace phlux::device

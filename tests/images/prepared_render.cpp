@@ -9,18 +9,17 @@ namespace phlux::test {
 namespace {
 
 // Variants of a scene have the same kernels.
-const cl::Program& program_for(const device::Device& device, const render::Parts& parts,
-                               const std::filesystem::path& kernels) {
-  static std::map<std::map<std::string, std::string>, cl::Program> kept;
+const device::BuiltProgram& program_for(const device::Device& device, const render::Parts& parts,
+                                        const std::filesystem::path& kernels) {
+  static std::map<std::map<std::string, std::string>, device::BuiltProgram> kept;
   constexpr std::size_t most = 16;
   std::map<std::string, std::string> key = parts.defines();
   key["file"] = parts.file();
   key["folder"] = kernels.string();
   if (const auto found = kept.find(key); found != kept.end()) return found->second;
   if (kept.size() == most) kept.clear();
-  const device::KernelFiles files = kernels.empty() ? device::KernelFiles() : device::KernelFiles(kernels);
-  return kept.emplace(key, device::build(device, files, {parts.file(), parts.defines(), {}}).program)
-      .first->second;
+  const sources::KernelFiles files = kernels.empty() ? sources::KernelFiles() : sources::KernelFiles(kernels);
+  return kept.emplace(key, device::build(device, files, parts.source(parts.file()))).first->second;
 }
 
 } // namespace

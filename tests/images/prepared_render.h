@@ -30,7 +30,7 @@ private:
   int lanes_;
   render::HostScene host_;
   render::Parts parts_;
-  cl::Program program_;
+  device::BuiltProgram program_;
 };
 
 } // namespace phlux::test

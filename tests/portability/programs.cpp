@@ -1,11 +1,13 @@
 #include "portability/programs.h"
 
 #include <algorithm>
-#include <cctype>
 #include <sstream>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "lobes/models.h"
 
 namespace phlux::test {
 namespace {
@@ -15,17 +17,25 @@ using render::Integrator;
 using render::Parts;
 using render::Weights;
 
-std::string macro_of(const std::string& strategy) {
-  std::string macro = "STRATEGY_" + strategy;
-  for (char& c : macro) c = c == '-' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return macro;
+const std::vector<lobes::ModelPointer>& models() {
+  static const lobes::Library shipped;
+  return shipped.models();
+}
+
+// Reflectance models are parts like others.
+void set(Parts& parts, const std::string& name, bool on) {
+  const auto model = std::ranges::find(models(), name, [](const auto& m) { return m->name; });
+  if (model == models().end()) return parts.set(name, on);
+  std::erase(parts.models, *model);
+  if (on) parts.models.push_back(*model);
 }
 
 Parts parts_of(const std::string& names, const std::string& strategy) {
   Parts parts;
-  parts.strategy = macro_of(strategy);
+  parts.models.clear();
+  parts.strategy = strategy;
   std::istringstream list(names);
-  for (std::string name; list >> name;) parts.set(name, true);
+  for (std::string name; list >> name;) set(parts, name, true);
   return parts;
 }
 
@@ -37,21 +47,19 @@ constexpr std::pair<const char*, const char*> needs[] = {
     {"light_tree", "light_choice"}};
 
 Parts without(Parts parts, const std::string& name) {
-  parts.set(name, false);
+  set(parts, name, false);
   for (const auto& [part, needed] : needs)
     if (name == needed) parts = without(parts, part);
   return parts;
 }
 
-// No scene has both an ambient term and an anisotropic lobe, whose
-// reflectivity has no closed form.
+// A diffuse material is a phong without a lobe where there is a phong. No scene has both an ambient term and
+// an anisotropic lobe, whose reflectivity has no closed form.
 Parts everything(Integrator integrator = Integrator::path) {
-  Parts parts;
-  for (const std::string& name : Parts::all_names()) parts.set(name, true);
+  Parts parts = parts_of(fmt::format("{}", fmt::join(all_parts(), " ")), "exact");
   parts.integrator = integrator;
   parts.connect = integrator == Integrator::light ? Connect::none : Connect::mis;
-  parts.strategy = macro_of("exact");
-  return without(parts, "ambient");
+  return without(without(parts, "diffuse"), "ambient");
 }
 
 Parts by(Integrator integrator, Parts parts, Weights weights = Weights::balance) {
@@ -91,25 +99,19 @@ Parts few_of_all(Parts parts) {
   return parts;
 }
 
-constexpr char diffuse[] = "parallelograms light_planar";
-constexpr char glossy[] = "parallelograms spheres phong_lobe light_planar";
-constexpr char ambient[] = "parallelograms spheres phong_lobe black light_sphere ambient";
-constexpr char triangles[] =
-    "hierarchy triangles smooth_normals phong_lobe light_planar light_choice light_tree";
-constexpr char sky[] = "spheres phong_lobe light_constant";
+constexpr char diffuse[] = "parallelograms light_planar diffuse";
+constexpr char glossy[] = "parallelograms spheres phong light_planar";
+constexpr char ambient[] = "parallelograms spheres phong black light_sphere ambient";
+constexpr char triangles[] = "hierarchy triangles smooth_normals phong light_planar light_choice light_tree";
+constexpr char sky[] = "spheres phong light_constant";
 
-// The reflectance model alone.
-Program phong_program(const std::string& name, const std::string& strategy, int width) {
-  Parts parts = parts_of("phong_lobe", strategy);
+// A reflectance model alone.
+Program of_model(const std::string& file, const std::string& model, const std::string& strategy, int width) {
+  Parts parts = parts_of(model, strategy);
   parts.lanes = width;
-  Program program{fmt::format("{}-{}.{}", name, strategy, width), fmt::format("measure/{}.cl", name),
-                  parts.defines()};
-  program.defines["FIXED_DIRECTIONS"] = "16"; // of sampling.cl and figures.cl
-  return program;
-}
-
-Program defining(Program program, const std::string& macro) {
-  program.defines[macro] = "1";
+  Program program{fmt::format("{}-{}-{}.{}", file, model, strategy, width),
+                  parts.source(fmt::format("measure/{}.cl", file))};
+  program.source.defines["FIXED_DIRECTIONS"] = "16"; // of sampling.cl and figures.cl
   return program;
 }
 
@@ -141,10 +143,16 @@ const std::vector<SceneProgram>& scene_programs() {
   return list;
 }
 
+std::vector<std::string> all_parts() {
+  std::vector<std::string> names = Parts::all_names();
+  for (const auto& model : models()) names.push_back(model->name);
+  return names;
+}
+
 Program program_of(const SceneProgram& scene, int width) {
   Parts parts = scene.parts;
   parts.lanes = width;
-  return {fmt::format("{}.{}", scene.name, width), parts.file(), parts.defines()};
+  return {fmt::format("{}.{}", scene.name, width), parts.source(parts.file())};
 }
 
 std::vector<Program> programs() {
@@ -153,14 +161,15 @@ std::vector<Program> programs() {
     for (const SceneProgram& scene : scene_programs())
       if (width == 1 || !scene.parts.double_precision) list.push_back(program_of(scene, width));
     for (const std::string& strategy : render::strategy_names())
-      list.push_back(phong_program("sampling", strategy, width));
-    list.push_back(phong_program("figures", "exact", width));
-    list.push_back(phong_program("arithmetic", "exact", width));
-    list.push_back(defining(phong_program("arithmetic", "fold", width), "PHLUX_NATIVE"));
+      list.push_back(of_model("sampling", "phong", strategy, width));
+    for (const auto& model : models()) list.push_back(of_model("verify", model->name, "exact", width));
+    list.push_back(of_model("figures", "phong", "exact", width));
+    list.push_back(of_model("arithmetic", "phong", "exact", width));
+    list.push_back(of_model("arithmetic", "phong", "exact", width));
     list.back().name = fmt::format("arithmetic-native.{}", width);
-    list.push_back(defining(phong_program("verify", "exact", width), "PHLUX_GIVEN_WORDS"));
+    list.back().source.defines["PHLUX_NATIVE"] = "1";
     list.push_back(program_of({"rays", everything()}, width));
-    list.back().root = "measure/rays.cl";
+    list.back().source.root = "measure/rays.cl";
   }
   return list;
 }

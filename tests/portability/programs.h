@@ -1,20 +1,21 @@
 // The programs that are compiled for devices that are not here.
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 
+#include "device/program.h"
 #include "render/parts.h"
 
 namespace phlux::test {
 
-/// A kernel file and what is defined for it.
 struct Program {
   std::string name; ///< with its width, such as "mesh.8"
-  std::string root;
-  std::map<std::string, std::string> defines;
+  device::ProgramSource source;
 };
+
+/// Parts that Parts::set() knows, and reflectance models that ship.
+[[nodiscard]] std::vector<std::string> all_parts();
 
 /// A program of a scene, whose parts are known by name.
 struct SceneProgram {

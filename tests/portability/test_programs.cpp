@@ -52,7 +52,7 @@ Names union_over_programs(const std::function<Names(const Program&)>& names_of) 
 // Macros that are defined as 0 or as 1.
 Names defined_as(const std::string& value, const Program& program) {
   Names names;
-  for (const auto& [macro, defined] : program.defines)
+  for (const auto& [macro, defined] : program.source.defines)
     if (defined == value) names.insert(macro);
   return names;
 }
@@ -60,7 +60,7 @@ Names defined_as(const std::string& value, const Program& program) {
 } // namespace
 
 TEST_CASE("portability: every part is on in one program and off in another") {
-  for (const std::string& part : render::Parts::all_names()) {
+  for (const std::string& part : all_parts()) {
     CAPTURE(part);
     std::size_t on = 0;
     for (const SceneProgram& scene : scene_programs()) {
@@ -75,9 +75,8 @@ TEST_CASE("portability: every part is on in one program and off in another") {
 TEST_CASE("portability: every switch of the kernels is on in one program and off in another") {
   const Names on = union_over_programs([](const Program& program) { return defined_as("1", program); });
   Names off = union_over_programs([](const Program& program) { return defined_as("0", program); });
-  off.insert(
-      {"WIDTH", "PHLUX_DOUBLE", "PHLUX_GIVEN_WORDS", "PHLUX_NATIVE"}); // not 0, but undefined or a number
-  CHECK(without(off, on) == Names{"CONNECTIONS"});                     // how many
+  off.insert({"WIDTH", "PHLUX_DOUBLE", "PHLUX_NATIVE", "MODEL_COUNT"}); // not 0, but undefined or a number
+  CHECK(without(off, on) == Names{"CONNECTIONS"});                      // how many
   CHECK(without(on, off) == Names{});
 }
 
@@ -89,7 +88,7 @@ TEST_CASE("portability: every macro that the host may define for kernels is defi
   const Names defined_in_kernels = found_in(text, std::regex(R"(#\s*define\s+(\w+))"));
   const Names defined_by_programs = union_over_programs([](const Program& program) {
     Names names;
-    for (const auto& [macro, value] : program.defines) names.insert(macro);
+    for (const auto& [macro, value] : program.source.defines) names.insert(macro);
     return names;
   });
   CHECK(without(without(used, defined_in_kernels), defined_by_programs) == Names{});
@@ -97,16 +96,9 @@ TEST_CASE("portability: every macro that the host may define for kernels is defi
 
 TEST_CASE("portability: every kernel file is in some program") {
   const Names included = union_over_programs([](const Program& program) {
-    return found_in(device::expand({}, {program.root, program.defines, ""}),
-                    std::regex(R"r(#line \d+ "([^"]+)")r"));
+    return found_in(device::expand({}, program.source), std::regex(R"r(#line \d+ "([^"]+)")r"));
   });
   CHECK(without(kernel_files(), included) == Names{});
-}
-
-TEST_CASE("portability: every strategy is in some program") {
-  const Names compiled =
-      union_over_programs([](const Program& program) { return Names{program.defines.at("STRATEGY")}; });
-  CHECK(compiled.size() == render::strategy_names().size());
 }
 
 TEST_CASE("portability: no two programs share a name") {

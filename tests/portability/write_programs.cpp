@@ -27,7 +27,7 @@ void write(const std::filesystem::path& path, const std::string& text) {
 }
 
 std::string text_of(const Program& program) {
-  return device::expand({}, {program.root, program.defines, ""});
+  return device::expand({}, program.source);
 }
 
 std::string integrator_of(const render::Parts& parts) {

@@ -71,8 +71,8 @@ std::optional<ReferenceImage> read_reference(const std::filesystem::path& file, 
     json.at("samples_per_pixel").get_to(reference.samples_per_pixel);
     return reference;
   } catch (const std::exception& error) { // of the EXR file, the JSON text or a key that it lacks
-    throw SceneError(fmt::format("{}: is a damaged reference ({}): delete it, and it is made anew",
-                                 file.string(), error.what()));
+    throw FileError(fmt::format("{}: is a damaged reference ({}): delete it, and it is made anew",
+                                file.string(), error.what()));
   }
 }
 
@@ -85,7 +85,7 @@ void write_reference(const std::filesystem::path& file, const std::string& setti
     image.channels[channel_names[value % 3]].push_back(static_cast<float>(reference.radiance[value]));
   image.info.version = PHLUX_VERSION;
   image.info.scene = file.stem().string();
-  image.info.integrator = reference.method;
+  image.info.settings["integrator"] = reference.method;
   image.info.samples = reference.samples_per_pixel;
   image.info.seconds = reference.seconds;
   files::write_exr(file, image);

@@ -25,7 +25,7 @@ struct ReferenceImage {
                                             const std::function<bool()>& interrupted);
 
 /// `file` (EXR, with a .json beside it) made with these settings; nothing where there is none, or one of
-/// others. @throws SceneError for files that are damaged, saying to delete them
+/// others. @throws FileError for files that are damaged, saying to delete them
 [[nodiscard]] std::optional<ReferenceImage> read_reference(const std::filesystem::path& file,
                                                            const std::string& settings);
 

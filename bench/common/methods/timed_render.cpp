@@ -5,8 +5,6 @@
 
 #include <sys/resource.h>
 
-#include "render/quiet_log.h"
-
 #include "errors.h"
 
 namespace phlux::bench {
@@ -68,7 +66,6 @@ bool runs_to_end(const std::function<void()>& work, const std::function<bool()>&
 
 TimedRender render_for(const scene::Scene& scene, render::Settings settings, double seconds,
                        const std::vector<double>& times, const std::function<bool()>& interrupted) {
-  const render::QuietLog quiet;
   film::Film film(scene.camera.width, scene.camera.height);
   TimedRender result;
   settings.time_limit = seconds;
@@ -105,7 +102,6 @@ TimedRender render_for(const scene::Scene& scene, render::Settings settings, dou
 
 film::Film render_samples(const scene::Scene& scene, const render::Settings& settings,
                           const std::function<bool()>& interrupted) {
-  const render::QuietLog quiet;
   film::Film film(scene.camera.width, scene.camera.height);
   bool stopped = false;
   render::Events events;
@@ -116,7 +112,6 @@ film::Film render_samples(const scene::Scene& scene, const render::Settings& set
 }
 
 ImageEstimate render_one_sample(const scene::Scene& scene, const render::Settings& settings) {
-  const render::QuietLog quiet;
   return render_once(scene, settings, 0).last.image;
 }
 
