@@ -23,10 +23,10 @@ namespace {
 constexpr int rounds = 25;
 constexpr std::size_t elements_of_lane = 8; // of a work item, when timed: they stay in the nearest cache
 
-cl::Program build(const device::Device& device, const device::KernelFiles& files, int lanes, bool native) {
-  std::map<std::string, std::string> defines = {{"WIDTH", std::to_string(lanes)}, {"HAS_PHONG_LOBE", "1"}};
+cl::Program build(const device::Device& device, const sources::KernelFiles& files, int lanes, bool native) {
+  std::map<std::string, std::string> defines = {{"WIDTH", std::to_string(lanes)}};
   if (native) defines["PHLUX_NATIVE"] = "1";
-  return device::build(device, files, {"measure/arithmetic.cl", defines, {}}).program;
+  return device::build(device, files, {"measure/arithmetic.cl", defines, {}, {}}).program;
 }
 
 double unit_in_last_place(double value) {
@@ -65,7 +65,7 @@ Elements draw(const FormulaGroup& group, double exponent, std::size_t count, std
 
 } // namespace
 
-ArithmeticKernels::ArithmeticKernels(const device::Device& device, const device::KernelFiles& files,
+ArithmeticKernels::ArithmeticKernels(const device::Device& device, const sources::KernelFiles& files,
                                      int lanes)
     : device_(device), lanes_(lanes) {
   try {

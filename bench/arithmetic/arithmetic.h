@@ -26,7 +26,7 @@ class ArithmeticKernels {
 public:
   /// Builds kernels/arithmetic.cl, without the native_ functions where the device's compiler has none.
   /// @throws DeviceError
-  ArithmeticKernels(const device::Device& device, const device::KernelFiles& files, int lanes);
+  ArithmeticKernels(const device::Device& device, const sources::KernelFiles& files, int lanes);
 
   [[nodiscard]] bool has(const Formula& formula) const { return native_ || !formula.native; }
   [[nodiscard]] FormulaErrors errors(const FormulaGroup& group, const Formula& formula, double exponent,

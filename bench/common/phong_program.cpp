@@ -7,33 +7,24 @@
 #include <fmt/format.h>
 
 #include "errors.h"
+#include "lobes/program.h"
 #include "phong/reflectivity.h"
 #include "render/parts.h"
-#include "tables/material_table.h"
 
 namespace phlux::bench {
 namespace {
 
-std::map<std::string, std::string> defines(const std::string& strategy, int lanes,
-                                           std::map<std::string, std::string> more) {
-  const auto& names = render::strategy_names(); // in the order of phong.cl's numbers, from 1
-  const auto found = std::ranges::find(names, strategy);
-  if (found == names.end())
+device::ProgramSource source_of(const std::string& root, const std::string& strategy, int lanes,
+                                std::map<std::string, std::string> more) {
+  if (std::ranges::find(render::strategy_names(), strategy) == render::strategy_names().end())
     throw UsageError(fmt::format("--strategy {}: there is no such strategy", strategy));
   render::Parts parts;
   parts.lanes = lanes;
-  parts.phong_lobe = true;
-  parts.strategy = std::to_string(found - names.begin() + 1);
-  more.merge(parts.defines());
-  return more;
-}
-
-scene::Material material_of(const Case& one) {
-  scene::Material material;
-  material.diffuse = scene::Rgb(one.diffuse);
-  material.specular = scene::Rgb(one.specular);
-  material.exponent_u = one.exponent;
-  return material;
+  parts.models = {lobes::shipped("phong")};
+  parts.strategy = strategy;
+  device::ProgramSource source = parts.source(root);
+  source.defines.merge(more);
+  return source;
 }
 
 } // namespace
@@ -43,29 +34,30 @@ double exact_reflectivity(const Case& one) {
   return one.diffuse + one.specular * phong::lobe_reflectivity(one.exponent, cosine);
 }
 
-device::KernelFiles kernel_files(const std::filesystem::path& folder) {
-  return folder.empty() ? device::KernelFiles() : device::KernelFiles(folder);
+sources::KernelFiles kernel_files(const std::filesystem::path& folder) {
+  return folder.empty() ? sources::KernelFiles() : sources::KernelFiles(folder);
 }
 
-PhongProgram::PhongProgram(const device::Device& device, const device::KernelFiles& files,
+PhongProgram::PhongProgram(const device::Device& device, const sources::KernelFiles& files,
                            const std::string& root, const std::string& strategy, int lanes,
                            std::map<std::string, std::string> more_defines)
     : device_(device), strategy_(strategy), lanes_(lanes != 0 ? lanes : device.info.lanes),
-      program_(device::build(device, files, {root, defines(strategy, lanes_, std::move(more_defines)), {}})
-                   .program) {}
+      program_(
+          device::build(device, files, source_of(root, strategy, lanes_, std::move(more_defines))).program) {}
 
-std::string PhongProgram::text(const device::KernelFiles& files, const std::string& root,
+std::string PhongProgram::text(const sources::KernelFiles& files, const std::string& root,
                                const std::string& strategy, int lanes,
                                std::map<std::string, std::string> more_defines) {
   return device::significant(
-      device::expand(files, {root, defines(strategy, lanes, std::move(more_defines)), {}}));
+      device::expand(files, source_of(root, strategy, lanes, std::move(more_defines))));
 }
 
 void PhongProgram::set_material(const Case& one) {
   if (one == material_) return;
-  const tables::MaterialTable table = tables::material_table({material_of(one)});
+  const lobes::MaterialTable table =
+      lobes::material_table({lobes::phong(scene::Rgb(one.diffuse), scene::Rgb(one.specular), one.exponent)});
   records_ = upload(table.records);
-  reflectivity_ = upload(table.reflectivity.empty() ? std::vector<float>{0} : table.reflectivity);
+  reflectivity_ = upload(table.tables.empty() ? std::vector<float>{0} : table.tables);
   material_ = one;
 }
 

@@ -22,18 +22,18 @@ struct Case {
 [[nodiscard]] double exact_reflectivity(const Case& one);
 
 /// The kernels to use: the embedded ones where `folder` is empty.
-[[nodiscard]] device::KernelFiles kernel_files(const std::filesystem::path& folder);
+[[nodiscard]] sources::KernelFiles kernel_files(const std::filesystem::path& folder);
 
 class PhongProgram {
 public:
   /// The text that is built for these arguments of the constructor.
-  [[nodiscard]] static std::string text(const device::KernelFiles& files, const std::string& root,
+  [[nodiscard]] static std::string text(const sources::KernelFiles& files, const std::string& root,
                                         const std::string& strategy, int lanes,
                                         std::map<std::string, std::string> more_defines = {});
 
   /// Builds kernels/`root` for a strategy (render::strategy_names()) and a WIDTH (0: what suits the device).
   /// @throws UsageError for an unknown strategy, DeviceError
-  PhongProgram(const device::Device& device, const device::KernelFiles& files, const std::string& root,
+  PhongProgram(const device::Device& device, const sources::KernelFiles& files, const std::string& root,
                const std::string& strategy, int lanes, std::map<std::string, std::string> more_defines = {});
 
   /// The material of the launches to come; its tables go to the device where it is another one than before.

@@ -6,6 +6,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "lobes/models.h"
+
 namespace phlux::bench {
 namespace {
 
@@ -59,7 +61,7 @@ void add_room(scene::Mesh& mesh) {
 
 scene::Scene knot_scene(std::uint64_t triangles) {
   scene::Scene scene;
-  scene.materials.push_back({});
+  scene.materials.push_back(lobes::diffuse(scene::Rgb(0.5)));
   scene::Mesh mesh;
   add_knot(mesh, std::max<std::uint64_t>(triangles, 36) - 12);
   add_room(mesh);

@@ -39,10 +39,10 @@ double seconds_of(const std::function<void()>& work) {
 
 class DeviceRays {
 public:
-  DeviceRays(const device::Device& device, const device::KernelFiles& files, const render::HostScene& host,
+  DeviceRays(const device::Device& device, const sources::KernelFiles& files, const render::HostScene& host,
              const render::Parts& parts)
       : device_(device), scene_(device, host, parts), lanes_(parts.lanes),
-        program_(device::build(device, files, {"measure/rays.cl", parts.defines(), {}})) {}
+        program_(device::build(device, files, parts.source("measure/rays.cl"))) {}
 
   // Seconds that the kernel took, by the device's clock.
   double run(const char* kernel_name, const std::vector<Ray>& rays, std::vector<float>& found) {
@@ -175,8 +175,8 @@ void measure_rays(const RaysOptions& options) {
   CsvFile table(options.folder, "rays.csv", columns);
   fmt::print("{}\n", columns);
   const device::Device device = device::open_devices(options.devices).front();
-  const device::KernelFiles files =
-      options.kernel_dir.empty() ? device::KernelFiles() : device::KernelFiles(options.kernel_dir);
+  const sources::KernelFiles files =
+      options.kernel_dir.empty() ? sources::KernelFiles() : sources::KernelFiles(options.kernel_dir);
   const int lanes = options.lanes_on(device.info);
   for (const std::uint64_t triangles : options.triangles) {
     const scene::Scene scene = knot_scene(triangles);

@@ -4,6 +4,8 @@
 #include <numbers>
 #include <random>
 
+#include "lobes/models.h"
+
 #include <glm/geometric.hpp>
 
 namespace phlux::bench {
@@ -25,9 +27,8 @@ scene::Patch lamp(const Vec3& center, int emitter) { // its front is down
 } // namespace
 
 scene::Scene many_lights_scene(int lights, int side) {
-  using scene::Material;
   scene::Scene scene;
-  scene.materials = {{Material::Kind::phong, Rgb(.6, .55, .5), Rgb(.1), 20}, {Material::Kind::phong, Rgb(0)}};
+  scene.materials = {lobes::phong(Rgb(.6, .55, .5), Rgb(.1), 20), lobes::diffuse(Rgb(0))};
   const double half = std::sqrt(static_cast<double>(lights)) / 2;
   scene.patches.push_back(
       {scene::Patch::Region::parallelogram, Vec3(0), half * Vec3(0, 0, 1), half * Vec3(1, 0, 0), {0, -1}});

@@ -81,7 +81,7 @@ void Sampler::Run::add(const Run& other) {
   wall_seconds += other.wall_seconds;
 }
 
-std::string Sampler::kernels_fingerprint(const device::KernelFiles& files,
+std::string Sampler::kernels_fingerprint(const sources::KernelFiles& files,
                                          const std::vector<std::string>& strategies, int lanes) {
   std::uint64_t hash = 0xcbf29ce484222325; // FNV-1a
   for (const std::string& strategy : strategies)
@@ -90,7 +90,7 @@ std::string Sampler::kernels_fingerprint(const device::KernelFiles& files,
   return fmt::format("{:016x}", hash);
 }
 
-Sampler::Sampler(const device::Device& device, const device::KernelFiles& files, const std::string& strategy,
+Sampler::Sampler(const device::Device& device, const sources::KernelFiles& files, const std::string& strategy,
                  int lanes)
     : program_(device, files, root, strategy, lanes, defines()), strategy_(strategy),
       items_(device.info.compute_units * (device.info.type == "cpu" ? 4 : 1024)),

@@ -38,11 +38,11 @@ struct Subject {
 class Sampler {
 public:
   /// Builds kernels/sampling.cl for one strategy (render::strategy_names()) and WIDTH. @throws DeviceError
-  Sampler(const device::Device& device, const device::KernelFiles& files, const std::string& strategy,
+  Sampler(const device::Device& device, const sources::KernelFiles& files, const std::string& strategy,
           int lanes);
 
   /// A number that changes with the kernels of these strategies.
-  [[nodiscard]] static std::string kernels_fingerprint(const device::KernelFiles& files,
+  [[nodiscard]] static std::string kernels_fingerprint(const sources::KernelFiles& files,
                                                        const std::vector<std::string>& strategies, int lanes);
 
   struct Run {

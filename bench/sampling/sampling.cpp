@@ -271,7 +271,7 @@ std::string progress_text(std::size_t done, std::size_t all, std::size_t done_no
   return fmt::format("{}  {} left", text, clock_text(left));
 }
 
-std::vector<Sampler> build_samplers(const device::Device& device, const device::KernelFiles& files,
+std::vector<Sampler> build_samplers(const device::Device& device, const sources::KernelFiles& files,
                                     const std::vector<std::string>& strategies, int lanes) {
   std::vector<Sampler> samplers;
   for (const std::string& strategy : strategies) {
@@ -309,7 +309,7 @@ bool write_sampling_tables(const SamplingOptions& options) {
   const auto strategies = strategies_of(options);
   std::vector<Unit> units = units_of(cases_of(options), lights_of(options));
   const std::size_t all = units.size();
-  const device::KernelFiles files = kernel_files(options.kernel_dir);
+  const sources::KernelFiles files = kernel_files(options.kernel_dir);
   const auto settings = settings_of(options, device, lanes, strategies, units,
                                     Sampler::kernels_fingerprint(files, strategies, lanes));
   std::array<std::vector<std::string>, 2> kept;

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "lobes/models.h"
+
 #include <glm/geometric.hpp>
 
 namespace phlux::bench {
@@ -61,13 +63,10 @@ void aim(scene::Camera& camera) {
 } // namespace
 
 scene::Scene stability_scene(double exponent, double light_radius, int side) {
-  using scene::Material;
   scene::Scene scene;
-  scene.materials = {{Material::Kind::phong, Rgb(.75)},
-                     {Material::Kind::phong, Rgb(.65, .08, .06)},
-                     {Material::Kind::phong, Rgb(.14, .45, .1)},
-                     {Material::Kind::phong, Rgb(.1), Rgb(.8), exponent},
-                     {Material::Kind::phong, Rgb(0.0)}};
+  scene.materials = {lobes::diffuse(Rgb(.75)), lobes::diffuse(Rgb(.65, .08, .06)),
+                     lobes::diffuse(Rgb(.14, .45, .1)), lobes::phong(Rgb(.1), Rgb(.8), exponent),
+                     lobes::diffuse(Rgb(0.0))};
   add_box(scene);
   add_panels(scene);
   add_lamp(scene, light_radius);

@@ -157,7 +157,7 @@ std::string first_error(const std::string& log, const std::string& text) {
   return fmt::format("{}:{}: {}", file, line, found.str(3));
 }
 
-BuiltProgram build(const Device& device, const KernelFiles& files, const ProgramSource& source,
+BuiltProgram build(const Device& device, const sources::KernelFiles& files, const ProgramSource& source,
                    const std::function<void()>& slow) {
   const Clock::time_point start = Clock::now();
   const Watcher watcher(slow);

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "errors.h"
+#include "tables/used_materials.h"
 
 namespace phlux::render {
 namespace {
@@ -85,7 +86,8 @@ HostScene prepare(const scene::Scene& scene, Traversal traversal, int lanes, boo
     throw SceneError(
         "no shape of the scene has an area that single precision can tell from 0: scale them up");
   host.lights = tables::light_table(scene, host.geometry, tree_of_lights);
-  host.materials = tables::material_table(scene.materials);
+  host.materials =
+      lobes::material_table(scene.materials, lobes::models_of(tables::used_materials(scene, host.geometry)));
   host.camera = camera_record(scene.camera, host.geometry.origin);
   return host;
 }
@@ -97,7 +99,8 @@ DeviceScene::DeviceScene(const device::Device& device, const HostScene& scene, c
       root_(scene.geometry.root), light_tree_probability_(static_cast<float>(scene.lights.tree_probability)),
       camera_(upload(device, std::vector<CameraRecord>{scene.camera}, "camera")),
       primitives_(upload(device, scene.geometry.primitives, "primitives")),
-      materials_(upload(device, scene.materials.records, "materials")),
+      materials_(upload(device, scene.materials.records, "materials",
+                        scene.materials.records.size() / scene.materials.count)),
       lights_(upload(device, scene.lights.records, "lights")),
       planars_(parts.double_precision
                    ? upload(device, scene.geometry.double_planars, "triangles", PLANAR_FLOATS)
@@ -107,7 +110,7 @@ DeviceScene::DeviceScene(const device::Device& device, const HostScene& scene, c
                    : upload(device, scene.geometry.spheres, "spheres", SPHERE_FLOATS)),
       nodes_(upload(device, scene.geometry.nodes, "hierarchy")),
       light_nodes_(upload(device, scene.lights.nodes, "tree of lights")),
-      reflectivity_(upload(device, scene.materials.reflectivity, "reflectivities")),
+      lobe_tables_(upload(device, scene.materials.tables, "reflectivities")),
       corners_(upload(device, scene.geometry.corners, "triangles' corners")),
       vertex_normals_(upload(device, scene.geometry.vertex_normals, "vertex normals")) {}
 
@@ -128,7 +131,7 @@ void DeviceScene::bind(device::Kernel& kernel) const {
   kernel.set("root", root_);
   kernel.set("light_nodes", light_nodes_);
   kernel.set("light_tree_probability", light_tree_probability_);
-  kernel.set("reflectivity", reflectivity_);
+  kernel.set("lobe_tables", lobe_tables_);
   kernel.set("corners", corners_);
   kernel.set("vertex_normals", vertex_normals_);
 }

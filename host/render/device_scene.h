@@ -5,7 +5,6 @@
 #include "device/kernel.h"
 #include "render/parts.h"
 #include "tables/light_table.h"
-#include "tables/material_table.h"
 
 namespace phlux::render {
 
@@ -13,7 +12,7 @@ namespace phlux::render {
 struct HostScene {
   accel::Geometry geometry;
   tables::LightTable lights;
-  tables::MaterialTable materials;
+  lobes::MaterialTable materials;
   CameraRecord camera{};
 };
 
@@ -33,7 +32,7 @@ private:
   int light_count_, triangle_end_, parallelogram_end_, ellipse_end_, first_sphere_, sphere_count_, root_;
   float light_tree_probability_;
   cl::Buffer camera_, primitives_, materials_, lights_, planars_, spheres_, nodes_, light_nodes_,
-      reflectivity_, corners_, vertex_normals_;
+      lobe_tables_, corners_, vertex_normals_;
 };
 
 } // namespace phlux::render

@@ -27,7 +27,7 @@ int least_lane_jobs(int lanes, int block_samples) {
 }
 
 int vertex_words(const Parts& parts) {
-  return parts.anisotropic ? VERTEX_WORDS_MOST : parts.smooth_normals ? VERTEX_TANGENT : VERTEX_GEOMETRIC;
+  return parts.has_tangents() ? VERTEX_WORDS_MOST : parts.smooth_normals ? VERTEX_TANGENT : VERTEX_GEOMETRIC;
 }
 
 // Of what a bidirectional work-item keeps: kernels/lanes.h's Scalar.

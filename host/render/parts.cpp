@@ -3,9 +3,12 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <glm/gtx/component_wise.hpp>
 
 #include "errors.h"
 #include "phong/reflectivity.h"
+#include "tables/used_materials.h"
 
 namespace phlux::render {
 namespace {
@@ -25,8 +28,6 @@ constexpr NamedPart named_parts[] = {
     {&Parts::smooth_normals, "smooth_normals", "HAS_SMOOTH_NORMALS"},
     {&Parts::two_sided, "two_sided", "HAS_TWO_SIDED"},
     {&Parts::black, "black", "HAS_BLACK"},
-    {&Parts::phong_lobe, "phong_lobe", "HAS_PHONG_LOBE"},
-    {&Parts::anisotropic, "anisotropic", "HAS_ANISOTROPIC"},
     {&Parts::light_planar, "light_planar", "HAS_PLANAR_LIGHTS"},
     {&Parts::light_sphere, "light_sphere", "HAS_SPHERE_LIGHTS"},
     {&Parts::light_point, "light_point", "HAS_POINT_LIGHTS"},
@@ -51,10 +52,10 @@ Connect possible_connect(const Settings& settings, const tables::LightTable& lig
 
 // Hit or miss draws this often for one sample of the material where it reflects least.
 double proposals(const scene::Material& m) {
-  const double diffuse = std::max({m.diffuse.r, m.diffuse.g, m.diffuse.b});
-  const double specular = std::max({m.specular.r, m.specular.g, m.specular.b});
-  const double highest = diffuse + specular * (m.exponent_u / 2 + 1);
-  return highest / (diffuse + specular * phong::lobe_reflectivity(m.exponent_u, 0.0));
+  const double diffuse = glm::compMax(m.value("diffuse_reflectance"));
+  const double specular = glm::compMax(m.value("specular_reflectance")), exponent = m.value("exponent").x;
+  const double highest = diffuse + specular * (exponent / 2 + 1);
+  return highest / (diffuse + specular * phong::lobe_reflectivity(exponent, 0.0));
 }
 
 void refuse_endless_rejection(const scene::Material& m) {
@@ -63,19 +64,7 @@ void refuse_endless_rejection(const scene::Material& m) {
     throw UsageError(
         fmt::format("`strategy` rejection: a phong of exponent {:g} takes {:.0g} draws a sample: use "
                     "another strategy",
-                    m.exponent_u, proposals(m)));
-}
-
-// Materials that some primitive has; a scene may define others.
-std::vector<const scene::Material*> used_materials(const scene::Scene& scene,
-                                                   const accel::Geometry& geometry) {
-  std::vector<bool> used(scene.materials.size(), false);
-  for (const PrimitiveRecord& p : geometry.primitives)
-    if (p.region != REGION_NONE) used[static_cast<std::size_t>(p.material)] = true;
-  std::vector<const scene::Material*> materials;
-  for (std::size_t i = 0; i < used.size(); ++i)
-    if (used[i]) materials.push_back(&scene.materials[i]);
-  return materials;
+                    m.value("exponent").x, proposals(m)));
 }
 
 } // namespace
@@ -119,29 +108,27 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
     parts.integrator = Integrator::path;
     parts.techniques = false;
   }
-  parts.strategy = settings::strategy_named(settings.strategy).macro;
+  parts.strategy = settings::strategy_named(settings.strategy).name;
   parts.connect = possible_connect(settings, lights);
   parts.hierarchy = !geometry.nodes.empty() || geometry.root < 0;
   parts.triangles = geometry.has_triangles;
   parts.parallelograms = geometry.has_parallelograms;
   parts.ellipses = geometry.has_ellipses;
-  parts.planars = parts.triangles || parts.parallelograms || parts.ellipses;
   parts.spheres = geometry.sphere_count > 0;
   parts.smooth_normals = !geometry.vertex_normals.empty();
-  for (const scene::Material* m : used_materials(scene, geometry)) {
-    const bool anisotropic = m->kind == scene::Material::Kind::anisotropic_phong;
-    const bool lobe = !anisotropic && m->specular != scene::Rgb(0.0);
-    parts.two_sided |= m->two_sided;
-    parts.black |= !m->reflects();
-    parts.anisotropic |= anisotropic;
-    parts.phong_lobe |= lobe;
-    if (lobe && settings.strategy == "rejection") refuse_endless_rejection(*m);
+  const std::vector<scene::Material> materials = tables::used_materials(scene, geometry);
+  parts.models = lobes::models_of(materials);
+  for (const scene::Material& m : materials) {
+    parts.two_sided |= m.two_sided;
+    parts.black |= !lobes::reflects(m);
+    if (settings.strategy == "rejection" && m.model == lobes::shipped("phong")) refuse_endless_rejection(m);
   }
-  if (parts.ambient && parts.anisotropic)
-    throw UsageError(
-        "`ambient`: the reflectivity of anisotropicphong has no closed form to weigh the ambient term "
-        "with: leave it out or use phong");
-  parts.emission = lights.has(LIGHT_PLANAR) || lights.has(LIGHT_SPHERE);
+  for (const auto& model : parts.models)
+    if (parts.ambient && model->reflectivity_is_estimate)
+      throw UsageError(fmt::format(
+          "`ambient`: the reflectivity of {} has no closed form to weigh the ambient term with: leave it out "
+          "or use phong",
+          model->name));
   parts.light_planar = lights.has(LIGHT_PLANAR);
   parts.light_sphere = lights.has(LIGHT_SPHERE);
   parts.light_point = lights.has(LIGHT_POINT);
@@ -159,10 +146,19 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
   return parts;
 }
 
+bool Parts::has_model(const std::string& name) const {
+  return std::ranges::any_of(models, [&](const auto& model) { return model->name == name; });
+}
+
+bool Parts::has_tangents() const {
+  return std::ranges::any_of(models, [](const auto& model) { return model->needs_tangents; });
+}
+
 std::vector<std::string> Parts::names() const {
   std::vector<std::string> list;
   for (const NamedPart& part : named_parts)
     if (this->*part.member) list.emplace_back(part.name);
+  for (const auto& model : models) list.push_back(model->name);
   return list;
 }
 
@@ -189,11 +185,16 @@ std::map<std::string, std::string> Parts::defines() const {
   macros["PHONG_TABLE_INTERVALS"] = std::to_string(phong::reflectivity_intervals);
   if (double_precision) macros["PHLUX_DOUBLE"] = "1";
   macros["WIDTH"] = std::to_string(lanes);
-  macros["STRATEGY"] = strategy;
+  macros["PHONG_STRATEGY"] = fmt::format("\"phong/strategies/{}.cl\"", strategy);
+  macros.merge(lobes::defines_of(models));
   macros["CONNECT"] = connect == Connect::none    ? "CONNECT_NONE"
                       : connect == Connect::light ? "CONNECT_LIGHT"
                                                   : "CONNECT_MIS";
   return macros;
+}
+
+device::ProgramSource Parts::source(const std::string& root, const std::string& extra) const {
+  return {root, defines(), lobes::files_of(models), extra};
 }
 
 } // namespace phlux::render

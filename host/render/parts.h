@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "accel/geometry.h"
-#include "device/device.h"
+#include "device/program.h"
+#include "lobes/program.h"
 #include "render/render.h"
 #include "tables/light_table.h"
 
@@ -22,10 +23,9 @@ struct Parts {
   int lanes = 1;
   bool hierarchy = false;
   bool double_precision = false; ///< kernels/lanes.h: Real is a double
-  bool planars = false, triangles = false, parallelograms = false, ellipses = false, spheres = false;
+  bool triangles = false, parallelograms = false, ellipses = false, spheres = false;
   bool smooth_normals = false, two_sided = false, black = false;
-  bool phong_lobe = false, anisotropic = false;
-  bool emission = false; ///< a ray can hit a light's surface
+  std::vector<lobes::ModelPointer> models = {lobes::shipped("diffuse")}; ///< reflectance models
   bool light_planar = false, light_sphere = false, light_point = false, light_spot = false,
        light_directional = false, light_constant = false;
   bool ambient = false;      ///< a control variate is asked for
@@ -34,17 +34,21 @@ struct Parts {
   bool one_light = false, few_lights = false, few_materials = false, few_primitives = false; ///< no code
   Connect connect = Connect::mis;
   Weights weights = Weights::balance;
-  int connections = 0;         ///< as in Settings; 0: no code for roulette
-  bool techniques = false;     ///< contributions are recorded one by one
-  std::optional<double> clamp; ///< most that a path brings to its own pixel, in units of the light table
-  std::string strategy;
+  int connections = 0;            ///< as in Settings; 0: no code for roulette
+  bool techniques = false;        ///< contributions are recorded one by one
+  std::optional<double> clamp;    ///< most that a path brings to its own pixel, in units of the light table
+  std::string strategy = "exact"; ///< of the phong model
 
+  [[nodiscard]] bool has_model(const std::string& name) const;
+  [[nodiscard]] bool has_tangents() const; ///< a model needs them
   /// Names for people, such as "spheres" or "light_planar", in a fixed order.
   [[nodiscard]] std::vector<std::string> names() const;
   /// The kernel file of the integrator.
   [[nodiscard]] const char* file() const;
   /// Macros for the kernels.
   [[nodiscard]] std::map<std::string, std::string> defines() const;
+  /// The program of the kernel file `root`, or of the text `extra`, with these parts.
+  [[nodiscard]] device::ProgramSource source(const std::string& root, const std::string& extra = "") const;
 };
 
 /// WIDTH on a device. @throws UsageError for a WIDTH without doubles where they are asked for, DeviceError

@@ -150,11 +150,10 @@ void check_paths_end(const scene::Scene& scene, const Settings& settings) {
   constexpr double nearly_all = 0.999;
   if (settings.rr_depth >= 0 || settings.max_depth >= 0) return;
   for (const scene::Material& m : scene.materials)
-    for (int channel = 0; channel < 3; ++channel)
-      if (m.diffuse[channel] + m.specular[channel] >= nearly_all)
-        throw UsageError(
-            "`rr-depth` -1 `max-depth` -1: a material reflects everything, and nothing would end a path "
-            "in a closed room: give one of the two");
+    if (lobes::largest_reflectance(m) >= nearly_all)
+      throw UsageError(
+          "`rr-depth` -1 `max-depth` -1: a material reflects everything, and nothing would end a path in a "
+          "closed room: give one of the two");
 }
 
 // What the settings make of the scene without being wrong.
@@ -169,7 +168,7 @@ void warn(const scene::Scene& scene, const Settings& settings, const Events& eve
                     lost));
   const auto anisotropic = [&](const auto& shape) {
     const scene::Material& m = scene.materials[static_cast<std::size_t>(shape.surface.material)];
-    return m.kind == scene::Material::Kind::anisotropic_phong && m.exponent_u != m.exponent_v;
+    return m.model == lobes::shipped("anisotropicphong") && m.value("exponent_u") != m.value("exponent_v");
   };
   if (std::any_of(scene.meshes.begin(), scene.meshes.end(), anisotropic))
     events.warning("anisotropicphong on a mesh: texture coordinates are not read, and exponentU is along "
@@ -189,8 +188,8 @@ class Workshop {
 public:
   Workshop(const scene::Scene& scene, const Settings& settings, const Events& events)
       : scene_(scene), settings_(settings), events_(events),
-        files_(settings.kernel_dir.empty() ? device::KernelFiles()
-                                           : device::KernelFiles(settings.kernel_dir)) {}
+        files_(settings.kernel_dir.empty() ? sources::KernelFiles()
+                                           : sources::KernelFiles(settings.kernel_dir)) {}
 
   // Of the radiances that devices hand over.
   [[nodiscard]] double unit() const { return host_->lights.unit; }
@@ -207,8 +206,8 @@ public:
     worker.parts = find_parts(scene_, host_->geometry, host_->lights, settings_, lanes);
     if (events_.warning) warn(worker.parts);
     statistics.seconds_setup += seconds_since(begin);
-    const device::BuiltProgram built = device::build(
-        device, files_, {worker.parts.file(), worker.parts.defines(), {}}, events_.building_kernels);
+    const device::BuiltProgram built =
+        device::build(device, files_, worker.parts.source(worker.parts.file()), events_.building_kernels);
     statistics.kernels_from_cache = built.from_cache;
     worker.launcher = std::make_unique<Launcher>(device, built, *host_, worker.parts, settings_);
     const Clock::time_point warm_up_begin = Clock::now();
@@ -223,7 +222,7 @@ private:
     if (!host_->lights.shines())
       events_.warning("no light of the scene has any power: the image will be black");
     for (const char* name : {"uniform", "theta-phi", "disk", "rejection"})
-      if (settings_.strategy == name && !parts.phong_lobe)
+      if (settings_.strategy == name && !parts.has_model("phong"))
         events_.warning(fmt::format(
             "`strategy` {}: no surface has a phong lobe, so directions are drawn by the cosine", name));
     // Squares of ratios of areas leave float's range: beyond these sizes the weights no longer add up to 1.
@@ -240,7 +239,7 @@ private:
   const scene::Scene& scene_;
   const Settings& settings_;
   const Events& events_;
-  device::KernelFiles files_;
+  sources::KernelFiles files_;
   std::optional<HostScene> host_;
   int lanes_ = 0;
 };

@@ -8,25 +8,24 @@
 namespace phlux::settings {
 
 struct Strategy {
-  const char* name;  ///< of options, messages and files
-  const char* macro; ///< its number in the kernels (lobes/phong.cl)
+  const char* name; ///< of options, messages and files; kernels/phong/strategies/NAME.cl
   bool biased = false;
 };
 
 /// In the order in which help lists them.
 inline constexpr std::array<Strategy, 12> strategies = {{
-    {"uniform", "STRATEGY_UNIFORM"},
-    {"theta-phi", "STRATEGY_THETA_PHI"},
-    {"cosine", "STRATEGY_COSINE"},
-    {"disk", "STRATEGY_DISK"},
-    {"rejection", "STRATEGY_REJECTION"},
-    {"lobe-ks", "STRATEGY_LOBE_KS"},
-    {"lobe-estimate-printed", "STRATEGY_LOBE_ESTIMATE_PRINTED", true},
-    {"lobe-estimate", "STRATEGY_LOBE_ESTIMATE"},
-    {"lobe-rho", "STRATEGY_LOBE_RHO"},
-    {"mixture", "STRATEGY_MIXTURE"},
-    {"fold", "STRATEGY_FOLD"},
-    {"exact", "STRATEGY_EXACT"},
+    {"uniform"},
+    {"theta-phi"},
+    {"cosine"},
+    {"disk"},
+    {"rejection"},
+    {"lobe-ks"},
+    {"lobe-estimate-printed", true},
+    {"lobe-estimate"},
+    {"lobe-rho"},
+    {"mixture"},
+    {"fold"},
+    {"exact"},
 }};
 
 /// @throws UsageError where there is no strategy of that name

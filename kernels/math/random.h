@@ -37,23 +37,37 @@ static inline RandomWords philox(RandomWords counter, uint2 key) {
 typedef struct {
   Uint pixel, sample;
   uint2 seed;
-#ifdef PHLUX_GIVEN_WORDS
-  RandomWords given; // what the first draw gives: verify.cl drives samplers with numbers of its choice
-#endif
 } RandomSequence;
 
 // Four random words for one purpose on one path. `dimension` numbers the purpose (say, 2 bounce + 1), `draw` the
 // repetition of a sampler that draws until it accepts.
 static inline RandomWords random_words(RandomSequence sequence, Uint dimension, uint draw) {
-#ifdef PHLUX_GIVEN_WORDS
-  if (draw == 0) return sequence.given;
-#endif
   RandomWords counter;
   counter.x = sequence.pixel;
   counter.y = sequence.sample;
   counter.z = dimension;
   counter.w = (Uint)(draw);
   return philox(counter, sequence.seed);
+}
+
+// Random numbers for one sampling decision: the words of its first draw, and the place of further draws.
+typedef struct {
+  RandomWords words;
+  RandomSequence sequence;
+  Uint dimension;
+} RandomDraws;
+
+static inline RandomDraws random_draws(RandomSequence sequence, Uint dimension) {
+  RandomDraws random;
+  random.words = random_words(sequence, dimension, 0);
+  random.sequence = sequence;
+  random.dimension = dimension;
+  return random;
+}
+
+// The words of draw 1, 2, ...
+static inline RandomWords draw_again(RandomDraws random, uint draw) {
+  return random_words(random.sequence, random.dimension, draw);
 }
 
 // Further words from two of random_words, one for each number above 0: for many choices of small weight each. The

@@ -22,15 +22,15 @@ static inline Vec3 all_lanes_of(float4 v) { return vec3((Real)(v.x), (Real)(v.y)
 static inline Vec3 on_hemisphere(Vec3 v) { return vec3(v.x, v.y, larger(v.z, (Real)(1e-6f))); }
 
 // values[i] = f_r for the i-th pair of directions.
-__kernel void evaluate_pairs(const __global MaterialRecord* materials, const __global float* reflectivity,
+__kernel void evaluate_pairs(const __global float* materials, const __global float* lobe_tables,
                              const __global float* fixed, const __global float* generated, int count,
                              __global float* values) {
   const Int element = elements_of_item();
   const Mask inside = element < count;
   const Int index = inside ? element : (Int)(0);
-  const Phong m = only_material(materials, reflectivity);
+  const Material m = only_material(materials, lobe_tables);
   const Vec3 to = on_hemisphere(gather_vec3_at(generated, index));
-  scatter_real(values, element, phong_eval(m, gather_vec3_at(fixed, index), to).x, inside);
+  scatter_real(values, element, material_evaluate(m, gather_vec3_at(fixed, index), to).value.x, inside);
 }
 
 static inline Vec3 direction_of(int space, Real first, Real second) {
@@ -63,32 +63,33 @@ static inline Real measure_of(int space, Vec3 v) {
 
 // The integrand of the reflectivity over a grid of a parameter space, first parameter slowest. `parameters` holds two
 // floats each, in [0, 1] (x, y: in the unit disk); `values` gets five: the direction, f_r and the integrand.
-__kernel void evaluate_parameters(const __global MaterialRecord* materials, const __global float* reflectivity,
+__kernel void evaluate_parameters(const __global float* materials, const __global float* lobe_tables,
                                   float4 fixed, int space, const __global float* parameters, int count,
                                   __global float* values) {
   const Int element = elements_of_item();
   const Mask inside = element < count;
   const Int index = inside ? element : (Int)(0);
-  const Phong m = only_material(materials, reflectivity);
+  const Material m = only_material(materials, lobe_tables);
   const Vec3 v =
       on_hemisphere(direction_of(space, gather_real(parameters, 2 * index), gather_real(parameters, 2 * index + 1)));
-  const Real value = phong_eval(m, all_lanes_of(fixed), v).x;
+  const Real value = material_evaluate(m, all_lanes_of(fixed), v).value.x;
   scatter_vec(values, 5 * element, v, inside);
   scatter_real(values, 5 * element + 3, value, inside);
   scatter_real(values, 5 * element + 4, value * measure_of(space, v), inside);
 }
 
 // values: x, y and the weight of the i-th sample, 0 where it was absorbed or went below the surface.
-__kernel void sample_squares(const __global MaterialRecord* materials, const __global float* reflectivity, float4 fixed,
+__kernel void sample_squares(const __global float* materials, const __global float* lobe_tables, float4 fixed,
                              uint2 seed, int count, __global float* values) {
   const Int element = elements_of_item();
   const Mask inside = element < count;
-  const Phong m = only_material(materials, reflectivity);
+  const Material m = only_material(materials, lobe_tables);
   RandomSequence sequence;
   sequence.pixel = int_to_uint(element);
   sequence.sample = (Uint)(0u);
   sequence.seed = seed;
-  const PhongSample s = phong_sample(m, all_lanes_of(fixed), sequence, (Uint)(2u), ALL_LANES, inside);
+  const MaterialSample s =
+      material_sample(m, all_lanes_of(fixed), random_draws(sequence, (Uint)(2u)), ALL_LANES, inside);
   const Mask goes_on = s.survives & (s.direction.z > 0.0f);
   scatter_real(values, 3 * element, s.direction.x, inside);
   scatter_real(values, 3 * element + 1, s.direction.y, inside);
@@ -97,13 +98,13 @@ __kernel void sample_squares(const __global MaterialRecord* materials, const __g
 
 // values[i]: the partial reflectivity through square i of side x side squares over [-1, 1]^2 in (x, y), rows of equal y
 // first, estimated from `samples` points that are uniform in the square (CW 197, section 5).
-__kernel void evaluate_squares(const __global MaterialRecord* materials, const __global float* reflectivity,
+__kernel void evaluate_squares(const __global float* materials, const __global float* lobe_tables,
                                float4 fixed, uint2 seed, int side, int samples, __global float* values) {
   const Int element = elements_of_item();
   const Mask inside = element < side * side;
   const Int row = element / side, column = element - row * side;
   const float width = 2.0f / (float)side;
-  const Phong m = only_material(materials, reflectivity);
+  const Material m = only_material(materials, lobe_tables);
   RandomSequence sequence;
   sequence.pixel = int_to_uint(element);
   sequence.seed = seed;
@@ -116,7 +117,7 @@ __kernel void evaluate_squares(const __global MaterialRecord* materials, const _
     const Real z2 = 1.0f - fma(x, x, y * y);
     const Mask on_disk = z2 > 0.0f;
     const Vec3 v = vec3(x, y, sqrt(on_disk ? z2 : (Real)(1.0f)));
-    sum += on_disk ? phong_eval(m, all_lanes_of(fixed), v).x : (Real)(0.0f);
+    sum += on_disk ? material_evaluate(m, all_lanes_of(fixed), v).value.x : (Real)(0.0f);
   }
   scatter_real(values, element, sum * (width * width / (float)samples), inside);
 }

@@ -1,4 +1,4 @@
-// The sampler of phong.cl alone, for measuring it: one material, one angle of incidence, one kind of light.
+// The sampler of a reflectance model alone, for measuring it: one material, one angle of incidence, one kind of light.
 #include "measure/only_material.cl"
 #include "measure/sampling_radiance.h"
 
@@ -37,11 +37,11 @@ static inline void add_powers(PowerSums* sums, Real d) {
 // sums: four floats for every block and lane, at [((item * blocks + block) * 4 + power - 1) * LANES + lane].
 // counts, three for each work-item: rays that go on, directions that were drawn, and samples that are wrong by
 // themselves: not a unit vector, no density, no finite weight.
-__kernel void sample_moments(const __global MaterialRecord* materials, const __global float* reflectivity,
+__kernel void sample_moments(const __global float* materials, const __global float* lobe_tables,
                              const __global float* directions, uint2 seed, uint first_sample, int blocks,
                              int block_samples, int roulette, int light, float centre, __global float* sums,
                              __global uint* counts) {
-  const Phong m = only_material(materials, reflectivity);
+  const Material m = only_material(materials, lobe_tables);
   const int item = (int)get_global_id(0);
   RandomSequence sequence;
   sequence.pixel = int_to_uint((Int)(item * LANES) + LANE_NUMBERS);
@@ -55,7 +55,7 @@ __kernel void sample_moments(const __global MaterialRecord* materials, const __g
     for (int i = 0; i < block_samples; ++i) {
       sequence.sample = (Uint)(first_sample + (uint)(block * block_samples + i));
       const Vec3 fixed = fixed_direction(directions, i);
-      const PhongSample s = phong_sample(m, fixed, sequence, (Uint)(2u), absorbing, ALL_LANES);
+      const MaterialSample s = material_sample(m, fixed, random_draws(sequence, (Uint)(2u)), absorbing, ALL_LANES);
       const Mask goes_on = s.survives & (s.direction.z > 0.0f);
       const Real weight = vec_mean(s.weight);
       const Real value = weight * radiance_from(light, fixed, s.direction);

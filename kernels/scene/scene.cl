@@ -9,7 +9,7 @@
 typedef struct {
   const __global CameraRecord* camera;
   const __global PrimitiveRecord* primitives;
-  const __global MaterialRecord* materials;
+  const __global float* materials; // records of MATERIAL_WORDS words each
   const __global LightRecord* lights;
   int light_count;
   const __global Scalar* planars;
@@ -20,11 +20,11 @@ typedef struct {
   int root;
   const __global LightNodeRecord* light_nodes;
   float light_tree_probability; // with which choose_light gives one of the tree's lights
-  const __global float* reflectivity;
+  const __global float* lobe_tables; // of the reflectance models
   const __global int* corners;          // three per flat primitive: indices into vertex_normals, -1: flat
   const __global float* vertex_normals; // three floats each
   // Copies of tables with few entries, member by member.
-  float material_members[sizeof(MaterialRecord) / 4][LANES];
+  float material_members[MATERIAL_WORDS][LANES];
   float light_members[sizeof(LightRecord) / 4][LANES];
   float primitive_members[sizeof(PrimitiveRecord) / 4][LANES];
   float planar_members[PLANAR_FLOATS][LANES];
@@ -32,12 +32,6 @@ typedef struct {
 } Scene;
 
 // The member of an entry of a table, in every lane.
-#define MATERIAL_REAL(scene, index, member)                                                                            \
-  (MATERIALS_IN_REGISTERS ? PERMUTE_REAL((scene)->material_members, (scene)->materials, index, member)                 \
-                          : GATHER_REAL((scene)->materials, index, member))
-#define MATERIAL_INT(scene, index, member)                                                                             \
-  (MATERIALS_IN_REGISTERS ? PERMUTE_INT((scene)->material_members, (scene)->materials, index, member)                  \
-                          : GATHER_INT((scene)->materials, index, member))
 #define PRIMITIVE_INT(scene, index, member)                                                                            \
   (PRIMITIVES_IN_REGISTERS ? PERMUTE_INT((scene)->primitive_members, (scene)->primitives, index, member)               \
                            : GATHER_INT((scene)->primitives, index, member))
@@ -49,16 +43,22 @@ typedef struct {
   (ONE_LIGHT             ? (Int)((scene)->lights[0].member)                                                            \
    : LIGHTS_IN_REGISTERS ? PERMUTE_INT((scene)->light_members, (scene)->lights, index, member)                         \
                          : GATHER_INT((scene)->lights, index, member))
-#define MATERIAL_VEC3(scene, index, member)                                                                            \
-  vec3(MATERIAL_REAL(scene, index, member[0]), MATERIAL_REAL(scene, index, member[1]),                                 \
-       MATERIAL_REAL(scene, index, member[2]))
 #define LIGHT_VEC3(scene, index, member)                                                                               \
   vec3(LIGHT_REAL(scene, index, member[0]), LIGHT_REAL(scene, index, member[1]), LIGHT_REAL(scene, index, member[2]))
 
+// Word `word` of a material's record, in every lane.
+static inline Real material_real(const Scene* scene, Int index, int word) {
+  return MATERIALS_IN_REGISTERS ? permute_real(scene->material_members[word], index)
+                                : gather_real(scene->materials + word, index * MATERIAL_WORDS);
+}
+static inline Int material_int(const Scene* scene, Int index, int word) {
+  return MATERIALS_IN_REGISTERS ? permute_int(scene->material_members[word], index)
+                                : gather_int((const __global int*)scene->materials + word, index * MATERIAL_WORDS);
+}
+
 // Copies the tables that are kept in registers.
 static inline void keep_small_tables(Scene* scene) {
-  if (MATERIALS_IN_REGISTERS)
-    load_members(scene->materials, sizeof(MaterialRecord) / 4, scene->material_members);
+  if (MATERIALS_IN_REGISTERS) load_members(scene->materials, MATERIAL_WORDS, scene->material_members);
   if (LIGHTS_IN_REGISTERS) load_members(scene->lights, sizeof(LightRecord) / 4, scene->light_members);
   if (PRIMITIVES_IN_REGISTERS) {
     load_members(scene->primitives, sizeof(PrimitiveRecord) / 4, scene->primitive_members);
@@ -70,10 +70,10 @@ static inline void keep_small_tables(Scene* scene) {
 // A kernel's parameters for the scene, and the statements that gather them in a Scene named `scene`.
 #define SCENE_PARAMETERS                                                                                               \
   const __global CameraRecord *camera, const __global PrimitiveRecord *primitives,                                     \
-      const __global MaterialRecord *materials, const __global LightRecord *lights, int light_count,                   \
+      const __global float *materials, const __global LightRecord *lights, int light_count,                   \
       const __global Scalar *planars, int triangle_end, int parallelogram_end, int ellipse_end,                        \
       const __global Scalar *spheres, int first_sphere, int sphere_count, const __global float *nodes, int root,       \
-      const __global LightNodeRecord *light_nodes, float light_tree_probability, const __global float *reflectivity,   \
+      const __global LightNodeRecord *light_nodes, float light_tree_probability, const __global float *lobe_tables,   \
       const __global int *corners, const __global float *vertex_normals
 #define SCENE_FROM_PARAMETERS                                                                                          \
   Scene scene;                                                                                                         \
@@ -93,7 +93,7 @@ static inline void keep_small_tables(Scene* scene) {
   scene.root = root;                                                                                                   \
   scene.light_nodes = light_nodes;                                                                                     \
   scene.light_tree_probability = light_tree_probability;                                                               \
-  scene.reflectivity = reflectivity;                                                                                   \
+  scene.lobe_tables = lobe_tables;                                                                                   \
   scene.corners = corners;                                                                                             \
   scene.vertex_normals = vertex_normals;                                                                               \
   keep_small_tables(&scene);

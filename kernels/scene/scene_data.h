@@ -35,17 +35,11 @@ typedef struct {
   int region; // flat: enum PlanarRegions; sphere: 1 where the front side is inside; both: REGION_NONE
 } PrimitiveRecord;
 
-// Which sides reflect anything (neither, if the material is black), and which model it is.
-enum MaterialFlags { MATERIAL_FRONT = 1, MATERIAL_BACK = 2, MATERIAL_ANISOTROPIC = 4 };
-
-typedef struct {
-  float diffuse[3], specular[3];
-  float exponent, exponent_v; // exponent_v: anisotropic only
-  float diffuse_max, specular_max;
-  float table_scale, grazing_reflectivity; // see phong.cl
-  int table_row;
-  int flags;
-} MaterialRecord;
+// A material's record: a header, then the words of its model's parameters (lobes/lobe.h). The host defines
+// MATERIAL_WORDS, the length of the longest record of the scene.
+enum MaterialHeader { MATERIAL_MODEL = 0, MATERIAL_FLAGS = 1, MATERIAL_HEADER = 2 };
+// Sides that reflect anything; neither if the material is black.
+enum MaterialFlags { MATERIAL_FRONT = 1, MATERIAL_BACK = 2 };
 
 enum LightKinds {
   LIGHT_PLANAR = 0,

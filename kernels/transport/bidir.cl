@@ -165,12 +165,12 @@ static inline void add_light_sample(Bidir* b, const Walk* walk, Vertex v, Mask m
   const Real cosine = vec_dot(v.point.normal, light.ray.direction);
   const Mask reaches = m & light.valid & leaves(generated, cosine);
   if (!any_lane(reaches)) return;
-  const Vec3 reflected = vec_mul(walk->throughput, material_eval(v.material, v.fixed, generated));
+  const LobeValue lobe = material_evaluate(v.material, v.fixed, generated);
+  const Vec3 reflected = vec_mul(walk->throughput, lobe.value);
   const Vec3 value = vec_scale(generated.z / light.density, vec_mul(light.radiance, reflected));
   const Real weight =
       weight_of_light_sample(walk->ratios, light.density, LIGHT_REAL(scene, light.light, emission_density),
-                             material_density(v.material, v.fixed, generated),
-                             material_density(v.material, generated, v.fixed), cosine, light.hittable);
+                             lobe.density, lobe.reverse, cosine, light.hittable);
   add_if_free(scene, &b->queue, &b->output, light.ray, light.distance,
               to_own_pixel(walk->path, walk->sequence.pixel, value, weight, TECHNIQUE(1, walk->edges + 1)),
               reaches & brings_light(value));
@@ -293,16 +293,14 @@ static inline void connect(Bidir* b, const Pair* pair, Joint eye, Joint light, M
   const Mask faces = m & leaves(to_light, eye_cosine) & leaves(to_eye, light_cosine);
   if (!any_lane(faces)) return;
   const Real distance2 = distance * distance;
-  const Material at_eye = eye.vertex.material, at_light = light.vertex.material;
-  const Vec3 eye_fixed = eye.vertex.fixed, light_fixed = light.vertex.fixed;
-  const Vec3 reflected = vec_mul(vec_mul(eye.throughput, material_eval(at_eye, eye_fixed, to_light)),
-                                 vec_mul(light.throughput, material_eval(at_light, light_fixed, to_eye)));
+  const LobeValue at_eye = material_evaluate(eye.vertex.material, eye.vertex.fixed, to_light);
+  const LobeValue at_light = material_evaluate(light.vertex.material, light.vertex.fixed, to_eye);
+  const Vec3 reflected =
+      vec_mul(vec_mul(eye.throughput, at_eye.value), vec_mul(light.throughput, at_light.value));
   const Real geometry = to_light.z * adjoint_cosine(light.vertex, to_eye, light_cosine) / distance2;
   const Vec3 value = vec_scale(geometry / connection_probability(pair), reflected);
-  const Real light_side = connection_side(light.ratios, material_density(at_eye, eye_fixed, to_light),
-                                          material_density(at_light, to_eye, light_fixed), distance2, light_cosine);
-  const Real eye_side = connection_side(eye.ratios, material_density(at_light, light_fixed, to_eye),
-                                        material_density(at_eye, to_light, eye_fixed), distance2, eye_cosine);
+  const Real light_side = connection_side(light.ratios, at_eye.density, at_light.reverse, distance2, light_cosine);
+  const Real eye_side = connection_side(eye.ratios, at_light.density, at_eye.reverse, distance2, eye_cosine);
   add_if_free(b->scene, &b->queue, &b->output, ray, distance,
               to_own_pixel(pair->path, pair->pixel, value, weight_of_connection(light_side, eye_side),
                            TECHNIQUE(pair->light_index + 2, pair->eye_index + 2)),

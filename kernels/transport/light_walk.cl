@@ -93,13 +93,12 @@ static inline void show_vertex(const Scene* scene, const Walk* walk, Vertex v, S
   const Real cosine = vec_dot(v.point.normal, to_eye);
   const Mask seen = m & view.film.seen & leaves(generated, cosine);
   if (!any_lane(seen)) return;
-  const Vec3 reflected = vec_mul(walk->throughput, material_eval(v.material, v.fixed, generated));
+  const LobeValue lobe = material_evaluate(v.material, v.fixed, generated);
+  const Vec3 reflected = vec_mul(walk->throughput, lobe.value);
   const Vec3 value = vec_scale(adjoint_cosine(v, generated, cosine) * view.film.density / view.distance2, reflected);
   Real weight = (Real)(1.0f);
-  if (IS_BIDIR) {
-    const Real backward = material_density(v.material, generated, v.fixed);
-    weight = weight_of_seen_vertex(walk->ratios, view.film.density, backward, view.distance2, cosine);
-  }
+  if (IS_BIDIR)
+    weight = weight_of_seen_vertex(walk->ratios, view.film.density, lobe.reverse, view.distance2, cosine);
   Real distance;
   const Ray ray = ray_to_point(surface_position(v.point), broadcast_vec(scene->camera->position), &distance);
   add_if_free(scene, queue, output, ray, distance,

@@ -82,7 +82,8 @@ static inline Mask leaves(Vec3 generated, Real geometric_cosine) {
 // Reflects the subpaths of m; returns those that go on: not absorbed by roulette, and above the surface. Light subpaths
 // (`adjoint`) carry power, eye subpaths importance.
 static inline Mask walk_on(Walk* walk, Vertex v, int adjoint, Uint dimension, Mask roulette, Mask m) {
-  const PhongSample sample = material_sample(v.material, v.fixed, walk->sequence, dimension, roulette, m);
+  const RandomDraws random = random_draws(walk->sequence, dimension);
+  const MaterialSample sample = material_sample(v.material, v.fixed, random, roulette, m);
   const Vec3 direction = from_frame(v.point.frame, sample.direction);
   const Real cosine = vec_dot(v.point.normal, direction);
   Vec3 throughput = vec_mul(walk->throughput, sample.weight);
@@ -90,8 +91,8 @@ static inline Mask walk_on(Walk* walk, Vertex v, int adjoint, Uint dimension, Ma
     throughput = vec_scale(adjoint_cosine(v, sample.direction, cosine) / sample.direction.z, throughput);
   const Mask goes_on = m & sample.survives & leaves(sample.direction, cosine) & (vec_max(throughput) > 0.0f);
   if (IS_BIDIR) {
-    const Real backward = material_density(v.material, sample.direction, v.fixed);
-    walk->ratios = ratios_reflected(walk->ratios, sample.density, backward, cosine);
+    const Real reverse = material_evaluate(v.material, v.fixed, sample.direction).reverse;
+    walk->ratios = ratios_reflected(walk->ratios, sample.density, reverse, cosine, sample.delta);
     walk->sky_density = sample.direction.z * INV_PI;
     walk->normal = v.point.normal;
   }

@@ -44,11 +44,16 @@ static inline Ratios ratios_arrived(Ratios r, Real distance2, Real cosine) {
 }
 
 // The subpath was reflected: the direction that it takes had density `forward`, and that back, had it come from
-// there, `backward`; it leaves at an angle of `cosine` to the normal. Not yet arrived.
-static inline Ratios ratios_reflected(Ratios r, Real forward, Real backward, Real cosine) {
+// there, `backward`; it leaves at an angle of `cosine` to the normal. Not yet arrived. No connection makes a path with a
+// delta event at either of its ends, and the densities of a delta event and its reverse cancel (Georgiev 2012, 5.2).
+static inline Ratios ratios_reflected(Ratios r, Real forward, Real backward, Real cosine, Mask delta) {
   Ratios next;
   next.edge = heuristic(1.0f / forward);
   next.rest = smaller(heuristic(cosine / forward) * (r.rest * heuristic(backward) + r.edge), (Real)(LARGEST_RATIO));
+  if (HAS_DELTA) {
+    next.edge = delta ? (Real)(0.0f) : next.edge;
+    next.rest = delta ? smaller(heuristic(cosine) * r.rest, (Real)(LARGEST_RATIO)) : next.rest;
+  }
   return next;
 }
 

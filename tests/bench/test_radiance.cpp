@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "bench/sampling/radiance.h"
+#include "bench/sampling/sampler.h"
 #include "measure/sampling_radiance.h"
 
 using namespace phlux;

@@ -16,13 +16,7 @@ enum Materials { floor_material, glossy, black, both_sides, brushed };
 enum Emitters { of_rectangle, of_mesh, of_disk, of_sphere, of_inside, of_flipped };
 
 scene::Material brushed_metal() {
-  scene::Material material;
-  material.kind = scene::Material::Kind::anisotropic_phong;
-  material.diffuse = Rgb(0.3, 0.2, 0.1);
-  material.specular = Rgb(0.3, 0.4, 0.5);
-  material.exponent_u = 10;
-  material.exponent_v = 30;
-  return material;
+  return lobes::anisotropic_phong(Rgb(0.3, 0.2, 0.1), Rgb(0.3, 0.4, 0.5), 10, 30);
 }
 
 // A ball of eight triangles with the ball's normals.

@@ -72,20 +72,6 @@ Estimate expected(const scene::Camera& camera, const std::function<Channels(cons
   return closed_form(camera.width, camera.height, std::move(means));
 }
 
-scene::Material diffuse(const Rgb& reflectance) {
-  scene::Material material;
-  material.diffuse = reflectance;
-  return material;
-}
-
-scene::Material phong(const Rgb& diffuse, const Rgb& specular, double exponent) {
-  scene::Material material;
-  material.diffuse = diffuse;
-  material.specular = specular;
-  material.exponent_u = exponent;
-  return material;
-}
-
 scene::Patch square(const Vec3& center, const Vec3& edge_u, const Vec3& edge_v, double half,
                     scene::Surface surface) {
   return {scene::Patch::Region::parallelogram, center, half * edge_u, half * edge_v, surface};
@@ -116,7 +102,7 @@ scene::Scene placed(scene::Scene scene, double scale, const Vec3& offset) {
   return scene;
 }
 
-render::Settings settings(int samples, int max_depth) {
+render::Settings settings_for(int samples, int max_depth) {
   render::Settings result;
   result.samples_per_pixel = samples;
   result.max_depth = max_depth;

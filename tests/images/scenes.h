@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "images/agreement.h"
+#include "lobes/models.h"
 #include "render/render.h"
 #include "scene/scene.h"
 
@@ -29,8 +30,8 @@ namespace phlux::test {
                                 const std::function<Channels(const scene::Vec3& direction)>& radiance,
                                 int points = 32);
 
-[[nodiscard]] scene::Material diffuse(const scene::Rgb& reflectance);
-[[nodiscard]] scene::Material phong(const scene::Rgb& diffuse, const scene::Rgb& specular, double exponent);
+using lobes::diffuse;
+using lobes::phong;
 
 /// A square of half side `half` about `center`; edge_u and edge_v (unit) span it, their cross product is its
 /// front.
@@ -47,7 +48,7 @@ struct Render {
 
 /// `samples` samples a pixel of the tested kernels (tested_kernels.h); the path's depth as given (-1:
 /// unbounded).
-[[nodiscard]] render::Settings settings(int samples, int max_depth = -1);
+[[nodiscard]] render::Settings settings_for(int samples, int max_depth = -1);
 [[nodiscard]] Render render_of(const scene::Scene& scene, const render::Settings& settings);
 
 } // namespace phlux::test

@@ -20,7 +20,7 @@ double total(const film::Film& film) {
 }
 
 Render render_by(const KernelCopy& kernels, const std::string& integrator, int samples) {
-  render::Settings with = settings(samples);
+  render::Settings with = settings_for(samples);
   with.integrator = integrator;
   with.kernel_dir = kernels.folder();
   return render_of(shipped("cornell-box", 8, 8), with);
@@ -40,7 +40,7 @@ TEST_CASE("clamping takes away what it says, and nothing without being asked") {
   const scene::Scene scene = shipped("caustic", 16, 12);
   for (const std::string integrator : {"path", "light", "bidir"}) {
     CAPTURE(integrator);
-    render::Settings with = settings(32);
+    render::Settings with = settings_for(32);
     with.integrator = integrator;
     const Render whole = render_of(scene, with);
     CHECK(whole.film.clamped_share() == 0.0);
@@ -54,7 +54,7 @@ TEST_CASE("clamping takes away what it says, and nothing without being asked") {
     for (std::size_t pixel = 0; pixel < clamped.film.pixels().size(); ++pixel)
       for (const double channel : clamped.film.mean(pixel)) CHECK(channel <= 1.0 + 1e-6);
   }
-  render::Settings with = settings(1);
+  render::Settings with = settings_for(1);
   with.integrator = "bidir";
   with.techniques = true;
   with.clamp = 1.0;
@@ -65,7 +65,7 @@ TEST_CASE("clamping is in radiance, whatever the unit of the light table") {
   scene::Scene scene = shipped("caustic", 8, 6);
   for (const std::string integrator : {"path", "light", "bidir"}) {
     CAPTURE(integrator);
-    render::Settings with = settings(16);
+    render::Settings with = settings_for(16);
     with.integrator = integrator;
     with.clamp = 1.0;
     const double share = render_of(scene, with).film.clamped_share();
@@ -77,7 +77,7 @@ TEST_CASE("clamping is in radiance, whatever the unit of the light table") {
 }
 
 TEST_CASE("a sample that is not finite is dropped, counted, and its block is named") {
-  const KernelCopy broken("film.cl", "const Real total = radiance.x",
+  const KernelCopy broken("transport/film.cl", "const Real total = radiance.x",
                           "const Mask chosen = (job->pixel == 37) & (sample_number(list, *job) == 21);\n"
                           "  radiance.x = chosen ? (Real)(NAN) : radiance.x;\n"
                           "  const Real total = radiance.x");
@@ -88,7 +88,7 @@ TEST_CASE("a sample that is not finite is dropped, counted, and its block is nam
 
 TEST_CASE("splats and connections that are not finite are dropped, counted, and their path is named") {
   // Path 0 of a batch: sample 0 of the pixel that the batch begins with.
-  const KernelCopy broken("contributions.cl", "Mask recorded = m;",
+  const KernelCopy broken("transport/contributions.cl", "Mask recorded = m;",
                           "Mask recorded = m;\n"
                           "  c.value.x = c.path == 0 ? (Real)(INFINITY) : c.value.x;");
   for (const std::string integrator : {"light", "bidir"}) {

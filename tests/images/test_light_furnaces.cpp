@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "images/integrators.h"
+#include "materials.h"
 #include "phong/reflectivity.h"
 
 using namespace phlux;
@@ -16,7 +17,7 @@ namespace {
 const Rgb kd(0.3, 0.1, 0.0), ks(0.6, 0.2, 0.9), sky(1.0, 0.5, 2.0);
 
 render::Settings with(const Method& method, int samples, int max_depth = -1) {
-  return by(method, settings(samples, max_depth));
+  return by(method, settings_for(samples, max_depth));
 }
 
 scene::Scene sphere_furnace(const scene::Material& material) {
@@ -32,8 +33,9 @@ Estimate sphere_reference(const scene::Scene& scene, const scene::Material& mate
       scene.camera,
       [&](const Vec3& direction) {
         const double along = 4 * direction.z, cosine = std::sqrt(along * along - 15);
-        const Rgb rho = sky * (material.diffuse +
-                               material.specular * phong::lobe_reflectivity(material.exponent_u, cosine));
+        const Rgb rho = sky * (phlux::test::diffuse_of(material) +
+                               phlux::test::specular_of(material) *
+                                   phong::lobe_reflectivity(phlux::test::exponent_of(material), cosine));
         return Channels{rho.r, rho.g, rho.b};
       },
       8);
@@ -41,7 +43,7 @@ Estimate sphere_reference(const scene::Scene& scene, const scene::Material& mate
 
 void check_sphere(const Method& method, double exponent, const std::string& strategy, int samples) {
   CAPTURE(name_of(method), exponent, strategy);
-  const scene::Material material = phong(kd, ks, exponent);
+  const scene::Material material = test::phong(kd, ks, exponent);
   const scene::Scene scene = sphere_furnace(material);
   render::Settings settings = with(method, samples);
   settings.strategy = strategy;
@@ -118,5 +120,5 @@ TEST_CASE("a ground that is a sphere of radius 10,000 has no spots by light and 
   scene.spheres = {{{3, 7, -1e4}, 1e4, false, {}}};
   scene.point_lights = {{{3, 7, 1.5}, Rgb(10, 20, 30)}};
   scene.camera = look_at({3, 7, 2}, {3.1, 7.2, 0}, 60, 8, 8);
-  check_against_path(scene, {light, bidir}, settings(128));
+  check_against_path(scene, {light, bidir}, settings_for(128));
 }

@@ -14,7 +14,7 @@ using namespace phlux::test;
 namespace {
 
 Render cornell_box(std::uint64_t seed, double launch_seconds = 0.05) {
-  render::Settings with = settings(100); // whole blocks of samples and a part of one
+  render::Settings with = settings_for(100); // whole blocks of samples and a part of one
   with.seed = seed;
   with.launch_seconds = launch_seconds;
   return render_of(shipped("cornell-box", 33, 17), with);
@@ -63,7 +63,7 @@ Render under_many_lights(double launch_seconds) {
   lamp.surface = {1, 0};
   scene.meshes.push_back(lamp);
   scene.camera = look_at({0, -2, 1}, {0, 0, 0.3}, 50, 17, 11);
-  render::Settings with = settings(40);
+  render::Settings with = settings_for(40);
   with.integrator = "bidir";
   with.launch_seconds = launch_seconds;
   return render_of(scene, with);

@@ -19,7 +19,7 @@ namespace {
 const std::vector<Method> both = {light, bidir};
 
 render::Settings with(const Method& method, int samples, std::uint64_t seed = 0) {
-  render::Settings result = by(method, settings(samples));
+  render::Settings result = by(method, settings_for(samples));
   result.seed = seed;
   return result;
 }

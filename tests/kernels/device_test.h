@@ -45,9 +45,9 @@ inline std::size_t thinned(std::size_t count, std::size_t factor = 64) {
   return test_device().info.platform == "Oclgrind" ? count / factor + 1 : count;
 }
 
-inline phlux::device::KernelFiles kernel_files() {
+inline phlux::sources::KernelFiles kernel_files() {
   const std::filesystem::path folder = phlux::test::tested_kernels();
-  return folder.empty() ? phlux::device::KernelFiles() : phlux::device::KernelFiles(folder);
+  return folder.empty() ? phlux::sources::KernelFiles() : phlux::sources::KernelFiles(folder);
 }
 
 /// The text of a file of tests/kernels.
@@ -87,11 +87,16 @@ class Program {
   using Fetches = std::vector<std::function<void()>>;
 
 public:
-  Program(Variant variant, const std::string& text, std::map<std::string, std::string> defines = {})
+  Program(Variant variant, const std::string& text, const std::map<std::string, std::string>& defines = {})
+      : Program(variant, text, phlux::device::ProgramSource{"", defines, {}, ""}) {}
+
+  /// Adds the text to `source`.
+  Program(Variant variant, const std::string& text, phlux::device::ProgramSource source)
       : width_(static_cast<std::size_t>(variant.width)) {
-    defines["WIDTH"] = std::to_string(variant.width);
-    if (variant.portable) defines["LANES_PORTABLE"] = "1";
-    program_ = phlux::device::build(test_device(), kernel_files(), {"", defines, text});
+    source.extra += text;
+    source.defines["WIDTH"] = std::to_string(variant.width);
+    if (variant.portable) source.defines["LANES_PORTABLE"] = "1";
+    program_ = phlux::device::build(test_device(), kernel_files(), source);
   }
 
   [[nodiscard]] phlux::device::Kernel kernel(const std::string& name) const { return {program_, name}; }
@@ -174,15 +179,20 @@ private:
 };
 
 /// A program of tests/kernels/NAME, built when it is first asked for and never released.
-inline const Program& program_of(const std::string& name, Variant variant,
-                                 const std::map<std::string, std::string>& defines = {}) {
+inline const Program& program_with(const std::string& name, Variant variant,
+                                   const phlux::device::ProgramSource& source) {
   static auto& programs = *new std::map<std::string, Program>;
   std::ostringstream key;
   key << name << ' ' << variant;
-  for (const auto& [macro, value] : defines) key << ' ' << macro << '=' << value;
+  for (const auto& [macro, value] : source.defines) key << ' ' << macro << '=' << value;
+  for (const auto& [file, text] : source.files) key << ' ' << file << '=' << text;
   const auto found = programs.find(key.str());
   if (found != programs.end()) return found->second;
-  return programs.emplace(key.str(), Program(variant, read_file(name), defines)).first->second;
+  return programs.emplace(key.str(), Program(variant, read_file(name), source)).first->second;
+}
+inline const Program& program_of(const std::string& name, Variant variant,
+                                 const std::map<std::string, std::string>& defines = {}) {
+  return program_with(name, variant, {"", defines, {}, ""});
 }
 
 } // namespace device_test

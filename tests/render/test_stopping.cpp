@@ -17,7 +17,7 @@ bool every_pixel_has_samples(const film::Film& film) {
 } // namespace
 
 TEST_CASE("a limit of time ends the render when two launches more are done, with samples in every pixel") {
-  render::Settings with = settings(1);
+  render::Settings with = settings_for(1);
   with.time_limit = 0.3;
   film::Film film(64, 64);
   int launches_after = 0;
@@ -35,7 +35,7 @@ TEST_CASE("a limit of time ends the render when two launches more are done, with
 }
 
 TEST_CASE("an error that is asked for is reached") {
-  render::Settings with = settings(1);
+  render::Settings with = settings_for(1);
   with.target_error = 0.04;
   with.time_limit = 30; // in case it is not
   const Render image = render_of(shipped("cornell-box", 16, 16), with);
@@ -54,7 +54,7 @@ TEST_CASE("progress is told, and ends the render when it says so") {
     samples = progress.samples_done;
     return ++calls < 3;
   };
-  const auto statistics = render::render(shipped("cornell-box", 64, 64), settings(1 << 20), film, events);
+  const auto statistics = render::render(shipped("cornell-box", 64, 64), settings_for(1 << 20), film, events);
   CHECK(calls == 3);
   CHECK(statistics.paths >= static_cast<std::uint64_t>(samples * 4096));
   CHECK(statistics.paths < 4096ull << 19);

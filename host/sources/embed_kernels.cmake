@@ -22,14 +22,14 @@ foreach(name IN LISTS files)
 endforeach()
 
 file(WRITE "${OUTPUT}.tmp" "// Made by embed_kernels.cmake from the files of kernels/. Do not edit.
-#include \"device/embedded.h\"
+#include \"sources/embedded.h\"
 
-namespace phlux::device {
+namespace phlux::sources {
 namespace {
 constexpr EmbeddedFile files[] = {
 ${entries}{\"\", \"\"}}; // an end mark, so that no kernels at all is no empty array
 } // namespace
 std::span<const EmbeddedFile> embedded_files() { return std::span(files).first(std::size(files) - 1); }
-} // namespace phlux::device
+} // namespace phlux::sources
 ")
 file(RENAME "${OUTPUT}.tmp" "${OUTPUT}")

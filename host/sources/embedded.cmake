@@ -1,4 +1,4 @@
-# Puts every file of kernels/ into phlux_device, so that the installed program needs none of them.
+# Puts every file of kernels/ into phlux_sources, so that the installed program needs none of them.
 file(GLOB_RECURSE kernels RELATIVE ${PROJECT_SOURCE_DIR}/kernels CONFIGURE_DEPENDS
      ${PROJECT_SOURCE_DIR}/kernels/*.h ${PROJECT_SOURCE_DIR}/kernels/*.cl)
 list(TRANSFORM kernels PREPEND ${PROJECT_SOURCE_DIR}/kernels/ OUTPUT_VARIABLE kernel_paths)
@@ -12,4 +12,4 @@ add_custom_command(
   DEPENDS ${kernel_paths} ${CMAKE_CURRENT_LIST_DIR}/embed_kernels.cmake
   COMMENT "Embedding the kernels"
   VERBATIM)
-target_sources(phlux_device PRIVATE ${embedded})
+target_sources(phlux_sources PRIVATE ${embedded})

@@ -1,4 +1,4 @@
-#include "device/program.h"
+#include "sources/kernel_files.h"
 
 #include <algorithm>
 #include <fstream>
@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
-#include "device/embedded.h"
 #include "errors.h"
+#include "sources/embedded.h"
 
-namespace phlux::device {
+namespace phlux::sources {
 
 KernelFiles::KernelFiles(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
@@ -29,4 +29,4 @@ std::string KernelFiles::read(const std::string& name) const {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-} // namespace phlux::device
+} // namespace phlux::sources

@@ -4,7 +4,7 @@
 #include <span>
 #include <string_view>
 
-namespace phlux::device {
+namespace phlux::sources {
 
 struct EmbeddedFile {
   std::string_view name; ///< relative to kernels/
@@ -13,4 +13,4 @@ struct EmbeddedFile {
 
 [[nodiscard]] std::span<const EmbeddedFile> embedded_files();
 
-} // namespace phlux::device
+} // namespace phlux::sources
