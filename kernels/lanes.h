@@ -61,10 +61,12 @@ typedef LANE_JOIN(int, WIDTH) Mask;
 #define LANES WIDTH
 #define NO_LANES ((Mask)(0))
 
-// AVX-512 has single instructions for what the portable forms below spell out; LANES_PORTABLE tests those forms.
-#if WIDTH == 16 && defined(__AVX512F__) && !defined(LANES_PORTABLE) && defined(__has_builtin)
-#if __has_builtin(__builtin_ia32_gathersiv16sf) && __has_builtin(__builtin_ia32_cmpd512_mask) &&                       \
-    __has_builtin(__builtin_ia32_compresssf512_mask) && __has_builtin(__builtin_ia32_expandsf512_mask) &&              \
+// AVX-512 has single instructions for what the portable forms below spell out; LANES_PORTABLE selects those forms.
+// clang before 8 declares the indices of gathersiv16sf as floats.
+#if WIDTH == 16 && defined(__AVX512F__) && !defined(LANES_PORTABLE) && defined(__has_builtin) && __clang_major__ >= 8
+#if __has_builtin(__builtin_ia32_gathersiv16sf) && __has_builtin(__builtin_ia32_gathersiv16si) &&                      \
+    __has_builtin(__builtin_ia32_cmpd512_mask) && __has_builtin(__builtin_ia32_compresssf512_mask) &&                  \
+    __has_builtin(__builtin_ia32_expandsf512_mask) && __has_builtin(__builtin_ia32_expandsi512_mask) &&                \
     __has_builtin(__builtin_ia32_permvarsf512)
 #define LANES_AVX512
 typedef float LaneNativeFloats __attribute__((vector_size(64)));
