@@ -44,6 +44,7 @@ nlohmann::ordered_json statistics_json(const render::Statistics& statistics, con
           {"device", statistics.device},
           {"driver", statistics.driver},
           {"lanes", statistics.lanes},
+          {"portable_lanes", statistics.portable_lanes},
           {"traversal", statistics.traversal},
           {"parts", statistics.parts},
           {"width", film.width()},
