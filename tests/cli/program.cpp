@@ -1,3 +1,4 @@
+#define CATCH_CONFIG_EXTERNAL_INTERFACES // listeners, in Catch2 2
 #include "cli/program.h"
 
 #include <algorithm>
@@ -51,15 +52,15 @@ Record record;
 
 // Shows every run of a test case that failed, whichever of its assertions did.
 struct ShowRuns : Catch::TestEventListenerBase {
-  using TestEventListenerBase::TestEventListenerBase;
+  using Catch::TestEventListenerBase::TestEventListenerBase;
 
   void testCaseStarting(const Catch::TestCaseInfo& info) override {
-    TestEventListenerBase::testCaseStarting(info);
+    Catch::TestEventListenerBase::testCaseStarting(info);
     record.forget();
   }
   void testCaseEnded(const Catch::TestCaseStats& stats) override {
     if (!stats.totals.assertions.allOk()) record.print();
-    TestEventListenerBase::testCaseEnded(stats);
+    Catch::TestEventListenerBase::testCaseEnded(stats);
   }
 };
 CATCH_REGISTER_LISTENER(ShowRuns)
