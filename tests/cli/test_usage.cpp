@@ -1,4 +1,3 @@
-#include <cstdlib>
 #include <sstream>
 
 #include <catch2/catch.hpp>
@@ -128,17 +127,10 @@ TEST_CASE("The version says what a report should") {
                            "spdlog ", "pugixml ", "CLI11 ", "\nOpenCL     ", "\nplatform 0 "})
     CHECK_THAT(version.out, Catch::Contains(text));
   CHECK_THAT(version.out, !Catch::Contains("unknown version"));
-}
-
-TEST_CASE("The version is of the commit that is checked out") {
-  const TemporaryFolder folder;
-  const std::string git = "git -C '" PHLUX_SOURCE_DIR "' -c safe.directory='*' log -1 --format=%h >'" +
-                          (folder / "commit").string() + "' 2>/dev/null";
-  if (std::system(git.c_str()) != 0) return; // no clone
-  std::string commit = TemporaryFolder::read(folder / "commit");
-  commit.erase(commit.find_last_not_of('\n') + 1);
-  CHECK_THAT(run({{"--version"}, folder.path(), {}, {}}).out,
-             Catch::Contains("\ncommit     " + commit + " of "));
+  // What commit it is, cli/commit.sh tests: this build may be older than the latest.
+  const bool is_clone = std::filesystem::exists(PHLUX_SOURCE_DIR "/.git");
+  CHECK_THAT(version.out, Catch::Matches(is_clone ? "(.|\n)*\ncommit     [0-9a-f]{7,} of 20(.|\n)*"
+                                                  : "(.|\n)*\ncommit     unknown\n(.|\n)*"));
 }
 
 TEST_CASE("Without a platform the version says so") {
