@@ -35,12 +35,12 @@ bare_root() {
   [[ -d $bare ]] || timed "Debian $1: debootstrap" "debian$1-bare" bootstrap "$1" "$bare"
 }
 
-# What is no part of a bare Debian: a user with sudo, ccache where it is wanted, the clone.
+# What the README takes for granted: git, and with it a clone; a user with sudo. And ccache, where it is wanted.
 furnish() { # ROOT USER
-  local packages=()
+  local packages=(git)
   if [[ $ccache ]]; then packages+=(ccache); fi
   if [[ $2 != root ]]; then packages+=(sudo); fi
-  ((${#packages[@]} == 0)) || enter_bare "$1" apt-get install -y --no-install-recommends "${packages[@]}" || return
+  enter_bare "$1" apt-get install -y --no-install-recommends "${packages[@]}" || return
   if [[ $2 != root ]]; then
     chroot "$1" useradd --create-home --shell /bin/bash "$2" || return
     echo "$2 ALL=(ALL) NOPASSWD: ALL" >"$1/etc/sudoers.d/$2"
