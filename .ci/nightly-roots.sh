@@ -5,7 +5,7 @@ declare -A codename=([12]=bookworm [13]=trixie)
 clone=/srv/phlux # the same for every user: a ccache holds paths
 
 # enter ROOT USER COMMAND...: runs it in the root, in the clone, with /proc, /dev and /sys as a machine has. Mounts and
-# processes are gone when it ends.
+# processes are gone when it ends: the inner bash is their init, and ends with unshare.
 enter() {
   local root=$1 user=$2 home=/root path=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin more=()
   shift 2
@@ -19,7 +19,7 @@ enter() {
     mount --rbind /dev "$ROOT/dev"
     mount --rbind /sys "$ROOT/sys"
     if [[ $CACHE ]]; then mkdir -p "$ROOT/ccache"; mount --bind "$CACHE" "$ROOT/ccache"; fi
-    exec chroot "$@"' _ --userspec="$user:$user" "$root" \
+    chroot "$@"' _ --userspec="$user:$user" "$root" \
     env -i HOME="$home" USER="$user" PATH="$path" LANG=C.UTF-8 TERM=dumb "${more[@]}" \
     sh -c "cd $clone && exec \"\$@\"" _ "$@"
 }
