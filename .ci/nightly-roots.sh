@@ -26,6 +26,7 @@ enter() {
 
 bootstrap() { # RELEASE ROOT
   command -v debootstrap >/dev/null || apt-get install -y --no-remove debootstrap || return
+  rm -rf --one-file-system "$2.new"
   debootstrap --variant=minbase "${codename[$1]}" "$2.new" http://deb.debian.org/debian && mv "$2.new" "$2"
 }
 
@@ -57,6 +58,7 @@ fresh_root() {
   bare_root "$1" || return
   root=$folder/debian$1-$2
   [[ -d $root ]] && return
+  rm -rf --one-file-system "$root.new" # of a call that was interrupted
   cp -a "$bare" "$root.new"
   timed "Debian $1, $2: user and clone" "debian$1-$2-furnish" furnish "$root.new" "$2" || return
   mv "$root.new" "$root"
