@@ -16,7 +16,9 @@ on() {
   local driver=$1 more=()
   shift
   root=$folder/debian${release_of[$driver]}-root
-  if [[ $driver == intel ]]; then more=(OCL_ICD_VENDORS=/opt/intel-vendors); fi
+  if [[ $driver == intel ]]; then # it needs a newer TBB than Embree brings, and the first that is loaded serves both
+    more=(OCL_ICD_VENDORS=/opt/intel-vendors LD_PRELOAD=/opt/intel/libtbb.so.12)
+  fi
   enter "$root" root env "${more[@]}" PHLUX_CACHE_DIR="/var/cache/phlux-$driver" POCL_CACHE_DIR="/var/cache/pocl-$driver" "$@"
 }
 

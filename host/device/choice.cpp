@@ -73,8 +73,9 @@ Indices once_per_core(const Indices& indices, const std::vector<DeviceInfo>& dev
   for (const std::size_t i : indices) {
     const auto other = sharer(kept, i, devices);
     if (other)
-      notes.push_back(fmt::format("{} is the same cores as {}, and is left out: its own indices take it",
-                                  described(devices[i]), described(devices[*other])));
+      notes.push_back(fmt::format("{} is the same cores as {}: left out unless it is named as {}:{}",
+                                  described(devices[i]), described(devices[*other]),
+                                  devices[i].platform_index, devices[i].device_index));
     else
       kept.push_back(i);
   }
