@@ -1,9 +1,9 @@
 #!/bin/sh
-# Compiles every program in FOLDER for a kind of device that need not be here. A warning fails, and so do a register
-# spill, more registers than a device can give to enough threads, and a large stack frame in private memory.
+# Compiles every program in FOLDER for a kind of device that need not be here. A register spill fails, and so do more
+# registers than a device can give to enough threads, and a large stack frame in private memory.
 #   check.sh TARGET FOLDER       TARGET: nvptx64, amdgcn or spir64
 # CLANG and LIBCLC name the compiler and the folder of OpenCL's built-in functions; PTXAS, where set, makes the registers
-# of nvptx64 known.
+# of nvptx64 known; WARNINGS=-Werror makes a warning fail too.
 set -eu
 target=$1
 folder=$2
@@ -13,7 +13,7 @@ failed=0
 # unused-macros, unused-parameter and unreachable-code (of parts that a scene lacks), unsafe-buffer-usage (of C++; clang 15
 # has none), and in double precision double-promotion (of tables and exact constants).
 compile() {
-  "$CLANG" -x cl -cl-std=CL1.2 -O3 -Xclang -finclude-default-header -Werror -Weverything \
+  "$CLANG" -x cl -cl-std=CL1.2 -O3 -Xclang -finclude-default-header ${WARNINGS-} -Weverything \
     -Wno-padded -Wno-declaration-after-statement -Wno-float-equal -Wno-unused-macros -Wno-unused-parameter \
     -Wno-unused-function -Wno-unreachable-code -Wno-unreachable-code-return -Wno-unknown-warning-option -Wno-unsafe-buffer-usage \
     -Wno-linker-warnings -Wno-unused-command-line-argument $more "$@"
