@@ -209,6 +209,7 @@ public:
     const device::BuiltProgram built =
         device::build(device, files_, worker.parts.source(worker.parts.file()), events_.building_kernels);
     statistics.kernels_from_cache = built.from_cache;
+    statistics.portable_lanes = device::portable_lanes(device);
     worker.launcher = std::make_unique<Launcher>(device, built, *host_, worker.parts, settings_);
     const Clock::time_point warm_up_begin = Clock::now();
     worker.launcher->warm_up();

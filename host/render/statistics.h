@@ -40,6 +40,7 @@ struct Progress {
 struct Statistics : Standing {
   std::string device, driver;
   int lanes = 1;
+  bool portable_lanes = false;    ///< the compiler refused the processor's own instructions
   std::string traversal;          ///< brute or bvh
   std::vector<std::string> parts; ///< what the scene's kernel holds code for
   double seconds_setup = 0.0, seconds_build_kernels = 0.0;

@@ -9,7 +9,7 @@ using namespace phlux;
 using namespace phlux::test;
 
 TEST_CASE("where path tracing cannot be trusted, trials say what can") {
-  render::Settings with = settings(16);
+  render::Settings with = settings_for(16);
   const auto bidir = Catch::Contains("try `integrator` bidir"),
              light = Catch::Contains("try `integrator` light");
   advice::Advice advice;
@@ -26,7 +26,7 @@ TEST_CASE("the light that makes the variance is named") {
   const scene::PointLight lamp{{0, 1, 1}, scene::Rgb(1)};
   scene.point_lights = {lamp, lamp};
   const scene::Scene before = scene;
-  render::Settings with = settings(64);
+  render::Settings with = settings_for(64);
   REQUIRE(advice::lights_told_apart(scene) == 3);
   std::vector<advice::LightShare> shares = advice::light_shares(scene, with);
   REQUIRE(shares.size() == 3);

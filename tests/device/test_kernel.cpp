@@ -47,7 +47,7 @@ float weigh(const Device& device, const BuiltProgram& program) {
 
 TEST_CASE("arguments are set by their names; those that a kernel lacks are passed over") {
   const Device device = test_device();
-  const BuiltProgram program = build(device, sources::KernelFiles(), {"", {}, text});
+  const BuiltProgram program = build(device, sources::KernelFiles(), {"", {}, {}, text});
   CHECK(program.arguments == names);
   CHECK(weigh(device, program) == 21.0F);
   CHECK_NOTHROW(Kernel(program, "nothing").ready());
@@ -58,15 +58,15 @@ TEST_CASE("a program from the cache knows the names though its driver need not")
   const Environment variable("PHLUX_CACHE_DIR", cache.path().string());
   const Environment no_driver_cache("POCL_KERNEL_CACHE", "0");
   const Device device = test_device();
-  (void)build(device, sources::KernelFiles(), {"", {}, text});
-  const BuiltProgram loaded = build(device, sources::KernelFiles(), {"", {}, text});
+  (void)build(device, sources::KernelFiles(), {"", {}, {}, text});
+  const BuiltProgram loaded = build(device, sources::KernelFiles(), {"", {}, {}, text});
   CHECK(loaded.from_cache);
   CHECK(loaded.arguments == names);
   CHECK(weigh(device, loaded) == 21.0F);
 }
 
 TEST_CASE("what cannot be set or run is named") {
-  const BuiltProgram program = build(test_device(), sources::KernelFiles(), {"", {}, text});
+  const BuiltProgram program = build(test_device(), sources::KernelFiles(), {"", {}, {}, text});
   CHECK_THROWS_WITH(Kernel(program, "wiegh"),
                     Contains("kernel wiegh: ") && Contains("CL_INVALID_KERNEL_NAME"));
   Kernel kernel(program, "weigh");

@@ -102,7 +102,7 @@ scene::Scene placed(scene::Scene scene, double scale, const Vec3& offset) {
   return scene;
 }
 
-render::Settings settings(int samples, int max_depth) {
+render::Settings settings_for(int samples, int max_depth) {
   render::Settings result;
   result.samples_per_pixel = samples;
   result.max_depth = max_depth;

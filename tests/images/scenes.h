@@ -48,7 +48,7 @@ struct Render {
 
 /// `samples` samples a pixel of the tested kernels (tested_kernels.h); the path's depth as given (-1:
 /// unbounded).
-[[nodiscard]] render::Settings settings(int samples, int max_depth = -1);
+[[nodiscard]] render::Settings settings_for(int samples, int max_depth = -1);
 [[nodiscard]] Render render_of(const scene::Scene& scene, const render::Settings& settings);
 
 } // namespace phlux::test

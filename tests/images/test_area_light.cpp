@@ -73,7 +73,7 @@ void check_all_ways(const scene::Scene& scene, const std::vector<Connect>& ways,
                     int samples = 1024) {
   for (const Connect connect : ways) {
     CAPTURE(static_cast<int>(connect));
-    render::Settings with = settings(samples, 2);
+    render::Settings with = settings_for(samples, 2);
     with.connect = connect;
     check_agreement(estimate_of(render_of(scene, with).film), reference);
   }
@@ -162,7 +162,7 @@ TEST_CASE("every kind of light at once") {
   });
   // A light may be chosen once in thirty samples: enough of them for its share to be normal.
   check_all_ways(scene, {Connect::light, Connect::mis}, reference, 8192);
-  render::Settings with = settings(8192, 2);
+  render::Settings with = settings_for(8192, 2);
   with.traversal = render::Traversal::bvh;
   check_agreement(estimate_of(render_of(scene, with).film), reference);
 }

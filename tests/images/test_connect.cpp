@@ -19,7 +19,7 @@ struct Way {
 
 // Images of 32x32 pixels, compared in tiles of `side` x `side` pixels.
 Estimate image_of(const std::string& name, Way way, std::uint64_t seed, int side) {
-  render::Settings with = settings(way.samples);
+  render::Settings with = settings_for(way.samples);
   with.connect = way.connect;
   with.seed = seed;
   const Render image = render_of(shipped(name, 32, 32), with);
@@ -62,7 +62,7 @@ TEST_CASE("a lamp over a glossy plane at grazing angles: hits agree with light s
                    square({0, 0.5, 1}, {0, 1, 0}, {1, 0, 0}, 0.8, {1, 0})};
   scene.camera = look_at({0, -3, 0.5}, {0, 0, 0}, 8, 4, 4);
   const auto image = [&](Connect connect, const std::string& strategy) {
-    render::Settings with = settings(32768, 2);
+    render::Settings with = settings_for(32768, 2);
     with.connect = connect;
     with.strategy = strategy;
     return estimate_of(render_of(scene, with).film);

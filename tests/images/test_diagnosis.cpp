@@ -20,7 +20,7 @@ double total(const film::Film& film) {
 }
 
 Render render_by(const KernelCopy& kernels, const std::string& integrator, int samples) {
-  render::Settings with = settings(samples);
+  render::Settings with = settings_for(samples);
   with.integrator = integrator;
   with.kernel_dir = kernels.folder();
   return render_of(shipped("cornell-box", 8, 8), with);
@@ -40,7 +40,7 @@ TEST_CASE("clamping takes away what it says, and nothing without being asked") {
   const scene::Scene scene = shipped("caustic", 16, 12);
   for (const std::string integrator : {"path", "light", "bidir"}) {
     CAPTURE(integrator);
-    render::Settings with = settings(32);
+    render::Settings with = settings_for(32);
     with.integrator = integrator;
     const Render whole = render_of(scene, with);
     CHECK(whole.film.clamped_share() == 0.0);
@@ -54,7 +54,7 @@ TEST_CASE("clamping takes away what it says, and nothing without being asked") {
     for (std::size_t pixel = 0; pixel < clamped.film.pixels().size(); ++pixel)
       for (const double channel : clamped.film.mean(pixel)) CHECK(channel <= 1.0 + 1e-6);
   }
-  render::Settings with = settings(1);
+  render::Settings with = settings_for(1);
   with.integrator = "bidir";
   with.techniques = true;
   with.clamp = 1.0;
@@ -65,7 +65,7 @@ TEST_CASE("clamping is in radiance, whatever the unit of the light table") {
   scene::Scene scene = shipped("caustic", 8, 6);
   for (const std::string integrator : {"path", "light", "bidir"}) {
     CAPTURE(integrator);
-    render::Settings with = settings(16);
+    render::Settings with = settings_for(16);
     with.integrator = integrator;
     with.clamp = 1.0;
     const double share = render_of(scene, with).film.clamped_share();

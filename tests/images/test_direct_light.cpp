@@ -61,7 +61,7 @@ const scene::Material glossy = phong({0.5, 0.3, 0.1}, {0.3, 0.1, 0.6}, 20);
 TEST_CASE("a point light on a glossy plane") {
   scene::Scene scene = plane(glossy);
   scene.point_lights = {{{0.3, -0.2, 1.5}, {3, 2, 1}}};
-  const Estimate image = estimate_of(render_of(scene, settings(512, 2)).film);
+  const Estimate image = estimate_of(render_of(scene, settings_for(512, 2)).film);
   check_agreement(image, lit_from(scene, {0.3, -0.2, 1.5}, [](const Vec3&) { return Rgb(3, 2, 1); }));
 }
 
@@ -77,7 +77,7 @@ TEST_CASE("a spot light: full in its beam, fading to its cutoff, nothing outside
       if (angle <= beam) return Rgb(3, 2, 1);
       return angle >= cutoff ? Rgb(0.0) : Rgb(3, 2, 1) * ((cutoff - angle) / (cutoff - beam));
     };
-    const Estimate image = estimate_of(render_of(scene, settings(512, 2)).film);
+    const Estimate image = estimate_of(render_of(scene, settings_for(512, 2)).film);
     // Pixels on the sharp rim of a beam as wide as its cone: the midpoint rule is right to 1 / points there.
     const bool sharp = beam == cutoff;
     check_agreement(image, lit_from(scene, position, intensity, sharp ? 256 : 64), sharp ? 2e-3 : 2e-4);
@@ -89,7 +89,7 @@ TEST_CASE("a spot light: full in its beam, fading to its cutoff, nothing outside
 TEST_CASE("a directional light on a plane that it meets at an angle") {
   scene::Scene scene = plane(diffuse({0.8, 0.5, 0.2}));
   scene.directional_lights = {{glm::normalize(Vec3(1, 2, -2)), {3, 2, 1}}};
-  const Render lit = render_of(scene, settings(32, 2));
+  const Render lit = render_of(scene, settings_for(32, 2));
   const double cosine = 2.0 / 3.0;
   check_agreement(estimate_of(lit.film),
                   uniform(lit.film, {0.8 * 3 * cosine / pi, 0.5 * 2 * cosine / pi, 0.2 * cosine / pi}));
@@ -99,6 +99,6 @@ TEST_CASE("lights without extent behind the plane do not shine through it") {
   scene::Scene scene = plane(glossy);
   scene.point_lights = {{{0.3, -0.2, -1.5}, {3, 2, 1}}};
   scene.directional_lights = {{{0, 0, 1}, {3, 2, 1}}};
-  const Render dark = render_of(scene, settings(16));
+  const Render dark = render_of(scene, settings_for(16));
   for (const film::Pixel& pixel : dark.film.pixels()) CHECK(pixel.sum == Channels{});
 }

@@ -75,7 +75,7 @@ TEST_CASE("furnace box: 2 at every pixel") {
   const scene::Scene scene = shipped("furnace-box", 16, 16);
   // Light samples alone are left out: near an edge of the box their 1 / distance^2 has infinite variance.
   for (const Connect connect : {Connect::none, Connect::mis}) {
-    render::Settings with = settings(512);
+    render::Settings with = settings_for(512);
     with.connect = connect;
     CAPTURE(static_cast<int>(connect));
     const Render box = render_of(scene, with);
@@ -89,7 +89,7 @@ TEST_CASE("furnace box: every depth cuts the series 1 + 1/2 + 1/4 + ... where it
     const double sum = 2 - std::pow(0.5, depth - 1);
     // Roulette from the depth of 5 on, and from the first reflection.
     for (const int rr_depth : {5, 1}) {
-      render::Settings with = settings(256, depth);
+      render::Settings with = settings_for(256, depth);
       with.rr_depth = rr_depth;
       CAPTURE(depth, rr_depth);
       const Render box = render_of(scene, with);
@@ -101,7 +101,7 @@ TEST_CASE("furnace box: every depth cuts the series 1 + 1/2 + 1/4 + ... where it
 TEST_CASE("furnace sphere: the reflectivity in every pixel, the sky around it") {
   const scene::Material material = test::phong(kd, ks, 50);
   scene::Scene scene = sphere_furnace(40, 16, material);
-  const Render sphere = render_of(scene, settings(1024));
+  const Render sphere = render_of(scene, settings_for(1024));
   Estimate reference = sphere_reference(scene, material), image = estimate_of(sphere.film);
   int on_sphere = 0, beside = 0;
   for (int i = 0; i < 256; ++i) {
@@ -135,7 +135,7 @@ void check_sphere(double exponent, const std::string& strategy, Connect connect)
   CAPTURE(exponent, strategy, static_cast<int>(connect));
   const scene::Material material = test::phong(kd, ks, exponent);
   const scene::Scene scene = sphere_furnace(18, 6, material);
-  render::Settings with = settings(2048);
+  render::Settings with = settings_for(2048);
   with.strategy = strategy;
   with.connect = connect;
   const Agreement result =
@@ -169,7 +169,7 @@ TEST_CASE("a million samples a pixel: the mean does not stall") {
   SECTION("without noise") {
     // 0.505 added a million times in float32 would count as 0.5.
     const scene::Scene scene = sphere_furnace(18, 2, diffuse({0.505, 0.3, 0.7}));
-    render::Settings with = settings(1'000'000);
+    render::Settings with = settings_for(1'000'000);
     with.connect = Connect::none;
     const Render sphere = render_of(scene, with);
     CHECK(sphere.statistics.paths == 4'000'000);
@@ -183,7 +183,7 @@ TEST_CASE("a million samples a pixel: the mean does not stall") {
   SECTION("with noise, to its standard error of a thousandth") {
     const scene::Material material = test::phong(kd, ks, 50);
     const scene::Scene scene = sphere_furnace(18, 2, material);
-    const Render sphere = render_of(scene, settings(1'000'000));
+    const Render sphere = render_of(scene, settings_for(1'000'000));
     CHECK(sphere.film.relative_standard_error() < 1e-3);
     check_agreement(estimate_of(sphere.film), sphere_reference(scene, material));
   }

@@ -30,7 +30,7 @@ double error_of(const Repeated& image) {
 // With as many samples as bring three standard errors of the mean below 0.14%, so that those of a difference
 // of two are below 0.2%; no more than `most`.
 Repeated precise(const scene::Scene& scene, const Method& method, std::uint64_t seed, int most) {
-  render::Settings with = settings(32);
+  render::Settings with = settings_for(32);
   with.seed = seed;
   Repeated image = repeated(scene, method, with, renders);
   while (3 * error_of(image) > largest_difference / std::sqrt(2) * mean_of(image) &&

@@ -15,7 +15,7 @@ namespace {
 constexpr int side = 16;
 
 render::Settings with(int lanes, Traversal traversal, std::uint64_t seed, int samples) {
-  render::Settings result = settings(samples);
+  render::Settings result = settings_for(samples);
   result.lanes = lanes;
   result.traversal = traversal;
   result.seed = seed;

@@ -17,7 +17,7 @@ namespace {
 const Rgb kd(0.3, 0.1, 0.0), ks(0.6, 0.2, 0.9), sky(1.0, 0.5, 2.0);
 
 render::Settings with(const Method& method, int samples, int max_depth = -1) {
-  return by(method, settings(samples, max_depth));
+  return by(method, settings_for(samples, max_depth));
 }
 
 scene::Scene sphere_furnace(const scene::Material& material) {
@@ -120,5 +120,5 @@ TEST_CASE("a ground that is a sphere of radius 10,000 has no spots by light and 
   scene.spheres = {{{3, 7, -1e4}, 1e4, false, {}}};
   scene.point_lights = {{{3, 7, 1.5}, Rgb(10, 20, 30)}};
   scene.camera = look_at({3, 7, 2}, {3.1, 7.2, 0}, 60, 8, 8);
-  check_against_path(scene, {light, bidir}, settings(128));
+  check_against_path(scene, {light, bidir}, settings_for(128));
 }

@@ -20,7 +20,7 @@ constexpr double pi = std::numbers::pi;
 const std::vector<Method> splatting = {light, bidir, bidir_power, bidir_uniform};
 
 render::Settings with(const Method& method, int samples, int max_depth = -1) {
-  return by(method, settings(samples, max_depth));
+  return by(method, settings_for(samples, max_depth));
 }
 
 Estimate image_of(const scene::Scene& scene, const render::Settings& settings) {
@@ -80,15 +80,15 @@ TEST_CASE("a sky that the eye sees past the shapes") {
   scene::Scene scene = plane_under(diffuse({0.8, 0.5, 0.2}), 8, 8);
   scene.camera = look_at({0, 0, 2}, {6, 0, 1.5}, 90, 8, 8);
   scene.constant_radiance = Rgb(1, 2, 3);
-  check_against_path(scene, splatting, settings(256));
-  check_against_path(scene, splatting, settings(64, 1));
+  check_against_path(scene, splatting, settings_for(256));
+  check_against_path(scene, splatting, settings_for(64, 1));
 }
 
 TEST_CASE("a lamp in view, at the film's edge and partly beyond it") {
   scene::Scene scene = plane_under(phong({0.5, 0.3, 0.1}, {0.3, 0.1, 0.6}, 10), 12, 12);
   scene.area_emitters = {{Rgb(5, 4, 3)}};
   scene.spheres = {{{0.75, -0.2, 0.6}, 0.25, false, {1, 0}}};
-  check_against_path(scene, splatting, settings(128), 2);
+  check_against_path(scene, splatting, settings_for(128), 2);
 }
 
 // 1 / distance^2 has no bound where walls meet: balance and power keep its variance finite, uniform does not.
@@ -98,7 +98,7 @@ TEST_CASE("a corner in the middle of the film") {
   scene.camera = look_at({0.2, 1, 1}, {0, 3, 0}, 30, 8, 8);
   scene.area_emitters = {{Rgb(9, 8, 7)}};
   scene.patches.push_back(square({0, 1, 2.5}, {0, 1, 0}, {1, 0, 0}, 0.3, {1, 0}));
-  check_against_path(scene, {light, bidir, bidir_power}, settings(256), 2);
+  check_against_path(scene, {light, bidir, bidir_power}, settings_for(256), 2);
 }
 
 // Connecting a point of the back with one of the front goes along the surface, up to rounding, whose square
@@ -150,7 +150,7 @@ TEST_CASE("a ball of eight triangles with a ball's normals, and the floor in its
   scene.meshes = {ball};
   scene.spot_lights = {{{3, 0.4, 1.3}, glm::normalize(Vec3(-1, -0.1, 0)), Rgb(90, 80, 70), 0.2, 0.15}};
   scene.camera = look_at({2.5, 3, 3.5}, {0.4, 0, 0.7}, 40, 12, 12);
-  check_against_path(scene, {light, bidir}, settings(256), 2);
+  check_against_path(scene, {light, bidir}, settings_for(256), 2);
 }
 
 // Light comes in flat and leaves upright: densities of the two directions, which enter the weights, differ.
@@ -164,7 +164,7 @@ TEST_CASE("a low gap lit from its side: bidir agrees with path") {
       {scene::Patch::Region::parallelogram, {3.2, 0, 0.3}, {0, 0, 0.25}, {0, 3, 0}, {1, 0}}); // faces -x
   scene.point_lights = {{{0.5, 0, 0.2}, Rgb(0.5, 1, 1.5)}};
   scene.camera = look_at({-2.2, 0.1, 2.5}, {-1.7, 0, 0}, 40, 8, 8);
-  check_against_path(scene, {bidir, bidir_power}, settings(512), 2);
+  check_against_path(scene, {bidir, bidir_power}, settings_for(512), 2);
 }
 
 TEST_CASE("a spot light in closed form: its beam, its fall-off, and dark beyond") {

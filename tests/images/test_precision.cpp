@@ -29,7 +29,7 @@ render::Settings in_double(render::Settings with) {
 // of two surfaces a ray meets, or whether roulette ends a path.
 void check_same_samples(const scene::Scene& scene, const Method& method, int samples) {
   CAPTURE(name_of(method));
-  render::Settings with = settings(samples);
+  render::Settings with = settings_for(samples);
   with.integrator = method.integrator;
   with.lanes = 1;
   const Estimate a = estimate_of(render_of(scene, with).film);
@@ -79,7 +79,7 @@ TEST_CASE("doubles: 2 at every pixel of the furnace box") {
   const scene::Scene scene = shipped("furnace-box", 8, 8);
   for (const Method& method : {path, bidir}) {
     CAPTURE(name_of(method));
-    render::Settings with = in_double(settings(256));
+    render::Settings with = in_double(settings_for(256));
     with.integrator = method.integrator;
     const Render box = render_of(scene, with);
     CHECK(box.statistics.lanes == 1);
@@ -91,7 +91,7 @@ TEST_CASE("doubles: 2 at every pixel of the furnace box") {
 TEST_CASE("doubles: in a room of everything, light and path agree") {
   if (!device_has_doubles()) return;
   const scene::Scene scene = room({"rectangle", "mesh", "sphere", "spot", "constant"});
-  check_against_path(scene, {light}, in_double(settings(64)), 4);
+  check_against_path(scene, {light}, in_double(settings_for(64)), 4);
 }
 
 TEST_CASE("doubles: samples of a mesh with interpolated normals are those of floats") {

@@ -14,7 +14,7 @@ using scene::Vec3;
 namespace {
 
 render::Settings with(const Method& method, int samples, std::uint64_t seed) {
-  render::Settings result = by(method, settings(samples));
+  render::Settings result = by(method, settings_for(samples));
   result.seed = seed;
   return result;
 }

@@ -15,7 +15,7 @@ using scene::Vec3;
 namespace {
 
 Estimate image_of(const scene::Scene& scene, std::uint64_t seed) {
-  render::Settings with = settings(512);
+  render::Settings with = settings_for(512);
   with.seed = seed;
   return tiles(estimate_of(render_of(scene, with).film), 2);
 }
@@ -56,7 +56,7 @@ TEST_CASE("lights of any brightness give the same image, bit for bit, in their u
   for (const auto& [integrator, ambient] :
        {std::pair("path", std::optional<double>()), std::pair("path", std::optional(0.5)),
         std::pair("light", std::optional<double>()), std::pair("bidir", std::optional<double>())}) {
-    render::Settings with = settings(64);
+    render::Settings with = settings_for(64);
     with.integrator = integrator;
     with.ambient = ambient;
     const Render reference = render_of(scene, with);
@@ -91,7 +91,7 @@ TEST_CASE("a closed dark box next to a bright light stays dark") {
     scene.point_lights = {{{0, 1.8, 0}, Rgb(1e6)}};
     scene.directional_lights = {{{0.6, 0.8, 0}, Rgb(1e6)}};
     scene.camera = look_at({0.1, 0.05, 0.2}, {0.7, -0.5, -0.6}, 100, 16, 16);
-    const Render dark = render_of(placed(scene, scale, Vec3(0.0)), settings(256));
+    const Render dark = render_of(placed(scene, scale, Vec3(0.0)), settings_for(256));
     CHECK(dark.statistics.rays > 4 * dark.statistics.paths);
     int lit = 0;
     for (const film::Pixel& pixel : dark.film.pixels()) lit += pixel.sum != Channels{};
@@ -107,12 +107,12 @@ TEST_CASE("a ground that is a sphere of radius 10,000 has no spots") {
   scene.spheres = {{{3, 7, -1e4}, 1e4, false, {}}};
   scene.constant_radiance = Rgb(1, 2, 3);
   scene.camera = look_at({3, 7, 2}, {3.1, 7.2, 0}, 60, 16, 16);
-  const Render under_sky = render_of(scene, settings(64));
+  const Render under_sky = render_of(scene, settings_for(64));
   check_agreement(estimate_of(under_sky.film), uniform(under_sky.film, {0.8, 1.0, 0.6}));
 
   scene.constant_radiance.reset();
   scene.directional_lights = {{glm::normalize(Vec3(4, 0, -3)), Rgb(1, 2, 3)}};
-  const Render under_sun = render_of(scene, settings(64));
+  const Render under_sun = render_of(scene, settings_for(64));
   const double part = 0.6 / std::numbers::pi;
   check_agreement(estimate_of(under_sun.film), uniform(under_sun.film, {0.8 * part, 1.0 * part, 0.6 * part}),
                   1e-3); // the ground's normal turns by 1e-4 a metre

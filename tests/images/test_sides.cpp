@@ -44,11 +44,11 @@ constexpr scene::Surface light{1, 0};
 } // namespace
 
 TEST_CASE("a surface is black from behind, unless it is two-sided") {
-  const Render front = render_of(plane_seen_from(1, false), settings(64));
+  const Render front = render_of(plane_seen_from(1, false), settings_for(64));
   check_agreement(estimate_of(front.film), uniform(front.film, {0.8, 0.5, 0.2}));
-  CHECK(is_black(render_of(plane_seen_from(-1, false), settings(64))));
+  CHECK(is_black(render_of(plane_seen_from(-1, false), settings_for(64))));
   for (const double z : {1.0, -1.0}) {
-    const Render either = render_of(plane_seen_from(z, true), settings(64));
+    const Render either = render_of(plane_seen_from(z, true), settings_for(64));
     check_agreement(estimate_of(either.film), uniform(either.film, {0.8, 0.5, 0.2}));
   }
 }
@@ -56,7 +56,7 @@ TEST_CASE("a surface is black from behind, unless it is two-sided") {
 TEST_CASE("a light that faces away lights nothing") {
   for (const Connect connect : {Connect::none, Connect::mis}) {
     CAPTURE(static_cast<int>(connect));
-    render::Settings with = settings(128);
+    render::Settings with = settings_for(128);
     with.connect = connect;
     const auto lit_by = [&](const scene::Patch& patch) {
       scene::Scene scene = over_plane();
@@ -84,13 +84,13 @@ TEST_CASE("inside a sphere that is turned inwards, and emits, it is a furnace") 
   scene.camera = look_at({1.5, 2.5, 2}, {0, 2, 3}, 90, 8, 8);
   for (const Connect connect : {Connect::none, Connect::light, Connect::mis}) {
     CAPTURE(static_cast<int>(connect));
-    render::Settings with = settings(512);
+    render::Settings with = settings_for(512);
     with.connect = connect;
     const Render inside = render_of(scene, with);
     check_agreement(estimate_of(inside.film), uniform(inside.film, {1 / 0.8, 1 / 0.6, 1}));
   }
   SECTION("not turned, it is black from inside") {
     scene.spheres[0].front_is_inside = false;
-    CHECK(is_black(render_of(scene, settings(64))));
+    CHECK(is_black(render_of(scene, settings_for(64))));
   }
 }

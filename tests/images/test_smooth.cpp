@@ -48,7 +48,7 @@ TEST_CASE("a sphere of triangles with vertex normals has the sphere's radiance")
     scene::Scene round = under_sky(material), faceted = under_sky(material);
     round.spheres = {{{0, 0, 0}, 1, false, {}}};
     faceted.meshes = {sphere_mesh(96, 48)};
-    const Render truth = render_of(round, settings(4096)), image = render_of(faceted, settings(2048));
+    const Render truth = render_of(round, settings_for(4096)), image = render_of(faceted, settings_for(2048));
     CHECK(image.statistics.nonfinite == 0);
     CHECK(image.statistics.traversal == "bvh");
     // Facets of 1/15 lose what leaves above the interpolated normal's horizon and below their own: up to a
@@ -66,6 +66,6 @@ TEST_CASE("under the sun a coarse mesh is shaded as smoothly as the sphere") {
   round.spheres = {{{0, 0, 0}, 1, false, {}}};
   coarse.meshes = {sphere_mesh(24, 12)};
   // Edges of 0.26 lie up to 0.01 below the sphere; one facet's normals differ by 15 degrees.
-  check_agreement(estimate_of(render_of(coarse, settings(64)).film),
-                  estimate_of(render_of(round, settings(64)).film), 0.03);
+  check_agreement(estimate_of(render_of(coarse, settings_for(64)).film),
+                  estimate_of(render_of(round, settings_for(64)).film), 0.03);
 }

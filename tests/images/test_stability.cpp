@@ -31,7 +31,7 @@ scene::Scene stability(const std::string& name, Definitions definitions = {}) {
 }
 
 render::Settings with(const Method& method, int samples, std::uint64_t seed) {
-  render::Settings result = by(method, settings(samples));
+  render::Settings result = by(method, settings_for(samples));
   result.seed = seed;
   return result;
 }

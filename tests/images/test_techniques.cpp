@@ -18,7 +18,7 @@ constexpr int edges = 4, renders = 16;
 
 Render rendered(const std::string& integrator, std::uint64_t seed) {
   static const scene::Scene scene = room({"rectangle"});
-  render::Settings with = settings(64, edges);
+  render::Settings with = settings_for(64, edges);
   with.integrator = integrator;
   with.techniques = true;
   with.seed = seed;

@@ -41,6 +41,6 @@ TEST_CASE("the parts of each shipped scene are just what is in it") {
     REQUIRE(expected.contains(name));
     CHECK(parts_of(shipped(name, 4, 4)).names() == expected.at(name));
   }
-  const Render image = render_of(shipped("cornell-box", 4, 4), settings(1));
+  const Render image = render_of(shipped("cornell-box", 4, 4), settings_for(1));
   CHECK(image.statistics.parts == expected.at("cornell-box"));
 }

@@ -6,7 +6,6 @@
 #include <sys/resource.h>
 
 #include "errors.h"
-#include "render/quiet_log.h"
 
 namespace phlux::bench {
 namespace {
