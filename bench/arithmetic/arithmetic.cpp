@@ -9,7 +9,7 @@
 #include <spdlog/spdlog.h>
 
 #include "bench/common/moments.h"
-#include "bench/common/phong_program.h"
+#include "bench/common/material_program.h"
 #include "bench/common/report/draw.h"
 #include "bench/common/status_line.h"
 #include "bench/common/tables/csv.h"

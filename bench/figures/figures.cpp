@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "bench/common/phong_program.h"
+#include "bench/common/material_program.h"
 #include "bench/common/report/draw.h"
 #include "bench/common/tables/csv.h"
 #include "bench/common/tables/provenance.h"
@@ -61,7 +61,7 @@ public:
   }
 
 private:
-  PhongProgram program_;
+  MaterialProgram program_;
   cl_uint2 seed_;
 };
 

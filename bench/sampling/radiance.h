@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/common/phong_program.h"
+#include "bench/common/material_program.h"
 
 namespace phlux::bench {
 

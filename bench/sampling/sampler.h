@@ -1,13 +1,13 @@
-// Estimates the reflected radiance of a Phong material by one sampling strategy of kernels/phong.cl, without
-// a scene and without rays.
+// Estimates the reflected radiance of a material by one way to sample its model, without a scene and without
+// rays.
 #pragma once
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "bench/common/material_program.h"
 #include "bench/common/moments.h"
-#include "bench/common/phong_program.h"
 #include "bench/sampling/radiance.h"
 
 namespace phlux::bench {
@@ -23,7 +23,8 @@ namespace phlux::bench {
 /// has weight 1 / e, so the variance diverges like the integral of 1 / e if this density is not 0.
 [[nodiscard]] double printed_density_at_horizon(const Case& one);
 
-/// Whether the strategy uses Russian roulette (CW 197, 3.3.2): all but those that ignore the lobe.
+/// Whether the strategy uses Russian roulette (CW 197, 3.3.2): all but those that ignore the lobe. A model's
+/// own sampling does.
 [[nodiscard]] bool has_roulette(const std::string& strategy);
 
 /// What one row of the table estimates: an integral, with or without roulette.
@@ -31,19 +32,24 @@ struct Subject {
   Case one;
   Light light = Light::constant;
   bool roulette = false; ///< absorb paths; meant for strategies with has_roulette()
-  double reflected = 0;  ///< reflected_radiance(one, light)
+  double reflected = 0;  ///< the integral: reflected_radiance(one, light), or reflectivity_of()
   cl_uint2 seed = {{0, 0}};
 };
 
+/// The ways to sample a model other than the Phong model: its own, called by its name, cosine and uniform.
+[[nodiscard]] std::vector<std::string> strategies_of_model(const scene::Model& model);
+
 class Sampler {
 public:
-  /// Builds kernels/sampling.cl for one strategy (render::strategy_names()) and WIDTH. @throws DeviceError
+  /// Builds kernels/measure/sampling.cl for one strategy and WIDTH. Strategies of the Phong model:
+  /// render::strategy_names(); of any other: strategies_of_model(). @throws DeviceError
   Sampler(const device::Device& device, const sources::KernelFiles& files, const std::string& strategy,
-          int lanes);
+          int lanes, const lobes::ModelPointer& model = lobes::shipped("phong"));
 
   /// A hash of the kernels of these strategies.
   [[nodiscard]] static std::string kernels_fingerprint(const sources::KernelFiles& files,
-                                                       const std::vector<std::string>& strategies, int lanes);
+                                                       const std::vector<std::string>& strategies, int lanes,
+                                                       const lobes::ModelPointer& model);
 
   struct Run {
     PowerSums sums;
@@ -63,6 +69,12 @@ public:
   /// Estimates the reflectivity, with roulette if the strategy has it.
   [[nodiscard]] Run run(const Case& one, std::uint64_t samples, cl_uint2 seed, std::uint32_t first = 0);
 
+  /// The reflectivity of the case by quadrature of f_r as the device evaluates it, the mean over channels and
+  /// over the longitudes at which run() samples; relative error about 1e-6 for functions without
+  /// discontinuities.
+  /// @throws DeviceError
+  [[nodiscard]] double reflectivity_of(const Case& one);
+
   /// Samples that each lane draws in a call of run() for `samples` samples.
   [[nodiscard]] std::uint32_t samples_per_lane(std::uint64_t samples) const;
   [[nodiscard]] const std::string& strategy() const { return strategy_; }
@@ -74,11 +86,11 @@ private:
   [[nodiscard]] Blocks blocks(std::uint64_t samples) const;
   void prepare(const Case& one);
 
-  PhongProgram program_;
+  MaterialProgram program_;
   std::string strategy_;
   std::size_t items_, local_;
   cl::Kernel kernel_;
-  Case prepared_{-1, 0, 0, 0};
+  Case prepared_{-1, 0, 0, 0, nullptr};
   cl::Buffer directions_;
 };
 

@@ -28,7 +28,18 @@ constexpr std::uint64_t largest_launch = std::uint64_t{1} << 23; // samples; the
 // With more proposals per sample on average, `rejection` gets proportionally fewer samples by default.
 constexpr double proposals_for_full_count = 16;
 
-constexpr std::array<const char*, 2> tables = {"sampling.csv", "sampling-no-roulette.csv"};
+// Of the tables, of what resumes them, and of the section of the report.
+std::string name_of(const SamplingOptions& options) {
+  return options.material ? "sampling-" + options.material->model->name : "sampling";
+}
+
+std::array<std::string, 2> tables_of(const SamplingOptions& options) {
+  return {name_of(options) + ".csv", name_of(options) + "-no-roulette.csv"};
+}
+
+lobes::ModelPointer model_of(const SamplingOptions& options) {
+  return options.material ? options.material->model : lobes::shipped("phong");
+}
 
 bool is_left_out(const std::string& strategy, const Case& one) {
   return strategy == "rejection" && rejection_proposals(one) > most_proposals;
@@ -56,14 +67,19 @@ struct Integral {
 };
 
 std::vector<std::string> strategies_of(const SamplingOptions& options) {
+  if (options.material) return strategies_of_model(*options.material->model);
   return options.strategies.empty() ? render::strategy_names() : options.strategies;
 }
 
 std::vector<Case> cases_of(const SamplingOptions& options) {
-  return options.cases.empty() ? sampling_cases(options.quick) : options.cases;
+  if (!options.material) return options.cases.empty() ? sampling_cases(options.quick) : options.cases;
+  std::vector<Case> cases;
+  for (const double degrees : model_angles) cases.push_back({0, 0, 0, degrees, options.material});
+  return cases;
 }
 
 std::vector<Light> lights_of(const SamplingOptions& options) {
+  if (options.material) return {Light::constant};
   if (!options.lights.empty()) return options.lights;
   return {Light::constant, Light::mirror_disk, Light::horizon_sky};
 }
@@ -94,7 +110,8 @@ struct PendingRow {
 std::vector<PendingRow> pending_rows(std::vector<Sampler>& samplers, const Integral& integral,
                                      const SamplingOptions& options) {
   constexpr cl_uint most_rows = 64; // per integral; each row has its own seed
-  const double reflected = reflected_radiance(integral.one, integral.light);
+  const double reflected = options.material ? samplers.front().reflectivity_of(integral.one)
+                                            : reflected_radiance(integral.one, integral.light);
   std::vector<PendingRow> pending;
   for (const std::size_t table : {0u, 1u})
     for (Sampler& sampler : samplers) {
@@ -128,6 +145,20 @@ void measure(std::vector<PendingRow>& pending) {
     }
 }
 
+// "--set NAME=VALUE" for each parameter of a given material.
+std::string parameters_text(const SamplingOptions& options) {
+  std::string text;
+  if (!options.material) return text;
+  const auto& parameters = options.material->model->parameters;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const scene::Rgb& value = options.material->values[i];
+    text += fmt::format(" --set {}={:g}", parameters[i].name, value.r);
+    if (parameters[i].kind == scene::Parameter::Kind::colour)
+      text += fmt::format(",{:g},{:g}", value.g, value.b);
+  }
+  return text;
+}
+
 std::string integral_text(const Integral& integral) {
   return case_text(integral.one) + "," + light_names()[static_cast<std::size_t>(integral.light)];
 }
@@ -143,9 +174,9 @@ std::size_t rows_of(const Integral& integral, const std::vector<std::string>& st
 // Removes the leading integrals whose rows are all saved, and returns these rows for each table.
 std::array<std::vector<std::string>, 2> take_finished(std::vector<Integral>& integrals,
                                                       const std::vector<std::string>& strategies,
-                                                      const std::filesystem::path& folder) {
+                                                      const SamplingOptions& options) {
   const auto saved_rows = [&](std::size_t table) {
-    return rows_by_integral(SavedTable(folder, tables[table], sampling_columns()));
+    return rows_by_integral(SavedTable(options.folder, tables_of(options).at(table), sampling_columns()));
   };
   std::array<RowsByIntegral, 2> saved = {saved_rows(0), saved_rows(1)};
   std::array<std::vector<std::string>, 2> lines;
@@ -174,6 +205,7 @@ nlohmann::json settings_of(const SamplingOptions& options, const device::Device&
           {"width", lanes},
           {"kernels", kernels},
           {"strategies", strategies},
+          {"material", parameters_text(options)},
           {"samples", samples_of(options, "exact", {})},
           {"seed", options.seed},
           {"cases", cases}};
@@ -193,6 +225,7 @@ void print_left_out(const std::vector<std::string>& strategies, const std::vecto
 std::string command_of(const SamplingOptions& options) {
   std::string command = "phlux bench sampling";
   if (options.quick) command += " --quick";
+  if (options.material) command += " --lobe " + options.material->model->file + parameters_text(options);
   for (const std::string& strategy : options.strategies) command += " --strategy " + strategy;
   for (const Case& one : options.cases) command += " --case " + case_text(one);
   for (const Light light : options.lights)
@@ -211,11 +244,12 @@ std::string progress_text(std::size_t done, std::size_t all, std::size_t done_no
 }
 
 std::vector<Sampler> build_samplers(const device::Device& device, const sources::KernelFiles& files,
-                                    const std::vector<std::string>& strategies, int lanes) {
+                                    const SamplingOptions& options, int lanes) {
   std::vector<Sampler> samplers;
-  for (const std::string& strategy : strategies) {
-    samplers.emplace_back(device, files, strategy, lanes);
-    (void)samplers.back().run({.4, .4, 10, 60}, 1, {{0, 0}}); // the first launch may compile
+  for (const std::string& strategy : strategies_of(options)) {
+    samplers.emplace_back(device, files, strategy, lanes, model_of(options));
+    const Subject any{{.4, .4, 10, 60, options.material}};
+    (void)samplers.back().run(any, 1); // the first launch may compile
   }
   return samplers;
 }
@@ -246,21 +280,23 @@ bool write_sampling_tables(const SamplingOptions& options) {
   const device::Device device = device::open_devices(options.devices).front();
   const int lanes = options.lanes_on(device.info);
   const auto strategies = strategies_of(options);
+  const auto tables = tables_of(options);
   std::vector<Integral> integrals = integrals_of(cases_of(options), lights_of(options));
   const std::size_t all = integrals.size();
   const sources::KernelFiles files = kernel_files(options.kernel_dir);
-  const auto settings = settings_of(options, device, lanes, strategies, integrals,
-                                    Sampler::kernels_fingerprint(files, strategies, lanes));
+  const auto settings =
+      settings_of(options, device, lanes, strategies, integrals,
+                  Sampler::kernels_fingerprint(files, strategies, lanes, model_of(options)));
   std::array<std::vector<std::string>, 2> saved;
-  if (can_resume(options.folder, "sampling", {tables.begin(), tables.end()}, settings, options.fresh))
-    saved = take_finished(integrals, strategies, options.folder);
+  if (can_resume(options.folder, name_of(options), {tables.begin(), tables.end()}, settings, options.fresh))
+    saved = take_finished(integrals, strategies, options);
   const std::string header = fmt::format("{}", fmt::join(sampling_columns(), ","));
   std::array<CsvFile, 2> csv = {CsvFile(options.folder, tables[0], header, saved[0]),
                                 CsvFile(options.folder, tables[1], header, saved[1])};
   if (integrals.size() < all)
     fmt::print("resumes an earlier run: {} of {} measurements are there\n", all - integrals.size(), all);
   if (integrals.empty()) return true;
-  std::vector<Sampler> samplers = build_samplers(device, files, strategies, lanes);
+  std::vector<Sampler> samplers = build_samplers(device, files, options, lanes);
   StatusLine status;
   const Clock::time_point begin = Clock::now();
   for (std::size_t i = 0; i < integrals.size(); ++i) {
@@ -277,15 +313,16 @@ bool measure_sampling(const SamplingOptions& options) {
   if (!write_sampling_tables(options)) return false;
   const device::Device device = device::open_devices(options.devices).front();
   const int lanes = options.lanes_on(device.info);
+  const auto tables = tables_of(options);
   fmt::print("{}, WIDTH {}\n", device.info.name, lanes);
   print_sampling_summary(strategies_of(options), SavedTable(options.folder, tables[0], sampling_columns()));
   print_left_out(strategies_of(options), cases_of(options));
-  for (const char* table : tables) fmt::print("{}\n", (options.folder / table).string());
+  for (const std::string& table : tables) fmt::print("{}\n", (options.folder / table).string());
   std::fflush(stdout);
-  write_provenance(options.folder, "sampling",
+  write_provenance(options.folder, name_of(options),
                    {command_of(options), device.info, lanes,
                     "kernels are built and run once before anything is timed", std::to_string(options.seed)});
-  draw_charts(options.folder, "sampling");
+  draw_charts(options.folder, options.material ? "sampling_model" : "sampling");
   return true;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,7 +15,9 @@
 namespace phlux::bench {
 
 struct SamplingOptions : CommonOptions {
-  std::vector<std::string> strategies;  ///< empty: all
+  std::vector<std::string> strategies; ///< empty: all
+  std::shared_ptr<const scene::Material>
+      material;                         ///< of another model than the Phong model, to measure instead
   std::vector<Case> cases;              ///< empty: the grid
   std::vector<Light> lights;            ///< empty: all
   bool quick = false;                   ///< thirteen cases
@@ -32,9 +35,14 @@ inline constexpr double most_proposals = 1000;
 /// angle.
 [[nodiscard]] std::vector<Case> sampling_cases(bool quick);
 
+/// Angles of incidence, in degrees, at which a material of another model than the Phong model is measured.
+inline constexpr double model_angles[] = {0, 30, 60, 75, 85};
+
 /// Writes sampling.csv, with Russian roulette in those strategies that have it, and sampling-no-roulette.csv,
 /// these strategies without roulette. The strategies alternate, so that other load on the machine affects all
-/// alike. Resumes an interrupted run with the same settings. Returns false if interrupted.
+/// alike. Resumes an interrupted run with the same settings. Returns false if interrupted. For a given
+/// material the tables are sampling-MODEL.csv and sampling-MODEL-no-roulette.csv: the model's own sampling,
+/// cosine and uniform, under constant light, against the reflectivity by quadrature.
 /// @throws UsageError, DeviceError, WriteError
 [[nodiscard]] bool write_sampling_tables(const SamplingOptions& options);
 

@@ -27,7 +27,7 @@ constexpr double rounding = 1e-6;
 // 2 pi / (n + 1), times the density on its axis.
 double lobe_samples(const SamplingRow& row) {
   const auto count = static_cast<double>(row.run.sums.count);
-  if (has_roulette(row.strategy)) return count;
+  if (has_roulette(row.strategy) || row.subject.one.given) return count;
   const double angle = row.subject.one.degrees * std::numbers::pi / 180, n = row.subject.one.exponent;
   const double width = 1 / std::sqrt(n + 1), solid_angle = 2 * std::numbers::pi / (n + 1);
   double density = 1 / (2 * std::numbers::pi);
@@ -100,6 +100,7 @@ Marks marks_of(const SamplingRow& row) {
 }
 
 std::string case_text(const Case& one) {
+  if (one.given) return fmt::format(",,,{}", one.degrees);
   return fmt::format("{},{},{},{}", one.diffuse, one.specular, one.exponent, one.degrees);
 }
 

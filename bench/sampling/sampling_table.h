@@ -41,7 +41,7 @@ struct Marks {
 /// products; sample_variance is then the variance of these samples.
 [[nodiscard]] std::string sampling_line(const SamplingRow& row, const std::string& device, int lanes);
 
-/// The columns kd, ks, n, theta_deg as text.
+/// The columns kd, ks, n, theta_deg as text; the first three are empty for a material of another model.
 [[nodiscard]] std::string case_text(const Case& one);
 
 /// The rows of a saved table by the text of case and light: "kd,ks,n,theta_deg,integrand".

@@ -1,4 +1,4 @@
-// An OpenCL program for one Phong material without a scene (kernels/only_material.cl).
+// An OpenCL program for one material without a scene (kernels/measure/only_material.cl).
 #pragma once
 
 #include <filesystem>
@@ -8,34 +8,42 @@
 
 #include "device/program.h"
 #include "device/work_groups.h"
+#include "lobes/models.h"
 
 namespace phlux::bench {
 
-/// A grey Phong material and the angle of the fixed direction.
+/// A material, a grey Phong unless it is given, and the angle of the fixed direction.
 struct Case {
   double diffuse = 0, specular = 0, exponent = 0; ///< kd, ks, n
   double degrees = 0;                             ///< between the fixed direction and the normal; below 90
+  std::shared_ptr<const scene::Material> given;   ///< of another model; null: the Phong material
   bool operator==(const Case&) const = default;
 };
 
-/// The reflectivity rho = rho_d + rho_s for the fixed direction, in closed form and double precision.
+/// The reflectivity rho = rho_d + rho_s of the Phong material for the fixed direction, in closed form and
+/// double precision.
 [[nodiscard]] double exact_reflectivity(const Case& one);
+
+[[nodiscard]] scene::Material material_of(const Case& one);
 
 /// The kernels in `folder`; the embedded ones if it is empty.
 [[nodiscard]] sources::KernelFiles kernel_files(const std::filesystem::path& folder);
 
-class PhongProgram {
+class MaterialProgram {
 public:
   /// The source that the constructor builds for the same arguments.
   [[nodiscard]] static std::string text(const sources::KernelFiles& files, const std::string& root,
                                         const std::string& strategy, int lanes,
-                                        std::map<std::string, std::string> more_defines = {});
+                                        std::map<std::string, std::string> more_defines = {},
+                                        const lobes::ModelPointer& model = lobes::shipped("phong"));
 
-  /// Builds kernels/`root` for a strategy (render::strategy_names()) and WIDTH `lanes` (0: the device's
-  /// default).
+  /// Builds kernels/`root` for materials of a model, a strategy of the Phong model (render::strategy_names())
+  /// and WIDTH `lanes` (0: the device's default).
   /// @throws UsageError for an unknown strategy, DeviceError
-  PhongProgram(const device::Device& device, const sources::KernelFiles& files, const std::string& root,
-               const std::string& strategy, int lanes, std::map<std::string, std::string> more_defines = {});
+  MaterialProgram(const device::Device& device, const sources::KernelFiles& files, const std::string& root,
+                  const std::string& strategy, int lanes,
+                  std::map<std::string, std::string> more_defines = {},
+                  const lobes::ModelPointer& model = lobes::shipped("phong"));
 
   /// Sets the material of later launches. Uploads its tables if it has changed.
   void set_material(const Case& one);
@@ -78,8 +86,8 @@ private:
   std::string strategy_;
   int lanes_;
   cl::Program program_;
-  Case material_{-1, 0, 0, 0};
-  cl::Buffer records_, reflectivity_;
+  Case material_{-1, 0, 0, 0, nullptr};
+  cl::Buffer records_, tables_;
 };
 
 } // namespace phlux::bench
