@@ -8,7 +8,7 @@
 namespace phlux {
 
 /// what() is the one line that the user reads: "FILE:LINE: what is wrong: what would be right" where a file
-/// is to blame.
+/// is to blame. Settings stand in it as `NAME`; the command line makes options of them.
 class Error : public std::runtime_error {
 public:
   Error(int exit_code, const std::string& line) : std::runtime_error(line), exit_code_(exit_code) {}
@@ -21,8 +21,11 @@ private:
 struct UsageError : Error {
   explicit UsageError(const std::string& line) : Error(2, line) {}
 };
-struct SceneError : Error { ///< a bad scene or a bad input file
+struct SceneError : Error { ///< a bad scene
   explicit SceneError(const std::string& line) : Error(3, line) {}
+};
+struct FileError : Error { ///< a bad input file that is no scene: an image, a checkpoint
+  explicit FileError(const std::string& line) : Error(3, line) {}
 };
 struct DeviceError : Error { ///< no device, or it failed
   explicit DeviceError(const std::string& line) : Error(4, line) {}

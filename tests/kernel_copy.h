@@ -11,8 +11,8 @@ class KernelCopy {
 public:
   /// Replaces the one place of `file` where `from` stands.
   KernelCopy(const std::string& file, const std::string& from, const std::string& to) {
-    for (const auto& entry : std::filesystem::directory_iterator(PHLUX_SOURCE_DIR "/kernels"))
-      std::filesystem::copy(entry.path(), folder_ / entry.path().filename().string());
+    std::filesystem::copy(PHLUX_SOURCE_DIR "/kernels", folder_.path(),
+                          std::filesystem::copy_options::recursive);
     std::string text = TemporaryFolder::read(folder_ / file);
     const auto at = text.find(from);
     if (at == std::string::npos) throw std::runtime_error(file + " does not hold: " + from);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "scene/scene.h"
-#include "scene_data.h"
+#include "scene/scene_data.h"
 
 namespace phlux::accel {
 

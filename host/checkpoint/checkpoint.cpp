@@ -17,29 +17,30 @@
 
 #include "errors.h"
 
-// Structured bindings, so that a member that is added and forgotten here does not compile.
-namespace phlux::render {
+namespace phlux::settings {
 
 template<class Archive>
 void serialize(Archive& archive, Choices& choices) {
-  auto& [definitions, size, integrator, strategy, connect, light_selection, connections, weights, max_depth,
-         rr_depth, ambient, clamp, seed, first_sample, double_precision, lanes, traversal, samples_per_pixel,
-         time_limit, target_error] = choices;
-  archive(definitions, size, integrator, strategy, connect, light_selection, connections, weights, max_depth,
-          rr_depth, ambient, clamp, seed, first_sample, double_precision, lanes, traversal, samples_per_pixel,
-          time_limit, target_error);
+  auto& [definitions, size, texts] = choices;
+  archive(definitions, size, texts);
 }
 
-// But for where it runs.
+// Texts, so that the format stays when there is a setting more.
 template<class Archive>
-void serialize(Archive& archive, Settings& settings) {
-  auto& [integrator, strategy, connect, weights, light_selection, connections, techniques, ambient, clamp,
-         samples_per_pixel, time_limit, target_error, max_depth, rr_depth, seed, first_sample, devices, lanes,
-         double_precision, traversal, kernel_dir, launch_seconds] = settings;
-  archive(integrator, strategy, connect, weights, light_selection, connections, techniques, ambient, clamp,
-          samples_per_pixel, time_limit, target_error, max_depth, rr_depth, seed, first_sample,
-          double_precision);
+void save(Archive& archive, const Settings& settings) {
+  archive(texts_of(settings, [](Affects affects) { return affects != Affects::execution; }));
 }
+template<class Archive>
+void load(Archive& archive, Settings& settings) {
+  std::map<std::string, std::string> texts;
+  archive(texts);
+  for (const auto& [name, text] : texts) named(name).read(text, settings);
+}
+
+} // namespace phlux::settings
+
+// Structured bindings, so that a member that is added and forgotten here does not compile.
+namespace phlux::render {
 
 template<class Archive>
 void serialize(Archive& archive, Launch& launch) {
@@ -83,7 +84,7 @@ void serialize(Archive& archive, Session& session) {
 namespace {
 
 // To be raised with every change of what is written: tests/checkpoint has the length of a small file.
-constexpr int format_version = 1;
+constexpr int format_version = 2;
 constexpr std::string_view magic = "phlux checkpoint ";
 
 std::string digest_of(std::string_view bytes) {
@@ -97,29 +98,25 @@ std::string first_line(std::string_view rest) {
 }
 
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& what) {
-  throw SceneError(fmt::format("{}: {}", file.string(), what));
+  throw FileError(fmt::format("{}: {}", file.string(), what));
 }
 
-constexpr const char* remedy = "name an earlier checkpoint, or leave out --resume to begin anew";
+constexpr const char* remedy = "go on from an earlier checkpoint";
 
 std::string text_of(const std::filesystem::path& file) {
   std::error_code error;
   if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error))
-    fail(file, "is no file: --resume takes one that --checkpoint has written");
+    fail(file, "is no file: a checkpoint is needed");
   std::ifstream stream(file, std::ios::binary);
-  if (!stream)
-    fail(file, fmt::format("cannot be read: {}: --resume takes a file that --checkpoint has written",
-                           std::strerror(errno)));
+  if (!stream) fail(file, fmt::format("cannot be read: {}: a checkpoint is needed", std::strerror(errno)));
   std::string line(first_line("").size(), '\0');
   stream.read(line.data(), static_cast<std::streamsize>(line.size()));
   line.resize(static_cast<std::size_t>(stream.gcount()));
-  if (!line.starts_with(magic))
-    fail(file, "is no checkpoint of phlux: --resume takes a file that --checkpoint has written");
+  if (!line.starts_with(magic)) fail(file, "is no checkpoint of phlux: a checkpoint is needed");
   const std::string version = line.substr(magic.size(), line.find(' ', magic.size()) - magic.size());
   if (version != std::to_string(format_version))
     fail(file, fmt::format("is a checkpoint of format {}, and this is phlux " PHLUX_VERSION
-                           ", which reads format {}: go on with the phlux that wrote it, or leave out "
-                           "--resume to begin anew",
+                           ", which reads format {}: go on with the phlux that wrote it",
                            version, format_version));
   std::string rest(std::istreambuf_iterator<char>(stream), {});
   if (line == first_line(rest)) return rest;
@@ -149,6 +146,9 @@ Checkpoint read(const std::filesystem::path& file) {
   try {
     cereal::PortableBinaryInputArchive archive(stream);
     archive(result.session, result.film);
+  } catch (const UsageError& error) {
+    fail(file, fmt::format("is not of this version of phlux: {}: go on with the phlux that wrote it",
+                           error.what()));
   } catch (const cereal::Exception&) { // the digest is right, and the file was made by nobody's phlux
     fail(file, fmt::format("is damaged: {}", remedy));
   }

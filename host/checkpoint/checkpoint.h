@@ -5,7 +5,8 @@
 #include <string>
 
 #include "film/film.h"
-#include "render/choices.h"
+#include "render/render.h"
+#include "settings/choices.h"
 
 namespace phlux::checkpoint {
 
@@ -13,8 +14,8 @@ namespace phlux::checkpoint {
 struct Session {
   std::string scene;         ///< the file, as the user named it
   std::string scene_digest;  ///< scene::digest
-  render::Choices choices;   ///< of the user
-  render::Settings settings; ///< what they and the scene led to
+  settings::Choices choices; ///< of the user
+  render::Settings settings; ///< what they and the scene led to; in a file without where it runs
   render::Standing standing;
 };
 
@@ -27,7 +28,7 @@ struct Checkpoint {
 /// its length, and the rest as cereal's portable binary archive.
 [[nodiscard]] std::string encode(const Session& session, const film::Film& film);
 
-/// @throws SceneError when the file is missing, is no checkpoint, is of another version of the format, is cut
+/// @throws FileError when the file is missing, is no checkpoint, is of another version of the format, is cut
 /// short or is damaged
 [[nodiscard]] Checkpoint read(const std::filesystem::path& file);
 

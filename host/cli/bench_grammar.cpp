@@ -5,19 +5,19 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "bench/arithmetic.h"
-#include "bench/figures.h"
-#include "bench/precision.h"
-#include "bench/rays.h"
-#include "bench/remedies.h"
-#include "bench/sampling.h"
-#include "bench/scenes.h"
-#include "bench/stability.h"
-#include "bench/stability_scene.h"
+#include "bench/arithmetic/arithmetic.h"
+#include "bench/figures/figures.h"
+#include "bench/precision/precision.h"
+#include "bench/rays/rays.h"
+#include "bench/remedies/remedies.h"
+#include "bench/sampling/sampling.h"
+#include "bench/scenes/scenes.h"
+#include "bench/stability/stability.h"
+#include "bench/stability/stability_scene.h"
 #include "cli/grammar.h"
 #include "cli/interrupt.h"
-#include "cli/values.h"
 #include "errors.h"
+#include "settings/values.h"
 
 namespace phlux::cli {
 namespace {
@@ -40,7 +40,7 @@ template<class Seed>
 void add_seed(CLI::App& app, const std::string& of, Seed& seed) {
   add_value(app, "--seed", "N", "of " + of + "; default: 1", [&seed](const std::string& text) {
     constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
-    seed = static_cast<Seed>(whole_number("--seed", text, 0, most));
+    seed = static_cast<Seed>(settings::whole_number("--seed", text, 0, most));
   });
 }
 
@@ -57,18 +57,19 @@ void add_strategies(CLI::App& app, std::vector<std::string>& strategies) {
                const auto& names = render::strategy_names();
                if (!*named) strategies.clear();
                *named = true;
-               strategies.push_back(names[choice("--strategy", text, names)]);
+               strategies.push_back(names[settings::choice("--strategy", text, names)]);
              });
 }
 
 // How long methods are compared, and on how large images.
 void add_amount(CLI::App& app, bench::ComparisonOptions& options, const std::string& seconds,
                 const std::string& side) {
-  add_value(app, "--seconds", "S", seconds,
-            [&options](const std::string& text) { options.seconds = positive_number("--seconds", text); });
+  add_value(app, "--seconds", "S", seconds, [&options](const std::string& text) {
+    options.seconds = settings::positive_number("--seconds", text);
+  });
   add_value(app, "--side", "N", side, [&options](const std::string& text) {
     constexpr std::uint64_t most = 4096;
-    options.side = static_cast<int>(whole_number("--side", text, 1, most));
+    options.side = static_cast<int>(settings::whole_number("--side", text, 1, most));
   });
   add_seed(app, "the first round", options.seed);
   app.footer("What the folder holds of the same settings is not measured again: an interrupted run goes on.");
@@ -115,7 +116,7 @@ void add_rays(CLI::App& bench, std::optional<Command>& command) {
               constexpr std::uint64_t least = 36, most = 50'000'000;
               options->triangles.clear();
               for (const std::string& part : split(text))
-                options->triangles.push_back(whole_number("--triangles", part, least, most));
+                options->triangles.push_back(settings::whole_number("--triangles", part, least, most));
             });
   add_traversal(app, options->traversal);
   measure_by(bench::measure_rays, app, command, options);
@@ -124,7 +125,9 @@ void add_rays(CLI::App& bench, std::optional<Command>& command) {
 bench::Case case_of(const std::string& text) {
   const std::vector<std::string> parts = split(text);
   if (parts.size() != 4) throw UsageError(fmt::format("--case {}: must be KD,KS,N,DEGREES", text));
-  const auto number = [&](std::size_t i, double most) { return number_within("--case", parts[i], 0, most); };
+  const auto number = [&](std::size_t i, double most) {
+    return settings::number_within("--case", parts[i], 0, most);
+  };
   constexpr double largest_exponent = 1e6, largest_angle = 89.999;
   const bench::Case one{number(0, 1), number(1, 1), number(2, largest_exponent), number(3, largest_angle)};
   if (one.diffuse + one.specular > 1 || one.specular == 0)
@@ -144,11 +147,11 @@ void add_sampling(CLI::App& bench, std::optional<Command>& command) {
   add_value(app, "--samples", "N", "samples for each row; default: half a million, or a quarter with --quick",
             [options](const std::string& text) {
               constexpr std::uint64_t most = 1'000'000'000'000;
-              options->samples = whole_number("--samples", text, 1, most);
+              options->samples = settings::whole_number("--samples", text, 1, most);
             });
   add_values(app, "--strategy", "NAME", "only this one; may be repeated", [options](const std::string& text) {
     options->strategies.push_back(
-        render::strategy_names()[choice("--strategy", text, render::strategy_names())]);
+        render::strategy_names()[settings::choice("--strategy", text, render::strategy_names())]);
   });
   add_values(app, "--case", "KD,KS,N,DEGREES",
              "only this material and angle of incidence; may be repeated; default: a grid",
@@ -159,7 +162,7 @@ void add_sampling(CLI::App& bench, std::optional<Command>& command) {
              "that is bright at the horizon); may be repeated",
              [options](const std::string& text) {
                options->lights.push_back(
-                   static_cast<bench::Light>(choice("--integrand", text, bench::light_names())));
+                   static_cast<bench::Light>(settings::choice("--integrand", text, bench::light_names())));
              });
   add_seed(app, "the random numbers", options->seed);
   measure_by(bench::measure_sampling, app, command, options);
@@ -195,7 +198,7 @@ void add_remedies(CLI::App& bench, std::optional<Command>& command) {
                          fmt::join(bench::remedy_names(), ", ")),
              [options](const std::string& text) {
                const auto& names = bench::remedy_names();
-               options->remedies.push_back(names[choice("--remedy", text, names)]);
+               options->remedies.push_back(names[settings::choice("--remedy", text, names)]);
              });
   app.add_flag("--quick", options->quick, "fewer and easier places; shorter renders");
   measure_by(bench::measure_remedies, app, command, options);
@@ -229,8 +232,8 @@ bench::StabilityCell cell_of(const std::string& text) {
   const std::vector<std::string> parts = split(text);
   if (parts.size() != 2) throw UsageError(fmt::format("--cell {}: must be N,RADIUS", text));
   constexpr double largest_exponent = 1e6, least_radius = 1e-4;
-  return {number_within("--cell", parts[0], 0, largest_exponent),
-          number_within("--cell", parts[1], least_radius, bench::largest_light_radius)};
+  return {settings::number_within("--cell", parts[0], 0, largest_exponent),
+          settings::number_within("--cell", parts[1], least_radius, bench::largest_light_radius)};
 }
 
 void add_stability(CLI::App& bench, std::optional<Command>& command) {
@@ -247,7 +250,7 @@ void add_stability(CLI::App& bench, std::optional<Command>& command) {
              "only this one, such as 'path mis' or light; may be repeated; default: all",
              [options](const std::string& text) {
                const auto names = bench::stability_method_names();
-               options->variants.push_back(names[choice("--method", text, names)]);
+               options->variants.push_back(names[settings::choice("--method", text, names)]);
              });
   add_strategies(app, options->strategies);
   add_amount(app, *options,

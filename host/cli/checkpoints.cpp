@@ -2,15 +2,37 @@
 
 #include <spdlog/spdlog.h>
 
+#include "checkpoint/sameness.h"
 #include "files/output.h"
 
 namespace phlux::cli {
+namespace {
+
+// What a user can always do about a checkpoint that does not fit.
+template<class Function>
+auto or_anew(const Function& function) {
+  constexpr const char* anew = ", or leave out --resume to begin anew";
+  try {
+    return function();
+  } catch (const FileError& error) {
+    throw FileError(error.what() + std::string(anew));
+  } catch (const UsageError& error) {
+    throw UsageError(error.what() + std::string(anew));
+  }
+}
+
+} // namespace
 
 std::optional<checkpoint::Checkpoint> resumed(RenderOptions& options) {
   if (options.resume.empty()) return std::nullopt;
-  checkpoint::Checkpoint earlier = checkpoint::read(options.resume);
+  checkpoint::Checkpoint earlier = or_anew([&] { return checkpoint::read(options.resume); });
   options.complete(earlier.session.choices);
   return earlier;
+}
+
+void check_same(const checkpoint::Checkpoint& earlier, const checkpoint::Session& now,
+                const scene::Camera& camera, const std::filesystem::path& file) {
+  or_anew([&] { checkpoint::check_same(earlier, now, camera.width, camera.height, file); });
 }
 
 Checkpoints::Checkpoints(std::filesystem::path file, const RenderOptions& options,

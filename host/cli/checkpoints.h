@@ -15,8 +15,12 @@ namespace phlux::cli {
 inline constexpr double default_checkpoint_seconds = 60.0;
 
 /// The checkpoint that the render goes on from, and what the user chose then and does not choose now.
-/// @throws SceneError as checkpoint::read
+/// @throws FileError as checkpoint::read
 [[nodiscard]] std::optional<checkpoint::Checkpoint> resumed(RenderOptions& options);
+
+/// @throws FileError or UsageError as checkpoint::check_same
+void check_same(const checkpoint::Checkpoint& earlier, const checkpoint::Session& now,
+                const scene::Camera& camera, const std::filesystem::path& file);
 
 /// Writes to one file, again and again. Without a name it does nothing.
 class Checkpoints {

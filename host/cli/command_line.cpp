@@ -1,6 +1,6 @@
 #include "cli/command_line.h"
 
-#include <limits>
+#include <functional>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -10,108 +10,37 @@
 #include "cli/checkpoints.h"
 #include "cli/commands.h"
 #include "cli/grammar.h"
-#include "cli/values.h"
 #include "cli/version.h"
 #include "errors.h"
+#include "settings/values.h"
 
 namespace phlux::cli {
 namespace {
 
+using settings::Affects;
+
+void add_settings(CLI::App& app, RenderOptions& options, const std::function<bool(Affects)>& wanted) {
+  for (const settings::Setting& setting : settings::all())
+    if (wanted(setting.affects) && !setting.help.empty()) add_setting(app, setting, options);
+}
+
 void add_method(CLI::App& app, RenderOptions& options) {
   app.option_defaults()->group("How light is found");
-  add_value(app, "-i,--integrator", "NAME", "path, light or bidir; default: the scene's",
-            [&](const std::string& text) {
-              const std::vector<std::string> names = {"path", "light", "bidir"};
-              options.integrator = names[choice("--integrator", text, names)];
-            });
-  add_value(app, "--strategy", "NAME",
-            fmt::format("how directions are sampled: {}; default: {}",
-                        fmt::join(render::strategy_names(), ", "), render::Settings().strategy),
-            [&](const std::string& text) {
-              options.strategy =
-                  render::strategy_names()[choice("--strategy", text, render::strategy_names())];
-            });
-  add_value(app, "--connect", "NAME",
-            "path only, what reaches the lights: none (hits), light (light samples) or mis "
-            "(both, weighted); default: mis",
-            [&](const std::string& text) {
-              options.connect =
-                  static_cast<render::Connect>(choice("--connect", text, render::connect_names()));
-            });
-  add_value(app, "--weights", "NAME",
-            "bidir only, how the ways to make a path share its light: balance, power or uniform; default: "
-            "balance",
-            [&](const std::string& text) {
-              options.weights =
-                  static_cast<render::Weights>(choice("--weights", text, render::weights_names()));
-            });
-  add_value(app, "--light-selection", "NAME",
-            "path and bidir, which of many lights a light sample goes to: by power, or by the contribution "
-            "that it is likely to bring to the point, of 8 lights and more; default: contribution",
-            [&](const std::string& text) {
-              options.light_selection = static_cast<render::LightSelection>(
-                  choice("--light-selection", text, render::light_selection_names()));
-            });
-  add_value(
-      app, "--connections", "N",
-      fmt::format(
-          "bidir only: of the connections that can make a path, one for each edge but two, N are made on "
-          "average, and bring as much as all; 0: all are made; default: {}",
-          render::Settings().connections),
-      [&](const std::string& text) {
-        constexpr std::uint64_t most = 1'000'000;
-        options.connections = static_cast<int>(whole_number("--connections", text, 0, most));
-      });
-  add_value(
-      app, "--ambient", "L",
-      "path only: a radiance that is about what arrives everywhere, as a control variate: the nearer the "
-      "guess, the less noise; the mean stays right whatever it is",
-      [&](const std::string& text) { options.ambient = positive_number("--ambient", text); });
-  add_value(
-      app, "--clamp", "X",
-      "no path brings a pixel more radiance than X: less noise, and a bias, which the log and the files "
-      "name",
-      [&](const std::string& text) { options.clamp = positive_number("--clamp", text); });
-  add_value(app, "--max-depth", "N",
-            "edges of the longest path: 1 is emission alone, -1 unbounded; default: the scene's",
-            [&](const std::string& text) { options.max_depth = depth("--max-depth", text); });
-  add_value(app, "--rr-depth", "N",
-            "edges from which roulette may end a path, -1: never; default: the scene's",
-            [&](const std::string& text) { options.rr_depth = depth("--rr-depth", text); });
+  add_settings(app, options, [](Affects affects) {
+    return affects == Affects::expectation || affects == Affects::estimate;
+  });
 }
 
 void add_amount(CLI::App& app, RenderOptions& options) {
-  constexpr std::uint64_t most_samples = std::numeric_limits<int>::max();
   app.option_defaults()->group("How much");
-  add_value(app, "-n,--spp", "N",
-            "samples a pixel (light: light paths per pixel of the image); default: the scene's",
-            [&](const std::string& text) {
-              options.samples_per_pixel = static_cast<int>(whole_number("--spp", text, 1, most_samples));
-            });
-  add_value(app, "--time", "SECONDS", "render for so long instead",
-            [&](const std::string& text) { options.time_limit = positive_number("--time", text); });
-  add_value(app, "--error", "E",
-            "render until the mean relative standard error of what is not black is E instead, such as 0.01; "
-            "with --time: until the first of both",
-            [&](const std::string& text) { options.target_error = positive_number("--error", text); });
+  add_settings(app, options, [](Affects affects) { return affects == Affects::amount; });
   add_value(app, "--size", "WxH",
             "pixels of the image; default: the scene's. The field of view along fovAxis stays",
-            [&](const std::string& text) { options.size = size("--size", text); });
-  add_value(app, "--seed", "N", "the same seed gives the same image on the same device; default: 0",
-            [&](const std::string& text) {
-              options.seed = whole_number("--seed", text, 0, std::numeric_limits<std::uint64_t>::max());
-            });
-  add_value(app, "--first-sample", "N",
-            "number of every pixel's first sample: renders of samples 0 to 99 and 100 to 199 of a seed are "
-            "independent, for `phlux merge`; default: 0",
-            [&](const std::string& text) {
-              constexpr std::uint64_t most_first = std::numeric_limits<std::int32_t>::max() / 2;
-              options.first_sample =
-                  static_cast<std::int64_t>(whole_number("--first-sample", text, 0, most_first));
-            });
+            [&](const std::string& text) { options.size = settings::size("--size", text); });
+  add_settings(app, options, [](Affects affects) { return affects == Affects::samples; });
   add_values(app, "-D", "NAME=VALUE", "replaces $NAME in the scene; may be repeated",
              [&](const std::string& text) {
-               auto [name, value] = definition("-D", text);
+               auto [name, value] = settings::definition("-D", text);
                options.definitions.insert_or_assign(std::move(name), std::move(value));
              });
 }
@@ -123,14 +52,7 @@ void add_device(CLI::App& app, RenderOptions& options) {
       "P:D as `phlux devices` lists them, cpu, gpu, all, or a part of a platform's or else a device's "
       "name; may be repeated. Of two drivers for the same CPU, cpu and a part of a name take the first",
       [&](const std::string& text) { options.devices.push_back(text); });
-  add_width(app, "paths that one work item traces at a time", options.lanes);
-  add_value(app, "--precision", "NAME",
-            "what kernels compute in: single, or double, one path at a time and only where the device has "
-            "doubles; default: single",
-            [&](const std::string& text) {
-              options.double_precision = choice("--precision", text, {"single", "double"}) == 1;
-            });
-  add_traversal(app, options.traversal);
+  add_settings(app, options, [](Affects affects) { return affects == Affects::execution; });
   add_kernel_dir(app, options.kernel_dir);
 }
 
@@ -161,7 +83,7 @@ void add_files(CLI::App& app, RenderOptions& options) {
   add_value(app, "--checkpoint-every", "SECONDS",
             fmt::format("how often; default: {:g}", default_checkpoint_seconds),
             [&](const std::string& text) {
-              options.checkpoint_seconds = number_within("--checkpoint-every", text, 0.01, 1e9);
+              options.checkpoint_seconds = settings::number_within("--checkpoint-every", text, 0.01, 1e9);
             });
   add_file(
       "--resume", "FILE",
@@ -189,7 +111,7 @@ void add_render(CLI::App& program, std::optional<Command>& command) {
   add_device(app, *options);
   app.footer(" "); // not the program's
   app.final_callback([&command, options] {
-    if (options->samples_per_pixel && (options->time_limit || options->target_error))
+    if (options->has("spp") && (options->has("time") || options->has("error")))
       throw UsageError("--spp: cannot go with --time or --error, which decide how many samples are taken");
     if (options->checkpoint_seconds && options->checkpoint.empty() && options->resume.empty())
       throw UsageError("--checkpoint-every: no checkpoint is written: give --checkpoint FILE too");
@@ -258,7 +180,7 @@ std::string full_name(const CLI::App& app) {
   const std::vector<std::string> unknown = program.remaining(true);
   for (const std::string& text : unknown) {
     if (!text.starts_with('-')) continue;
-    const std::string meant = nearest(text.substr(0, text.find('=')), option_names(app));
+    const std::string meant = settings::nearest(text.substr(0, text.find('=')), option_names(app));
     throw UsageError(
         fmt::format("unknown option {}: {}", text,
                     meant.empty() ? help + " lists the options" : fmt::format("did you mean {}?", meant)));
@@ -266,7 +188,7 @@ std::string full_name(const CLI::App& app) {
   if (const auto commands = app.get_subcommands({}); !commands.empty()) {
     std::vector<std::string> names;
     for (const CLI::App* command : commands) names.push_back(command->get_name());
-    const std::string meant = unknown.empty() ? "" : nearest(unknown.front(), names);
+    const std::string meant = unknown.empty() ? "" : settings::nearest(unknown.front(), names);
     const std::string missing = app.get_parent() == nullptr ? "no command" : app.get_name() + ": no command";
     throw UsageError(fmt::format("{}: {}", unknown.empty() ? missing : "unknown command " + unknown.front(),
                                  meant.empty() ? fmt::format("must be one of {}", fmt::join(names, ", "))

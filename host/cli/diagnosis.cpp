@@ -5,7 +5,8 @@
 #include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
-#include "render/advice.h"
+#include "advice/advice.h"
+#include "cli/spelling.h"
 
 namespace phlux::cli {
 namespace {
@@ -33,8 +34,8 @@ Diagnosis diagnose(const film::Film& film, const render::Statistics& statistics,
                    const render::Settings& settings, scene::Scene&& scene, bool insist) {
   Diagnosis diagnosis{.reliability = film::reliability_of(film), .advice = {}};
   if (!doubtful(diagnosis.reliability, statistics) || statistics.interrupted) return diagnosis;
-  if (const double seconds = trial_seconds(statistics, render::trials_of(scene), insist); seconds > 0.0)
-    diagnosis.advice = render::advise(std::move(scene), settings, seconds).words;
+  if (const double seconds = trial_seconds(statistics, advice::trials_of(scene), insist); seconds > 0.0)
+    diagnosis.advice = with_options(advice::advise(std::move(scene), settings, seconds).words);
   return diagnosis;
 }
 

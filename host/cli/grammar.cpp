@@ -4,10 +4,15 @@
 
 #include <fmt/format.h>
 
-#include "cli/values.h"
+#include "cli/spelling.h"
 #include "errors.h"
 
 namespace phlux::cli {
+namespace {
+
+constexpr std::pair<const char*, char> letters[] = {{"integrator", 'i'}, {"spp", 'n'}};
+
+} // namespace
 
 std::string wrapped(const std::string& text) {
   std::string lines;
@@ -21,19 +26,32 @@ std::string wrapped(const std::string& text) {
   return lines;
 }
 
+void add_setting(CLI::App& app, const settings::Setting& setting, settings::Choices& choices) {
+  std::string names = "--" + setting.name, help = with_options(setting.help);
+  for (const auto& [name, letter] : letters)
+    if (setting.name == name) names.insert(0, fmt::format("-{},", letter));
+  const std::string usual = setting.from_scene ? "the scene's" : setting.text({});
+  if (!usual.empty()) help += "; default: " + usual;
+  add_value(app, names, setting.placeholder, help,
+            [&](const std::string& text) { choices.choose(setting, text); });
+}
+
 void add_width(CLI::App& app, const std::string& what, int& lanes) {
   add_value(app, "--width", "N", what + ": 1, 4, 8 or 16; default: what suits the device",
             [&lanes](const std::string& text) {
-              const std::vector<std::string> widths = {"1", "4", "8", "16"};
-              lanes = std::stoi(widths[choice("--width", text, widths)]);
+              settings::Settings read;
+              settings::named("width").read(text, read);
+              lanes = read.lanes;
             });
 }
 
 void add_traversal(CLI::App& app, render::Traversal& traversal) {
-  add_value(app, "--traversal", "NAME", "brute (every shape), bvh or auto; default: auto",
-            [&traversal](const std::string& text) {
-              traversal =
-                  static_cast<render::Traversal>(choice("--traversal", text, render::traversal_names()));
+  const settings::Setting& setting = settings::named("traversal");
+  add_value(app, "--traversal", setting.placeholder, setting.help + "; default: auto",
+            [&](const std::string& text) {
+              settings::Settings read;
+              setting.read(text, read);
+              traversal = read.traversal;
             });
 }
 

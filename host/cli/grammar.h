@@ -10,6 +10,7 @@
 
 #include "cli/command_line.h"
 #include "render/render.h"
+#include "settings/choices.h"
 
 namespace phlux::cli {
 
@@ -44,6 +45,9 @@ CLI::Option* add_values(CLI::App& app, const std::string& names, const std::stri
       ->type_name(value)
       ->allow_extra_args(false);
 }
+
+// The option of a setting.
+void add_setting(CLI::App& app, const settings::Setting& setting, settings::Choices& choices);
 
 // --width, --traversal and --kernel-dir, which several commands have.
 void add_width(CLI::App& app, const std::string& what, int& lanes);

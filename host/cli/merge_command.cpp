@@ -2,6 +2,7 @@
 #include <spdlog/spdlog.h>
 
 #include "cli/commands.h"
+#include "cli/spelling.h"
 #include "errors.h"
 #include "files/exr.h"
 #include "files/merge.h"
@@ -16,7 +17,7 @@ int merge(const MergeOptions& options) {
   files::check_writable(options.output);
   files::Merger merger;
   for (const std::filesystem::path& file : options.images) merger.add(file.string(), files::read_exr(file));
-  for (const std::string& note : merger.notes()) spdlog::warn("{}", note);
+  for (const std::string& note : merger.notes()) spdlog::warn("{}", with_options(note));
   const files::Image image = merger.result();
   files::write_exr(options.output, image);
   fmt::print("{}: {}x{}, {:.6g} samples per pixel of {} images\n", options.output.string(), image.width,

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "render/choices.h"
+#include "settings/choices.h"
 
 namespace phlux::cli {
 
 /// Options of `phlux render`.
-struct RenderOptions : render::Choices {
+struct RenderOptions : settings::Choices {
   std::filesystem::path scene_file;
   std::vector<std::string> devices;
   std::filesystem::path kernel_dir;

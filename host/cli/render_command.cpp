@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include "checkpoint/sameness.h"
 #include "cli/checkpoints.h"
 #include "cli/commands.h"
 #include "cli/diagnosis.h"
@@ -15,6 +14,7 @@
 #include "cli/outputs.h"
 #include "cli/progress.h"
 #include "cli/settings.h"
+#include "cli/spelling.h"
 #include "cli/statistics.h"
 #include "errors.h"
 #include "files/contributions.h"
@@ -69,6 +69,7 @@ render::Statistics run(const scene::Scene& scene, const render::Settings& settin
   ErrorSoFar error(film);
   bool interrupted = false;
   render::Events events;
+  events.warning = [](const std::string& text) { spdlog::warn("{}", with_options(text)); };
   events.building_kernels = [&] { display.building_kernels(); };
   events.progress = [&](const render::Progress& progress) {
     display.update(progress, [&] { return error.at(progress.samples_done); });
@@ -88,16 +89,13 @@ files::RenderInfo info_of(const checkpoint::Session& session, const film::Film& 
   return {.version = PHLUX_VERSION,
           .scene = session.scene,
           .scene_digest = session.scene_digest,
-          .integrator = settings.integrator,
-          .strategy = settings.strategy,
+          .settings = files::stored(settings),
           .samples = film.samples_per_pixel(),
           .seed = settings.seed,
           .ranges = {{settings.seed, settings.first_sample, settings.first_sample + statistics.place.end()}},
-          .max_depth = settings.max_depth,
           .device = statistics.device,
           .driver = statistics.driver,
           .seconds = statistics.seconds_render,
-          .clamp = settings.clamp,
           .clamped_share = film.clamped_share()};
 }
 
@@ -157,7 +155,7 @@ int render(const RenderOptions& given) {
                                     .choices = options,
                                     .settings = settings_of(options, scene.defaults),
                                     .standing = {}};
-  if (earlier) checkpoint::check_same(*earlier, session, camera.width, camera.height, options.resume);
+  if (earlier) check_same(*earlier, session, camera, options.resume);
   const render::Settings& settings = session.settings;
   film::Film film = earlier ? std::move(earlier->film) : film::Film(camera.width, camera.height);
   Checkpoints checkpoints(outputs.checkpoint, options, session);
@@ -175,7 +173,7 @@ int render(const RenderOptions& given) {
   const Diagnosis diagnosis = diagnose(film, statistics, settings, std::move(scene), options.advise);
   if (!outputs.statistics.empty())
     files::write_file(outputs.statistics,
-                      files::json_text(statistics_json(statistics, info, film, diagnosis)));
+                      files::json_text(statistics_json(statistics, settings, info, film, diagnosis)));
   if (settings.techniques) write_techniques(options.contributions, film, info);
   if (!options.quiet) fmt::print("{}\n", summary(outputs, film, statistics));
   report(diagnosis, film, statistics, settings);

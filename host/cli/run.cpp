@@ -11,6 +11,7 @@
 #include <spdlog/spdlog.h>
 
 #include "cli/command_line.h"
+#include "cli/spelling.h"
 #include "errors.h"
 
 namespace phlux::cli {
@@ -25,7 +26,8 @@ void set_up_log() {
 }
 
 // One line, whatever the message: what follows the first, such as a compiler's log, is for --verbose.
-int report(const std::string& message, int exit_code) {
+int report(const std::string& error, int exit_code) {
+  const std::string message = with_options(error);
   const std::size_t end = message.find('\n');
   fmt::print(stderr, "phlux: {}\n", message.substr(0, end));
   if (end != std::string::npos) spdlog::info("{}", message.substr(end + 1));

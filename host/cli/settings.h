@@ -7,7 +7,7 @@
 namespace phlux::cli {
 
 /// @throws UsageError for options that do not go together
-[[nodiscard]] render::Settings settings_of(const RenderOptions& options,
-                                           const scene::RenderDefaults& defaults);
+[[nodiscard]] settings::Settings settings_of(const RenderOptions& options,
+                                             const scene::RenderDefaults& defaults);
 
 } // namespace phlux::cli

@@ -1,5 +1,9 @@
 #include "cli/statistics.h"
 
+#include <algorithm>
+#include <type_traits>
+#include <variant>
+
 namespace phlux::cli {
 namespace {
 
@@ -32,41 +36,59 @@ nlohmann::ordered_json origin_json(const std::optional<render::Origin>& origin, 
           {"samples", origin->samples}};
 }
 
+nlohmann::ordered_json json_of(const settings::Value& value) {
+  return std::visit(
+      [](const auto& of) -> nlohmann::ordered_json {
+        if constexpr (std::is_same_v<std::decay_t<decltype(of)>, std::monostate>)
+          return nullptr;
+        else
+          return of;
+      },
+      value);
+}
+
+void add_settings(const render::Settings& settings, nlohmann::ordered_json& json) {
+  for (const settings::Setting& setting : settings::all()) {
+    if (!files::is_stored(setting) && setting.affects != settings::Affects::samples) continue;
+    std::string key = setting.name;
+    std::ranges::replace(key, '-', '_');
+    json[key] = json_of(setting.value(settings));
+  }
+}
+
 } // namespace
 
-nlohmann::ordered_json statistics_json(const render::Statistics& statistics, const files::RenderInfo& info,
-                                       const film::Film& film, const Diagnosis& diagnosis) {
-  return {{"version", info.version},
-          {"scene", info.scene},
-          {"integrator", info.integrator},
-          {"strategy", info.strategy},
-          {"seed", info.seed},
-          {"device", statistics.device},
-          {"driver", statistics.driver},
-          {"lanes", statistics.lanes},
-          {"portable_lanes", statistics.portable_lanes},
-          {"traversal", statistics.traversal},
-          {"parts", statistics.parts},
-          {"width", film.width()},
-          {"height", film.height()},
-          {"samples_per_pixel", film.samples_per_pixel()},
-          {"paths", statistics.paths},
-          {"rays", statistics.rays},
-          {"shadow_rays", statistics.shadow_rays},
-          {"nonfinite", statistics.nonfinite},
-          {"seconds",
-           {{"setup", statistics.seconds_setup},
-            {"build_kernels", statistics.seconds_build_kernels},
-            {"render", statistics.seconds_render}}},
-          {"kernel_cache", statistics.kernels_from_cache ? "hit" : "miss"},
-          {"variance", film.has_variance() ? nlohmann::ordered_json(film.relative_variance()) : nullptr},
-          {"relative_standard_error", film.relative_standard_error()},
-          {"reliability", reliability_json(diagnosis.reliability, film)},
-          {"first_nonfinite", origin_json(statistics.first_nonfinite, film)},
-          {"clamp", value_or_null(info.clamp)},
-          {"clamped_share", info.clamped_share},
-          {"advice", diagnosis.advice},
-          {"interrupted", statistics.interrupted}};
+nlohmann::ordered_json statistics_json(const render::Statistics& statistics, const render::Settings& settings,
+                                       const files::RenderInfo& info, const film::Film& film,
+                                       const Diagnosis& diagnosis) {
+  nlohmann::ordered_json json = {{"version", info.version}, {"scene", info.scene}};
+  add_settings(settings, json);
+  json.update({{"device", statistics.device},
+               {"driver", statistics.driver},
+               {"lanes", statistics.lanes},
+               {"portable_lanes", statistics.portable_lanes},
+               {"traversal", statistics.traversal},
+               {"parts", statistics.parts},
+               {"width", film.width()},
+               {"height", film.height()},
+               {"samples_per_pixel", film.samples_per_pixel()},
+               {"paths", statistics.paths},
+               {"rays", statistics.rays},
+               {"shadow_rays", statistics.shadow_rays},
+               {"nonfinite", statistics.nonfinite},
+               {"seconds",
+                {{"setup", statistics.seconds_setup},
+                 {"build_kernels", statistics.seconds_build_kernels},
+                 {"render", statistics.seconds_render}}},
+               {"kernel_cache", statistics.kernels_from_cache ? "hit" : "miss"},
+               {"variance", film.has_variance() ? nlohmann::ordered_json(film.relative_variance()) : nullptr},
+               {"relative_standard_error", film.relative_standard_error()},
+               {"reliability", reliability_json(diagnosis.reliability, film)},
+               {"first_nonfinite", origin_json(statistics.first_nonfinite, film)},
+               {"clamped_share", info.clamped_share},
+               {"advice", diagnosis.advice},
+               {"interrupted", statistics.interrupted}});
+  return json;
 }
 
 } // namespace phlux::cli

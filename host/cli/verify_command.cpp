@@ -143,7 +143,7 @@ int verify(const VerifyOptions& options) {
   settings.quick = options.quick;
   settings.samples = options.samples;
   settings.strategies = options.strategies;
-  if (!options.kernel_dir.empty()) settings.kernels = device::KernelFiles(options.kernel_dir);
+  if (!options.kernel_dir.empty()) settings.kernels = sources::KernelFiles(options.kernel_dir);
   fmt::print("{} ({}, driver {}), WIDTH {}\n", device.info.name, device.info.platform, device.info.driver,
              settings.lanes);
   const Clock::time_point start = Clock::now();

@@ -6,9 +6,9 @@
 
 #include "cli/commands.h"
 #include "cli/grammar.h"
-#include "cli/values.h"
 #include "errors.h"
 #include "render/render.h"
+#include "settings/values.h"
 
 namespace phlux::cli {
 namespace {
@@ -18,13 +18,13 @@ void add_amount(CLI::App& app, VerifyOptions& options) {
              fmt::format("may be repeated: {}; default: all", fmt::join(render::strategy_names(), ", ")),
              [&options](const std::string& text) {
                const auto& names = render::strategy_names();
-               options.strategies.push_back(names[choice("--strategy", text, names)]);
+               options.strategies.push_back(names[settings::choice("--strategy", text, names)]);
              });
   app.add_flag("--quick", options.quick, "fewer materials, angles and samples: about a third of the time");
   add_value(app, "--samples", "N", "of each material and angle; default: 16384, quick 8192",
             [&options](const std::string& text) {
               constexpr std::uint64_t least = 16, most = 1u << 24;
-              options.samples = whole_number("--samples", text, least, most);
+              options.samples = settings::whole_number("--samples", text, least, most);
             });
 }
 

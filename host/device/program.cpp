@@ -56,7 +56,7 @@ private:
 
 std::string cache_key(const Device& device, const std::string& text) {
   const cl::Platform platform(device.handle.getInfo<CL_DEVICE_PLATFORM>());
-  return fmt::format("phlux {}\n{}\n{}\n{}\n{}\n{}\n{}", PHLUX_VERSION, device.info.platform,
+  return fmt::format("phlux {}, named arguments\n{}\n{}\n{}\n{}\n{}\n{}", PHLUX_VERSION, device.info.platform,
                      platform.getInfo<CL_PLATFORM_VERSION>(), device.info.name, device.info.driver,
                      build_options(), significant(text));
 }
@@ -192,17 +192,21 @@ BuiltProgram build_expanded(const Device& device, const std::string& name, const
     const bool known = records.load(key).has_value();
     const auto program = build_text(device, name, text);
     if (!known) records.store(key, {1});
-    return {program, known};
+    return {program, known, 0.0, argument_names(program)};
   }
   const BinaryCache cache(binary_cache_folder());
-  if (const auto binary = cache.load(key))
-    if (const auto program = build_binary(device, *binary)) return {*program, true};
+  if (const auto bytes = cache.load(key)) { // with names: drivers need not know them of binaries
+    NamedBinary kept = decode(*bytes);
+    if (const auto program = build_binary(device, kept.binary))
+      return {*program, true, 0.0, std::move(kept.arguments)};
+  }
   const auto program = build_text(device, name, text);
-  cache.store(key, binary_of(program));
-  return {program, false};
+  const NamedBinary built{argument_names(program), binary_of(program)};
+  cache.store(key, encode(built));
+  return {program, false, 0.0, built.arguments};
 }
 
-BuiltProgram build_portable(const Device& device, const KernelFiles& files, ProgramSource source,
+BuiltProgram build_portable(const Device& device, const sources::KernelFiles& files, ProgramSource source,
                             const std::string& name) {
   source.defines[portable_lanes_macro] = "1";
   return build_expanded(device, name, expand(files, source));
@@ -211,8 +215,8 @@ BuiltProgram build_portable(const Device& device, const KernelFiles& files, Prog
 // Where the text leaves it to the compiler whether the lanes use the processor's own instructions, a compiler
 // that knows their builtins and refuses how they are used gets the text without them. What is wrong with a
 // text that it refuses either way is what it says of the one without.
-BuiltProgram build_either(const Device& device, const KernelFiles& files, const ProgramSource& source,
-                          const std::string& name) {
+BuiltProgram build_either(const Device& device, const sources::KernelFiles& files,
+                          const ProgramSource& source, const std::string& name) {
   const std::string text = expand(files, source);
   const bool compiler_decides = !source.defines.contains(portable_lanes_macro) &&
                                 significant(text).find(portable_lanes_macro) != std::string::npos;
@@ -236,7 +240,7 @@ bool portable_lanes(const Device& device) {
   return portable_devices().has(device);
 }
 
-BuiltProgram build(const Device& device, const KernelFiles& files, const ProgramSource& source,
+BuiltProgram build(const Device& device, const sources::KernelFiles& files, const ProgramSource& source,
                    const std::function<void()>& slow) {
   const Clock::time_point start = Clock::now();
   const Watcher watcher(slow);

@@ -1,44 +1,34 @@
 // From kernel files to a built OpenCL program: include expansion, options, the binary cache.
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "device/argument_names.h"
 #include "device/device.h"
+#include "sources/kernel_files.h"
 
 namespace phlux::device {
-
-/// Where kernel sources come from: the ones embedded in this binary, or a folder while developing
-/// (`--kernel-dir`).
-class KernelFiles {
-public:
-  KernelFiles() = default; ///< the embedded files
-  explicit KernelFiles(std::filesystem::path folder);
-  /// The text of one kernel file, by its path relative to kernels/. @throws DeviceError when there is none
-  [[nodiscard]] std::string read(const std::string& name) const;
-
-private:
-  std::filesystem::path folder_; // empty: embedded
-};
 
 struct ProgramSource {
   std::string root;                           ///< the kernel file to build, e.g. "path.cl"
   std::map<std::string, std::string> defines; ///< macro -> value; becomes text at the top, not -D options
+
+  /// Files that are not in kernels/, by the name by which others include them: generated ones, a user's own.
+  std::map<std::string, std::string> files;
 
   /// Adds kernels that are not in kernels/, such as a test's: text that may include kernel files, after
   /// `root`.
   std::string extra;
 };
 
-/// One self-contained text: the defines, then `root` with every #include "file" of kernels/ expanded once,
-/// each part tagged with #line so that compilers' messages name the kernel file. Branches of #if, #ifdef and
-/// #elif that the defines (and the #defines met on the way) rule out are left out, so the text holds only
-/// what the program needs; a condition on what only the compiler knows stays in the text.
+/// One self-contained text: the defines, then `root` with every #include "file" replaced by that file once,
+/// each part tagged with #line so that compilers' messages name the kernel file. `#include NAME` takes the
+/// file from the define NAME. Conditions are left to the compiler.
 /// @throws DeviceError "FILE:LINE: ..." when a file is missing
-[[nodiscard]] std::string expand(const KernelFiles& files, const ProgramSource& source);
+[[nodiscard]] std::string expand(const sources::KernelFiles& files, const ProgramSource& source);
 
 /// `text` without #line tags, blank lines and lines of comment: equal for two texts that make the same
 /// program.
@@ -48,6 +38,7 @@ struct BuiltProgram {
   cl::Program program;
   bool from_cache = false; ///< it had been built before and was kept, by phlux or by the driver
   double seconds = 0.0;
+  ArgumentNames arguments; ///< of its kernels
 };
 
 /// Builds for one device, from the binary cache where it can. The cache is keyed by text, options, device,
@@ -56,8 +47,8 @@ struct BuiltProgram {
 /// called once, from another thread, when building takes longer than 200 ms.
 /// @throws DeviceError naming file and line of the first error when the build fails; the full log goes to the
 /// log
-[[nodiscard]] BuiltProgram build(const Device& device, const KernelFiles& files, const ProgramSource& source,
-                                 const std::function<void()>& slow = {});
+[[nodiscard]] BuiltProgram build(const Device& device, const sources::KernelFiles& files,
+                                 const ProgramSource& source, const std::function<void()>& slow = {});
 
 /// Whether programs for the device have had to be built with portable lanes.
 [[nodiscard]] bool portable_lanes(const Device& device);

@@ -30,7 +30,7 @@ Channels channels_of(const Image& image, const std::array<const char*, 3>& names
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto found = image.channels.find(names[i]);
     if (found == image.channels.end())
-      throw SceneError(fmt::format("{}: has no channel {}: R, G and B are compared", file, names[i]));
+      throw FileError(fmt::format("{}: has no channel {}: R, G and B are compared", file, names[i]));
     channels[i] = &found->second;
   }
   return channels;
@@ -105,7 +105,7 @@ Comparison figures(Sums& sums, bool with_z) {
 
 Comparison compare(const Image& a, const Image& b, const std::string& name_a, const std::string& name_b) {
   if (a.width != b.width || a.height != b.height)
-    throw SceneError(
+    throw FileError(
         fmt::format("{}: is {}x{} pixels, but {} is {}x{}: only images of one size can be compared", name_a,
                     a.width, a.height, name_b, b.width, b.height));
   std::vector<Channels> groups = {channels_of(a, radiance_names, name_a),

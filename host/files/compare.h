@@ -28,7 +28,7 @@ struct Comparison {
   std::uint64_t nonfinite = 0; ///< values, in the channels above, that are NaN or infinite
 };
 
-/// @throws SceneError for different sizes or a missing channel, naming the images by `name_a` and `name_b`
+/// @throws FileError for different sizes or a missing channel, naming the images by `name_a` and `name_b`
 [[nodiscard]] Comparison compare(const Image& a, const Image& b, const std::string& name_a,
                                  const std::string& name_b);
 

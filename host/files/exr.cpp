@@ -1,6 +1,7 @@
 #include "files/exr.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
@@ -77,21 +78,51 @@ std::vector<SampleRange> ranges_in(const std::string& text) {
   return ranges;
 }
 
+// "maxDepth" for "max-depth".
+std::string attribute_of(const std::string& setting) {
+  std::string name;
+  for (std::size_t i = 0; i < setting.size(); ++i)
+    name += setting[i] == '-' ? static_cast<char>(std::toupper(setting[++i])) : setting[i];
+  return name;
+}
+
+void insert_settings(Imf::Header& header, const RenderInfo& info) {
+  for (const auto& [setting, value] : info.settings) {
+    const std::string name = attribute_of(setting);
+    if (const auto* text = std::get_if<std::string>(&value))
+      header.insert(name, Imf::StringAttribute(*text));
+    else if (const auto* whole = std::get_if<std::int64_t>(&value))
+      header.insert(name, Imf::IntAttribute(static_cast<int>(*whole)));
+    else if (const auto* number = std::get_if<double>(&value))
+      header.insert(name, Imf::DoubleAttribute(*number));
+  }
+}
+
+void find_settings(const Imf::Header& header, RenderInfo& info) {
+  for (const settings::Setting& setting : settings::all()) {
+    if (!is_stored(setting)) continue;
+    const std::string name = attribute_of(setting.name);
+    if (const auto* text = header.findTypedAttribute<Imf::StringAttribute>(name))
+      info.settings.emplace(setting.name, text->value());
+    else if (const auto* whole = header.findTypedAttribute<Imf::IntAttribute>(name))
+      info.settings.emplace(setting.name, std::int64_t{whole->value()});
+    else if (const auto* number = header.findTypedAttribute<Imf::DoubleAttribute>(name))
+      info.settings.emplace(setting.name, number->value());
+  }
+}
+
 void insert_attributes(Imf::Header& header, const RenderInfo& info) {
   header.insert("version", Imf::StringAttribute(info.version));
   header.insert("scene", Imf::StringAttribute(info.scene));
   header.insert("sceneDigest", Imf::StringAttribute(info.scene_digest));
-  header.insert("integrator", Imf::StringAttribute(info.integrator));
-  header.insert("strategy", Imf::StringAttribute(info.strategy));
   header.insert("samples", Imf::DoubleAttribute(info.samples));
   header.insert("seed", Imf::StringAttribute(seeds_text(info)));
   header.insert("sampleRanges", Imf::StringAttribute(ranges_text(info.ranges)));
-  header.insert("maxDepth", Imf::IntAttribute(info.max_depth));
   header.insert("device", Imf::StringAttribute(info.device));
   header.insert("driver", Imf::StringAttribute(info.driver));
   header.insert("seconds", Imf::DoubleAttribute(info.seconds));
-  if (info.clamp) {
-    header.insert("clamp", Imf::DoubleAttribute(*info.clamp));
+  insert_settings(header, info);
+  if (!info.text("clamp").empty()) {
     header.insert("clampedShare", Imf::DoubleAttribute(info.clamped_share));
     header.insert("bias", Imf::StringAttribute("clamped"));
   }
@@ -100,9 +131,6 @@ void insert_attributes(Imf::Header& header, const RenderInfo& info) {
 void find_attribute(const Imf::Header& header, const char* name, std::string& value) {
   if (const auto* attribute = header.findTypedAttribute<Imf::StringAttribute>(name))
     value = attribute->value();
-}
-void find_attribute(const Imf::Header& header, const char* name, int& value) {
-  if (const auto* attribute = header.findTypedAttribute<Imf::IntAttribute>(name)) value = attribute->value();
 }
 void find_attribute(const Imf::Header& header, const char* name, double& value) {
   if (const auto* attribute = header.findTypedAttribute<Imf::DoubleAttribute>(name))
@@ -114,8 +142,6 @@ RenderInfo find_attributes(const Imf::Header& header) {
   find_attribute(header, "version", info.version);
   find_attribute(header, "scene", info.scene);
   find_attribute(header, "sceneDigest", info.scene_digest);
-  find_attribute(header, "integrator", info.integrator);
-  find_attribute(header, "strategy", info.strategy);
   find_attribute(header, "samples", info.samples);
   std::string seed;
   find_attribute(header, "seed", seed);
@@ -123,14 +149,11 @@ RenderInfo find_attributes(const Imf::Header& header) {
   std::string ranges;
   find_attribute(header, "sampleRanges", ranges);
   info.ranges = ranges_in(ranges);
-  find_attribute(header, "maxDepth", info.max_depth);
   find_attribute(header, "device", info.device);
   find_attribute(header, "driver", info.driver);
   find_attribute(header, "seconds", info.seconds);
-  if (header.findTypedAttribute<Imf::DoubleAttribute>("clamp") != nullptr) {
-    find_attribute(header, "clamp", info.clamp.emplace());
-    find_attribute(header, "clampedShare", info.clamped_share);
-  }
+  find_attribute(header, "clampedShare", info.clamped_share);
+  find_settings(header, info);
   return info;
 }
 
@@ -193,13 +216,13 @@ void write_exr(const std::filesystem::path& file, const Image& image) {
 Image read_exr(const std::filesystem::path& file) {
   const std::string name = file.string();
   if (::access(name.c_str(), R_OK) != 0)
-    throw SceneError(fmt::format("{}: cannot be read: {}: an existing OpenEXR image is needed", name,
-                                 std::strerror(errno)));
+    throw FileError(fmt::format("{}: cannot be read: {}: an existing OpenEXR image is needed", name,
+                                std::strerror(errno)));
   try {
     Imf::InputFile input(name.c_str());
     return read_pixels(input);
   } catch (const std::exception& error) {
-    throw SceneError(
+    throw FileError(
         fmt::format("{}: is no OpenEXR image that phlux can read: {}", name, one_line(error.what())));
   }
 }

@@ -17,7 +17,7 @@ void write_exr(const std::filesystem::path& file, const Image& image);
 
 /// Every channel of the first part as float32 (half and integer channels are converted). Attributes that a
 /// file lacks keep RenderInfo's defaults.
-/// @throws SceneError when the file is missing, is no EXR image, is damaged, or has subsampled channels
+/// @throws FileError when the file is missing, is no EXR image, is damaged, or has subsampled channels
 [[nodiscard]] Image read_exr(const std::filesystem::path& file);
 
 } // namespace phlux::files

@@ -25,6 +25,24 @@ void add_channels(Image& image, const std::array<const char*, 3>& names, std::si
 
 } // namespace
 
+std::string RenderInfo::text(const std::string& setting) const {
+  const auto found = settings.find(setting);
+  return found == settings.end() ? std::string() : settings::text_of(found->second);
+}
+
+bool is_stored(const settings::Setting& setting) {
+  return setting.affects == settings::Affects::expectation || setting.affects == settings::Affects::estimate;
+}
+
+std::map<std::string, settings::Value> stored(const settings::Settings& settings) {
+  std::map<std::string, settings::Value> values;
+  for (const settings::Setting& setting : settings::all())
+    if (const settings::Value value = setting.value(settings);
+        is_stored(setting) && value != settings::Value())
+      values.emplace(setting.name, value);
+  return values;
+}
+
 Image image_of(const film::Film& film, const RenderInfo& info, bool moments) {
   Image image{.width = film.width(), .height = film.height(), .channels = {}, .info = info};
   const std::size_t pixels = film.pixels().size();

@@ -3,11 +3,11 @@
 
 #include <cstdint>
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "film/film.h"
+#include "settings/settings.h"
 
 namespace phlux::files {
 
@@ -20,21 +20,29 @@ struct SampleRange {
 };
 
 /// The attributes of CONTRACT.md, by their names there. In EXR files the texts and the seed (64 bits, which
-/// no number of EXR holds) are strings, the others doubles.
+/// no number of EXR holds) are strings, the others doubles. Each setting is there by its name, as maxDepth.
 struct RenderInfo {
   std::string version;      ///< of phlux; empty in a file that another program wrote
   std::string scene;        ///< the file, as the user named it
   std::string scene_digest; ///< scene::digest
-  std::string integrator, strategy;
+  /// Those that affect the image's expectation or its estimate, by name; in a merged image texts such as
+  /// "path, bidir" where they differ.
+  std::map<std::string, settings::Value> settings;
   double samples = 0.0; ///< per pixel, a mean where pixels differ
   std::uint64_t seed = 0;
   std::vector<SampleRange> ranges; ///< several in a merged image, of which `seed` is the first's
-  int max_depth = -1;
   std::string device, driver;
-  double seconds = 0.0;        ///< of rendering
-  std::optional<double> clamp; ///< most radiance that a path brought a pixel; none: not clamped, no bias
-  double clamped_share = 0.0;  ///< of the light, that clamping took away
+  double seconds = 0.0;       ///< of rendering
+  double clamped_share = 0.0; ///< of the light, that clamping took away
+
+  /// Of a setting; empty where it is absent or not known.
+  [[nodiscard]] std::string text(const std::string& setting) const;
 };
+
+/// Whether images say it: RenderInfo::settings.
+[[nodiscard]] bool is_stored(const settings::Setting& setting);
+/// Those of a render.
+[[nodiscard]] std::map<std::string, settings::Value> stored(const settings::Settings& settings);
 
 struct Image {
   int width = 0, height = 0;

@@ -11,7 +11,6 @@ namespace {
 
 constexpr std::array<const char*, 3> radiance_names = {"R", "G", "B"};
 constexpr std::array<const char*, 3> variance_names = {"variance.R", "variance.G", "variance.B"};
-constexpr const char* biased_strategy = "lobe-estimate-printed";
 
 bool has(const Image& image, const std::array<const char*, 3>& names) {
   return std::ranges::all_of(names, [&](const char* name) { return image.channels.contains(name); });
@@ -34,19 +33,54 @@ void write_channels(const std::array<std::vector<double>, 3>& sums, double facto
       image.channels[names[channel]].push_back(static_cast<float>(factor * sum));
 }
 
+// Whether a list of names, "path, bidir", has this one.
+bool contains(const std::string& list, const std::string& name) {
+  return (", " + list + ", ").find(", " + name + ", ") != std::string::npos;
+}
+
+void append(const std::string& text, std::string& list) {
+  if (!contains(list, text)) list += ", " + text;
+}
+
+// A setting that one of them does not say is not said of both.
+void append(const RenderInfo& info, RenderInfo& all) {
+  for (auto one = all.settings.begin(); one != all.settings.end();) {
+    auto& [name, value] = *one;
+    const auto other = info.settings.find(name);
+    if (other == info.settings.end()) {
+      one = all.settings.erase(one);
+      continue;
+    }
+    if (other->second != value) {
+      std::string list = settings::text_of(value);
+      append(settings::text_of(other->second), list);
+      value = list;
+    }
+    ++one;
+  }
+}
+
+// What decides the image that a render converges to, as that of `of` says it or else by default.
+settings::Value expected_value(const settings::Setting& setting, const RenderInfo& of) {
+  const auto found = of.settings.find(setting.name);
+  return found == of.settings.end() ? setting.value({}) : found->second;
+}
+
+std::string given(const settings::Setting& setting, const RenderInfo& of) {
+  const std::string text = settings::text_of(expected_value(setting, of));
+  return text.empty() ? "without " + settings::quoted(setting.name)
+                      : fmt::format("with {} {}", settings::quoted(setting.name), text);
+}
+
 std::string bias_of(const RenderInfo& info) {
-  if (info.clamp) return fmt::format("was rendered with --clamp {:g}, a bias", *info.clamp);
-  if (info.strategy.find(biased_strategy) != std::string::npos)
-    return fmt::format("was rendered with --strategy {}, which has a bias", biased_strategy);
+  for (const settings::Strategy& strategy : settings::strategies)
+    if (strategy.biased && contains(info.text("strategy"), strategy.name))
+      return fmt::format("was rendered with `strategy` {}, which has a bias", strategy.name);
   return "is without bias";
 }
 
 std::string method_of(const RenderInfo& info) {
-  return info.integrator + " " + info.strategy;
-}
-
-void append(const std::string& text, std::string& list) {
-  if ((", " + list + ", ").find(", " + text + ", ") == std::string::npos) list += ", " + text;
+  return info.text("integrator") + " " + info.text("strategy");
 }
 
 void add_info(const RenderInfo& info, RenderInfo& all) {
@@ -55,8 +89,7 @@ void add_info(const RenderInfo& info, RenderInfo& all) {
   all.samples = samples;
   all.seconds += info.seconds;
   all.ranges.insert(all.ranges.end(), info.ranges.begin(), info.ranges.end());
-  append(info.integrator, all.integrator);
-  append(info.strategy, all.strategy);
+  append(info, all);
   append(info.device, all.device);
   append(info.driver, all.driver);
 }
@@ -71,9 +104,9 @@ void check_ranges(const std::string& name, const RenderInfo& info, const std::st
   for (const SampleRange& range : info.ranges)
     for (const SampleRange& taken : other.ranges)
       if (overlap(range, taken))
-        throw SceneError(fmt::format(
+        throw FileError(fmt::format(
             "{}: has samples {} to {} of seed {}, and {} has samples {} to {}: render one of them with "
-            "another --seed, or with --first-sample {}",
+            "another `seed`, or with `first-sample` {}",
             name, range.first, range.end - 1, range.seed, other_name, taken.first, taken.end - 1, taken.end));
 }
 
@@ -82,29 +115,29 @@ void check_ranges(const std::string& name, const RenderInfo& info, const std::st
 void Merger::check(const Source& source, const Image& image) const {
   const auto& [name, info, variance] = source;
   if (!has(image, radiance_names))
-    throw SceneError(fmt::format("{}: lacks a channel of R, G and B: name a render of phlux", name));
+    throw FileError(fmt::format("{}: lacks a channel of R, G and B: name a render of phlux", name));
   if (!(info.samples > 0.0) || info.ranges.empty())
-    throw SceneError(
+    throw FileError(
         fmt::format("{}: does not say which samples it has, to weigh it by: name a render of phlux", name));
   if (sources_.empty()) return;
   const std::string& first = sources_.front().name;
   const RenderInfo& other = sources_.front().info;
   if (image.width != width_ || image.height != height_)
-    throw SceneError(
-        fmt::format("{}: is {}x{} pixels, but {} is {}x{}: only images of one size can be merged", name,
-                    image.width, image.height, first, width_, height_));
+    throw FileError(fmt::format("{}: is {}x{} pixels, but {} is {}x{}: only images of one size can be merged",
+                                name, image.width, image.height, first, width_, height_));
   if (info.scene_digest != other.scene_digest)
-    throw SceneError(fmt::format("{}: is of another scene ({}) than {} ({}): only images of one scene can be "
-                                 "merged",
-                                 name, info.scene, first, other.scene));
-  if (info.max_depth != other.max_depth)
-    throw SceneError(
-        fmt::format("{}: has paths of --max-depth {}, but {} of {}: only images of the same light "
-                    "can be merged",
-                    name, info.max_depth, first, other.max_depth));
+    throw FileError(fmt::format("{}: is of another scene ({}) than {} ({}): only images of one scene can be "
+                                "merged",
+                                name, info.scene, first, other.scene));
+  for (const settings::Setting& setting : settings::all())
+    if (setting.affects == settings::Affects::expectation &&
+        expected_value(setting, info) != expected_value(setting, other))
+      throw FileError(
+          fmt::format("{}: was rendered {}, but {} {}: only images of the same light can be merged", name,
+                      given(setting, info), first, given(setting, other)));
   if (bias_of(info) != bias_of(other))
-    throw SceneError(fmt::format("{}: {}, but {} {}: only images with the same bias, or none, can be merged",
-                                 name, bias_of(info), first, bias_of(other)));
+    throw FileError(fmt::format("{}: {}, but {} {}: only images with the same bias, or none, can be merged",
+                                name, bias_of(info), first, bias_of(other)));
   for (const Source& earlier : sources_) check_ranges(name, info, earlier.name, earlier.info);
 }
 
@@ -144,7 +177,7 @@ std::vector<std::string> Merger::notes() const {
     }
   const auto without = std::ranges::find(sources_, false, &Source::variance);
   if (without != sources_.end() && !std::ranges::none_of(sources_, &Source::variance))
-    notes.push_back(fmt::format("{} has no variance channels: the merged image has none: --moments adds them",
+    notes.push_back(fmt::format("{} has no variance channels: the merged image has none: `moments` adds them",
                                 without->name));
   return notes;
 }

@@ -14,7 +14,7 @@ namespace phlux::files {
 /// all, is sum (n_i / N)^2 var(m_i).
 class Merger {
 public:
-  /// @throws SceneError for an image that does not go with those before: of another size, scene or depth,
+  /// @throws FileError for an image that does not go with those before: of another size, scene or depth,
   /// clamped otherwise, or with samples that one of them has; and for one that does not say what it has
   void add(const std::string& name, const Image& image);
   /// Of at least one image. Its attributes are those of the first where images agree, lists where not, sums

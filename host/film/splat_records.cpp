@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 
-#include "scene_data.h"
+#include "scene/scene_data.h"
 
 namespace phlux::film {
 namespace {

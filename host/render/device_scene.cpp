@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "errors.h"
+#include "tables/used_materials.h"
 
 namespace phlux::render {
 namespace {
@@ -84,21 +85,22 @@ HostScene prepare(const scene::Scene& scene, Traversal traversal, int lanes, boo
   if (host.geometry.primitive_count == 0)
     throw SceneError(
         "no shape of the scene has an area that single precision can tell from 0: scale them up");
-  host.lights = light_table(scene, host.geometry, tree_of_lights);
-  host.materials = material_table(scene.materials);
+  host.lights = tables::light_table(scene, host.geometry, tree_of_lights);
+  host.materials =
+      lobes::material_table(scene.materials, lobes::models_of(tables::used_materials(scene, host.geometry)));
   host.camera = camera_record(scene.camera, host.geometry.origin);
   return host;
 }
 
 DeviceScene::DeviceScene(const device::Device& device, const HostScene& scene, const Parts& parts)
-    : parts_(parts), light_count_(static_cast<int>(scene.lights.records.size())),
-      triangle_end_(scene.geometry.triangle_end), parallelogram_end_(scene.geometry.parallelogram_end),
-      ellipse_end_(scene.geometry.ellipse_end), first_sphere_(scene.geometry.first_sphere),
-      sphere_count_(scene.geometry.sphere_count), root_(scene.geometry.root),
-      light_tree_probability_(static_cast<float>(scene.lights.tree_probability)),
+    : light_count_(static_cast<int>(scene.lights.records.size())), triangle_end_(scene.geometry.triangle_end),
+      parallelogram_end_(scene.geometry.parallelogram_end), ellipse_end_(scene.geometry.ellipse_end),
+      first_sphere_(scene.geometry.first_sphere), sphere_count_(scene.geometry.sphere_count),
+      root_(scene.geometry.root), light_tree_probability_(static_cast<float>(scene.lights.tree_probability)),
       camera_(upload(device, std::vector<CameraRecord>{scene.camera}, "camera")),
       primitives_(upload(device, scene.geometry.primitives, "primitives")),
-      materials_(upload(device, scene.materials.records, "materials")),
+      materials_(upload(device, scene.materials.records, "materials",
+                        scene.materials.records.size() / scene.materials.count)),
       lights_(upload(device, scene.lights.records, "lights")),
       planars_(parts.double_precision
                    ? upload(device, scene.geometry.double_planars, "triangles", PLANAR_FLOATS)
@@ -108,21 +110,30 @@ DeviceScene::DeviceScene(const device::Device& device, const HostScene& scene, c
                    : upload(device, scene.geometry.spheres, "spheres", SPHERE_FLOATS)),
       nodes_(upload(device, scene.geometry.nodes, "hierarchy")),
       light_nodes_(upload(device, scene.lights.nodes, "tree of lights")),
-      reflectivity_(upload(device, scene.materials.reflectivity, "reflectivities")),
+      lobe_tables_(upload(device, scene.materials.tables, "reflectivities")),
       corners_(upload(device, scene.geometry.corners, "triangles' corners")),
       vertex_normals_(upload(device, scene.geometry.vertex_normals, "vertex normals")) {}
 
-cl_uint DeviceScene::bind(cl::Kernel& kernel) const {
-  cl_uint index = 0;
-  const auto bind_all = [&](const auto&... arguments) { (kernel.setArg(index++, arguments), ...); };
-  bind_all(camera_, primitives_, materials_, lights_, light_count_);
-  if (parts_.planars) bind_all(planars_, triangle_end_, parallelogram_end_, ellipse_end_);
-  if (parts_.spheres) bind_all(spheres_, first_sphere_, sphere_count_);
-  if (parts_.hierarchy) bind_all(nodes_, root_);
-  if (parts_.light_tree) bind_all(light_nodes_, light_tree_probability_);
-  if (parts_.phong_lobe) bind_all(reflectivity_);
-  if (parts_.smooth_normals) bind_all(corners_, vertex_normals_);
-  return index;
+void DeviceScene::bind(device::Kernel& kernel) const {
+  kernel.set("camera", camera_);
+  kernel.set("primitives", primitives_);
+  kernel.set("materials", materials_);
+  kernel.set("lights", lights_);
+  kernel.set("light_count", light_count_);
+  kernel.set("planars", planars_);
+  kernel.set("triangle_end", triangle_end_);
+  kernel.set("parallelogram_end", parallelogram_end_);
+  kernel.set("ellipse_end", ellipse_end_);
+  kernel.set("spheres", spheres_);
+  kernel.set("first_sphere", first_sphere_);
+  kernel.set("sphere_count", sphere_count_);
+  kernel.set("nodes", nodes_);
+  kernel.set("root", root_);
+  kernel.set("light_nodes", light_nodes_);
+  kernel.set("light_tree_probability", light_tree_probability_);
+  kernel.set("lobe_tables", lobe_tables_);
+  kernel.set("corners", corners_);
+  kernel.set("vertex_normals", vertex_normals_);
 }
 
 } // namespace phlux::render

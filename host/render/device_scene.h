@@ -2,18 +2,17 @@
 #pragma once
 
 #include "accel/geometry.h"
-#include "device/device.h"
-#include "render/light_table.h"
-#include "render/material_table.h"
+#include "device/kernel.h"
 #include "render/parts.h"
+#include "tables/light_table.h"
 
 namespace phlux::render {
 
 /// Everything that the host computes about a scene for one WIDTH, precision and traversal.
 struct HostScene {
   accel::Geometry geometry;
-  LightTable lights;
-  MaterialTable materials;
+  tables::LightTable lights;
+  lobes::MaterialTable materials;
   CameraRecord camera{};
 };
 
@@ -26,15 +25,14 @@ public:
   /// Copies the tables. @throws DeviceError when they do not fit, saying how large they are
   DeviceScene(const device::Device& device, const HostScene& scene, const Parts& parts);
 
-  /// Sets the arguments that SCENE_PARAMETERS (kernels/scene.cl) declares; returns how many there are.
-  cl_uint bind(cl::Kernel& kernel) const;
+  /// Sets the arguments that SCENE_PARAMETERS (kernels/scene/scene.cl) declares.
+  void bind(device::Kernel& kernel) const;
 
 private:
-  Parts parts_;
   int light_count_, triangle_end_, parallelogram_end_, ellipse_end_, first_sphere_, sphere_count_, root_;
   float light_tree_probability_;
   cl::Buffer camera_, primitives_, materials_, lights_, planars_, spheres_, nodes_, light_nodes_,
-      reflectivity_, corners_, vertex_normals_;
+      lobe_tables_, corners_, vertex_normals_;
 };
 
 } // namespace phlux::render

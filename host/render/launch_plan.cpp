@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "device/work_groups.h"
-#include "scene_data.h"
+#include "scene/scene_data.h"
 
 namespace phlux::render {
 namespace {
@@ -27,7 +27,8 @@ int least_lane_jobs(int lanes, int block_samples) {
 }
 
 int vertex_words(const Parts& parts) {
-  return parts.anisotropic ? VERTEX_WORDS_MOST : parts.smooth_normals ? VERTEX_TANGENT : VERTEX_GEOMETRIC;
+  return VERTEX_WORDS_PLAIN + (parts.smooth_normals ? VERTEX_WORDS_OF_NORMAL : 0) +
+         (parts.has_tangents() ? VERTEX_WORDS_OF_TANGENT : 0);
 }
 
 // Of what a bidirectional work-item keeps: kernels/lanes.h's Scalar.
@@ -58,7 +59,7 @@ std::int64_t Planner::wanted_jobs(std::int64_t left, int block_samples) const {
     jobs = static_cast<std::int64_t>(paths_per_second_ * launch_seconds_ / block_samples);
   // The kernel counts jobs, and words of their sums, in int; a launch's records must fit a buffer.
   std::int64_t largest = std::numeric_limits<cl_int>::max() / 8;
-  if (parts_.integrator != Integrator::path) {
+  if (settings::info_of(parts_.integrator).light_paths) {
     const double bytes_per_job =
         (records_per_path_ + 1) * block_samples * static_cast<double>(record_words(parts_) * sizeof(float));
     largest = std::min(largest, static_cast<std::int64_t>(static_cast<double>(device_.largest_buffer) /
@@ -67,7 +68,7 @@ std::int64_t Planner::wanted_jobs(std::int64_t left, int block_samples) const {
   const std::int64_t lanes = parts_.lanes;
   jobs = std::clamp(jobs, lanes, std::min(std::max(left, lanes), largest));
   // Whole batches, so that batches are the same however the work is cut.
-  return parts_.integrator == Integrator::path ? jobs : (jobs + least - 1) / least * least;
+  return settings::info_of(parts_.integrator).light_paths ? (jobs + least - 1) / least * least : jobs;
 }
 
 // See divide_scratch in kernels/bidir.cl.
@@ -86,7 +87,8 @@ LaunchPlan Planner::plan(const Launch& launch) const {
   };
   const auto jobs = static_cast<std::size_t>(launch.jobs), lanes = static_cast<std::size_t>(parts_.lanes);
   const auto per_batch = static_cast<std::size_t>(batch_jobs(launch.block_samples));
-  if (parts_.integrator == Integrator::path) {
+  const settings::IntegratorInfo& integrator = settings::info_of(parts_.integrator);
+  if (!integrator.light_paths) {
     // As many work-items as give each lane its least number of paths, but one for every unit where there is
     // work for it.
     const std::size_t full = jobs / per_batch, most = (jobs + lanes - 1) / lanes;
@@ -101,7 +103,7 @@ LaunchPlan Planner::plan(const Launch& launch) const {
   plan.rows = static_cast<int>(std::ceil(rows_per_path_ * lane_paths));
   plan.record_capacity =
       static_cast<int>(std::ceil(records_per_path_ * lane_paths)) * parts_.lanes + parts_.lanes;
-  if (parts_.integrator == Integrator::bidir) {
+  if (integrator.bidirectional()) {
     // Two launches are in flight, and other tables want room.
     const std::size_t room = std::min(device_.largest_buffer / 2, device_.global_memory / 8);
     const std::size_t fit = room / scratch_bytes_per_item(plan);
@@ -109,7 +111,7 @@ LaunchPlan Planner::plan(const Launch& launch) const {
         std::clamp(plan.items, std::size_t{1}, std::max(fit / local_size_ * local_size_, local_size_));
   }
   plan.items = round_up(plan.items);
-  if (parts_.integrator == Integrator::bidir) plan.scratch_bytes = plan.items * scratch_bytes_per_item(plan);
+  if (integrator.bidirectional()) plan.scratch_bytes = plan.items * scratch_bytes_per_item(plan);
   return plan;
 }
 

@@ -12,17 +12,6 @@ namespace {
 
 constexpr std::size_t counters_per_item = 2; // rays, shadow rays
 
-const char* kernel_name(Integrator integrator) {
-  switch (integrator) {
-  case Integrator::light:
-    return "trace_light";
-  case Integrator::bidir:
-    return "trace_bidir";
-  default:
-    return "trace_paths";
-  }
-}
-
 cl_int bounded(int edges) {
   return edges < 0 ? std::numeric_limits<cl_int>::max() : edges;
 }
@@ -35,21 +24,20 @@ double seconds_of(const cl::Event& kernel_done) {
 
 } // namespace
 
-Launcher::Launcher(const device::Device& device, const cl::Program& program, const HostScene& scene,
+Launcher::Launcher(const device::Device& device, const device::BuiltProgram& program, const HostScene& scene,
                    const Parts& parts, const Settings& settings)
-    : device_(device), scene_(device, scene, parts), kernel_(program, kernel_name(parts.integrator)),
-      first_launch_argument_(scene_.bind(kernel_)), parts_(parts),
-      planner_(device.info, parts, settings.launch_seconds), sky_light_(std::max(scene.lights.constant, 0)),
+    : device_(device), scene_(device, scene, parts), parts_(parts),
+      kernel_(program, settings::info_of(parts.integrator).kernel),
+      planner_(device.info, parts, settings.launch_seconds),
       pixels_(static_cast<std::int64_t>(scene.camera.width) * scene.camera.height) {
-  const cl_uint2 seed = {{static_cast<cl_uint>(settings.seed), static_cast<cl_uint>(settings.seed >> 32)}};
-  cl_uint index = first_launch_argument_;
-  kernel_.setArg(index++, static_cast<cl_int>(pixels_));
-  index += 4; // what each launch sets
-  kernel_.setArg(index++, seed);
-  kernel_.setArg(index++, bounded(settings.max_depth));
-  kernel_.setArg(index++, bounded(settings.rr_depth));
-  if (parts_.integrator == Integrator::path)
-    kernel_.setArg(index + 2, static_cast<float>(settings.ambient.value_or(0.0) / scene.lights.unit));
+  scene_.bind(kernel_);
+  kernel_.set("pixel_count", static_cast<cl_int>(pixels_));
+  kernel_.set("seed",
+              cl_uint2{{static_cast<cl_uint>(settings.seed), static_cast<cl_uint>(settings.seed >> 32)}});
+  kernel_.set("max_edges", bounded(settings.max_depth));
+  kernel_.set("roulette_edges", bounded(settings.rr_depth));
+  kernel_.set("sky_light", static_cast<cl_int>(std::max(scene.lights.constant, 0)));
+  kernel_.set("ambient", static_cast<cl_float>(settings.ambient.value_or(0.0) / scene.lights.unit));
 }
 
 Launcher::~Launcher() {
@@ -83,15 +71,15 @@ void Launcher::reserve(Buffer& buffer, std::size_t bytes, const char* what) cons
   if (bytes > device_.info.largest_buffer)
     throw DeviceError(
         fmt::format("{}: the {} of a launch take {} MB and a buffer may have {} MB: shorten the paths "
-                    "(--max-depth, --rr-depth)",
+                    "(`max-depth`, `rr-depth`)",
                     device_.info.name, what, bytes >> 20, device_.info.largest_buffer >> 20));
   buffer = {}; // before there is another: memory may be short
   try {
     buffer.memory = cl::Buffer(device_.context, CL_MEM_READ_WRITE, bytes);
   } catch (const cl::Error& error) {
     throw DeviceError(
-        fmt::format("{}: no room for the {} of a launch ({} MB): {}: shorten the paths (--max-depth, "
-                    "--rr-depth)",
+        fmt::format("{}: no room for the {} of a launch ({} MB): {}: shorten the paths (`max-depth`, "
+                    "`rr-depth`)",
                     device_.info.name, what, bytes >> 20, device::error_name(error.err())));
   }
   buffer.bytes = bytes;
@@ -102,37 +90,29 @@ void Launcher::start(Flight& flight) {
   const Launch& launch = flight.launch;
   const LaunchPlan& plan = flight.plan;
   Buffers& to = flight.buffers;
-  const bool batches = parts_.integrator != Integrator::path;
-  const bool sums = parts_.integrator != Integrator::light;
-  reserve(to.counters, plan.items * counters_per_item * sizeof(cl_uint), "counters");
-  if (sums) reserve(to.sums, static_cast<std::size_t>(launch.jobs) * sizeof(film::BlockSum), "sums");
-  cl_uint index = first_launch_argument_ + 1;
-  const auto set = [&](const auto& value) { kernel_.setArg(index++, value); };
-  set(static_cast<cl_int>(launch.first_job));
-  set(static_cast<cl_int>(launch.jobs));
-  set(static_cast<cl_int>(launch.first_sample));
-  set(static_cast<cl_int>(launch.block_samples));
-  index += 3; // set once
-  set(to.counters.memory);
-  if (batches) {
+  kernel_.set("first_pixel", static_cast<cl_int>(launch.first_job));
+  kernel_.set("job_count", static_cast<cl_int>(launch.jobs));
+  kernel_.set("first_sample", static_cast<cl_int>(launch.first_sample));
+  kernel_.set("block_samples", static_cast<cl_int>(launch.block_samples));
+  kernel_.set("batch_jobs", static_cast<cl_int>(plan.batch_jobs));
+  kernel_.set("record_words", static_cast<cl_int>(record_words(parts_)));
+  kernel_.set("record_capacity", static_cast<cl_int>(plan.record_capacity));
+  kernel_.set("rows", static_cast<cl_int>(plan.rows));
+  const auto set = [&](const char* argument, Buffer& buffer, std::size_t bytes, const char* what) {
+    reserve(buffer, bytes, what);
+    kernel_.set(argument, buffer.memory);
+  };
+  set("counters", to.counters, plan.items * counters_per_item * sizeof(cl_uint), "counters");
+  const settings::IntegratorInfo& integrator = settings::info_of(parts_.integrator);
+  if (integrator.eye_paths)
+    set("sums", to.sums, static_cast<std::size_t>(launch.jobs) * sizeof(film::BlockSum), "sums");
+  if (integrator.light_paths) {
     const auto capacity = static_cast<std::size_t>(plan.record_capacity);
-    reserve(to.records, plan.batches * capacity * record_words(parts_) * sizeof(float), "splats");
-    reserve(to.record_counts, plan.batches * sizeof(cl_int), "counts of splats");
-    set(static_cast<cl_int>(plan.batch_jobs));
-    set(static_cast<cl_int>(record_words(parts_)));
-    set(static_cast<cl_int>(plan.record_capacity));
-    set(to.records.memory);
-    set(to.record_counts.memory);
+    set("records", to.records, plan.batches * capacity * record_words(parts_) * sizeof(float), "splats");
+    set("record_counts", to.record_counts, plan.batches * sizeof(cl_int), "counts of splats");
   }
-  if (parts_.integrator != Integrator::light) set(static_cast<cl_int>(sky_light_));
-  if (parts_.integrator == Integrator::bidir) {
-    reserve(to.scratch, plan.scratch_bytes, "vertices");
-    set(static_cast<cl_int>(plan.rows));
-    set(to.scratch.memory);
-  }
-  if (parts_.integrator == Integrator::path) ++index; // the ambient radiance, set once
-  if (sums) set(to.sums.memory);
-  device_.queue.enqueueNDRangeKernel(kernel_, cl::NullRange, cl::NDRange(plan.items),
+  if (integrator.bidirectional()) set("scratch", to.scratch, plan.scratch_bytes, "vertices");
+  device_.queue.enqueueNDRangeKernel(kernel_.ready(), cl::NullRange, cl::NDRange(plan.items),
                                      cl::NDRange(plan.local_size), nullptr, &flight.kernel_done);
 }
 
@@ -151,7 +131,7 @@ void Launcher::read_back(Flight& flight) {
         device_.queue.enqueueMapBuffer(from.records.memory, CL_FALSE, CL_MAP_READ | CL_MAP_WRITE, 0,
                                        words * sizeof(float), nullptr, &flight.read));
   }
-  if (parts_.integrator != Integrator::light)
+  if (settings::info_of(parts_.integrator).eye_paths)
     read(from.sums.memory, flight.host_sums, static_cast<std::size_t>(flight.launch.jobs));
   read(from.counters.memory, flight.host_counters, flight.plan.items * counters_per_item);
   device_.queue.flush();

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "device/program.h"
+#include "device/kernel.h"
 #include "film/film.h"
 #include "film/splat_records.h"
 #include "render/device_scene.h"
@@ -16,7 +16,8 @@ namespace phlux::render {
 
 class Launcher {
 public:
-  Launcher(const device::Device& device, const cl::Program& program, const HostScene& scene,
+  /// @throws DeviceError
+  Launcher(const device::Device& device, const device::BuiltProgram& program, const HostScene& scene,
            const Parts& parts, const Settings& settings);
   ~Launcher(); ///< waits for what is in flight, which writes into memory of this object
   Launcher(const Launcher&) = delete;
@@ -69,11 +70,9 @@ private:
 
   device::Device device_;
   DeviceScene scene_;
-  cl::Kernel kernel_;
-  cl_uint first_launch_argument_;
   Parts parts_;
+  device::Kernel kernel_;
   Planner planner_;
-  int sky_light_; // index of the constant light
   std::int64_t pixels_;
   std::deque<Flight> flights_;
   std::vector<Buffers> spare_;

@@ -3,9 +3,12 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <glm/gtx/component_wise.hpp>
 
 #include "errors.h"
-#include "render/material_table.h"
+#include "phong/reflectivity.h"
+#include "tables/used_materials.h"
 
 namespace phlux::render {
 namespace {
@@ -17,123 +20,64 @@ struct NamedPart {
 };
 
 constexpr NamedPart named_parts[] = {
-    {&Parts::hierarchy, "hierarchy", "PHLUX_BVH"},
-    {&Parts::double_precision, "double_precision", "PHLUX_DOUBLE"},
-    {&Parts::planars, "planars", "PHLUX_PLANARS"},
-    {&Parts::triangles, "triangles", "PHLUX_TRIANGLES"},
-    {&Parts::parallelograms, "parallelograms", "PHLUX_PARALLELOGRAMS"},
-    {&Parts::ellipses, "ellipses", "PHLUX_ELLIPSES"},
-    {&Parts::spheres, "spheres", "PHLUX_SPHERES"},
-    {&Parts::smooth_normals, "smooth_normals", "PHLUX_SMOOTH_NORMALS"},
-    {&Parts::two_sided, "two_sided", "PHLUX_TWO_SIDED"},
-    {&Parts::black, "black", "PHLUX_BLACK"},
-    {&Parts::phong_lobe, "phong_lobe", "PHLUX_PHONG_LOBE"},
-    {&Parts::anisotropic, "anisotropic", "PHLUX_ANISOTROPIC"},
-    {&Parts::emission, "emission", "PHLUX_EMISSION"},
-    {&Parts::light_planar, "light_planar", "PHLUX_LIGHT_PLANAR"},
-    {&Parts::light_sphere, "light_sphere", "PHLUX_LIGHT_SPHERE"},
-    {&Parts::light_point, "light_point", "PHLUX_LIGHT_POINT"},
-    {&Parts::light_spot, "light_spot", "PHLUX_LIGHT_SPOT"},
-    {&Parts::light_directional, "light_directional", "PHLUX_LIGHT_DIRECTIONAL"},
-    {&Parts::light_constant, "light_constant", "PHLUX_LIGHT_CONSTANT"},
-    {&Parts::light_choice, "light_choice", "PHLUX_LIGHT_CHOICE"},
-    {&Parts::light_tree, "light_tree", "PHLUX_LIGHT_TREE"},
-    {&Parts::ambient, "ambient", "PHLUX_AMBIENT"},
+    {&Parts::hierarchy, "hierarchy", "HAS_BVH"},
+    {&Parts::triangles, "triangles", "HAS_TRIANGLES"},
+    {&Parts::parallelograms, "parallelograms", "HAS_PARALLELOGRAMS"},
+    {&Parts::ellipses, "ellipses", "HAS_ELLIPSES"},
+    {&Parts::spheres, "spheres", "HAS_SPHERES"},
+    {&Parts::smooth_normals, "smooth_normals", "HAS_SMOOTH_NORMALS"},
+    {&Parts::two_sided, "two_sided", "HAS_TWO_SIDED"},
+    {&Parts::black, "black", "HAS_BLACK"},
+    {&Parts::light_planar, "light_planar", "HAS_PLANAR_LIGHTS"},
+    {&Parts::light_sphere, "light_sphere", "HAS_SPHERE_LIGHTS"},
+    {&Parts::light_point, "light_point", "HAS_POINT_LIGHTS"},
+    {&Parts::light_spot, "light_spot", "HAS_SPOT_LIGHTS"},
+    {&Parts::light_directional, "light_directional", "HAS_DIRECTIONAL_LIGHTS"},
+    {&Parts::light_constant, "light_constant", "HAS_CONSTANT_LIGHT"},
+    {&Parts::light_choice, "light_choice", "HAS_LIGHT_CHOICE"},
+    {&Parts::light_tree, "light_tree", "HAS_LIGHT_TREE"},
+    {&Parts::ambient, "ambient", "HAS_AMBIENT"},
 };
 
-struct NamedStrategy {
-  const char* name;
-  const char* macro;
-};
-constexpr NamedStrategy strategies[] = {{"uniform", "STRATEGY_UNIFORM"},
-                                        {"theta-phi", "STRATEGY_THETA_PHI"},
-                                        {"cosine", "STRATEGY_COSINE"},
-                                        {"disk", "STRATEGY_DISK"},
-                                        {"rejection", "STRATEGY_REJECTION"},
-                                        {"lobe-ks", "STRATEGY_LOBE_KS"},
-                                        {"lobe-estimate-printed", "STRATEGY_LOBE_ESTIMATE_PRINTED"},
-                                        {"lobe-estimate", "STRATEGY_LOBE_ESTIMATE"},
-                                        {"lobe-rho", "STRATEGY_LOBE_RHO"},
-                                        {"mixture", "STRATEGY_MIXTURE"},
-                                        {"fold", "STRATEGY_FOLD"},
-                                        {"exact", "STRATEGY_EXACT"}};
-
-const NamedStrategy& find_strategy(const std::string& name) {
-  const auto found = std::find_if(std::begin(strategies), std::end(strategies),
-                                  [&](const auto& s) { return s.name == name; });
-  if (found != std::end(strategies)) return *found;
-  std::string list;
-  for (const auto& s : strategies) list += (list.empty() ? "" : ", ") + std::string(s.name);
-  throw UsageError("--strategy " + name + ": there is no such strategy: " + list);
-}
-
-Integrator find_integrator(const std::string& name) {
-  if (name == "path") return Integrator::path;
-  if (name == "light") return Integrator::light;
-  if (name == "bidir") return Integrator::bidir;
-  throw UsageError("integrator " + name + ": there is no such integrator: path, light, bidir");
-}
-
-Connect possible_connect(const Settings& settings, const LightTable& lights) {
+Connect possible_connect(const Settings& settings, const tables::LightTable& lights) {
   const bool hittable = lights.has(LIGHT_PLANAR) || lights.has(LIGHT_SPHERE) || lights.has(LIGHT_CONSTANT);
   if (settings.integrator == "path" && settings.connect == Connect::none && !lights.records.empty() &&
       !hittable)
     throw UsageError(
-        "--connect none: no path can hit the point, spot and directional lights, which are all that the "
-        "scene has: use --connect light or mis");
+        "`connect` none: no path can hit the point, spot and directional lights, which are all that the "
+        "scene has: use `connect` light or mis");
   if (settings.integrator == "light" || !lights.shines()) return Connect::none;
   return settings.integrator == "bidir" ? Connect::mis : settings.connect;
 }
 
 // Hit or miss draws this often for one sample of the material where it reflects least.
 double proposals(const scene::Material& m) {
-  const double diffuse = std::max({m.diffuse.r, m.diffuse.g, m.diffuse.b});
-  const double specular = std::max({m.specular.r, m.specular.g, m.specular.b});
-  const double highest = diffuse + specular * (m.exponent_u / 2 + 1);
-  return highest / (diffuse + specular * lobe_reflectivity(m.exponent_u, 0.0));
+  const double diffuse = glm::compMax(m.value("diffuse_reflectance"));
+  const double specular = glm::compMax(m.value("specular_reflectance")), exponent = m.value("exponent").x;
+  const double highest = diffuse + specular * (exponent / 2 + 1);
+  return highest / (diffuse + specular * phong::lobe_reflectivity(exponent, 0.0));
 }
 
 void refuse_endless_rejection(const scene::Material& m) {
   constexpr double most_proposals = 1e4;
   if (proposals(m) > most_proposals)
     throw UsageError(
-        fmt::format("--strategy rejection: a phong of exponent {:g} takes {:.0g} draws a sample: use "
+        fmt::format("`strategy` rejection: a phong of exponent {:g} takes {:.0g} draws a sample: use "
                     "another strategy",
-                    m.exponent_u, proposals(m)));
-}
-
-// Materials that some primitive has; a scene may define others.
-std::vector<const scene::Material*> used_materials(const scene::Scene& scene,
-                                                   const accel::Geometry& geometry) {
-  std::vector<bool> used(scene.materials.size(), false);
-  for (const PrimitiveRecord& p : geometry.primitives)
-    if (p.region != REGION_NONE) used[static_cast<std::size_t>(p.material)] = true;
-  std::vector<const scene::Material*> materials;
-  for (std::size_t i = 0; i < used.size(); ++i)
-    if (used[i]) materials.push_back(&scene.materials[i]);
-  return materials;
+                    m.value("exponent").x, proposals(m)));
 }
 
 } // namespace
-
-const std::vector<std::string>& strategy_names() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> list;
-    for (const auto& s : strategies) list.emplace_back(s.name);
-    return list;
-  }();
-  return names;
-}
 
 int lanes_for(const device::DeviceInfo& device, const Settings& settings) {
   if (!settings.double_precision) return settings.lanes != 0 ? settings.lanes : device.lanes;
   if (settings.lanes > 1)
     throw UsageError(fmt::format(
-        "--precision double: doubles go one path at a time, not {}: leave --width out", settings.lanes));
+        "`precision` double: doubles go one path at a time, not {}: leave `width` out", settings.lanes));
   if (!device.doubles)
     throw DeviceError(fmt::format(
-        "{}: --precision double: the device has no doubles (cl_khr_fp64): use --precision single, or "
-        "--device with one for which `phlux devices --json` says doubles",
+        "{}: `precision` double: the device has no doubles (cl_khr_fp64): use `precision` single, or "
+        "a device that has them",
         device.name));
   return 1;
 }
@@ -141,60 +85,50 @@ int lanes_for(const device::DeviceInfo& device, const Settings& settings) {
 // Of fewer, the walk down a tree and up again costs more than it brings (bench/saved/REMEDIES.md).
 constexpr std::size_t fewest_lights_of_tree = 8;
 
-bool samples_lights(const Settings& settings) {
-  return settings.integrator == "bidir" ||
-         (settings.integrator == "path" && settings.connect != Connect::none);
-}
-
-bool wants_light_tree(const Settings& settings) {
-  return samples_lights(settings) && settings.light_selection == LightSelection::contribution;
-}
-
-Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, const LightTable& lights,
+Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, const tables::LightTable& lights,
                  const Settings& settings, int lanes) {
   Parts parts;
   parts.lanes = lanes;
   parts.double_precision = settings.double_precision;
-  parts.integrator = find_integrator(settings.integrator);
+  parts.integrator = settings::integrator_named(settings.integrator).integrator;
   parts.weights = settings.weights;
   parts.techniques = settings.techniques;
   if (parts.techniques && parts.integrator == Integrator::path)
-    throw UsageError("--contributions: a path from the eye is made in one way: use -i bidir or light");
+    throw UsageError(
+        "`contributions`: a path from the eye is made in one way: use `integrator` bidir or light");
   // What a technique brings by itself is shown whole.
   if (parts.integrator == Integrator::bidir && !parts.techniques) parts.connections = settings.connections;
   if (settings.clamp) parts.clamp = *settings.clamp / lights.unit;
   if (parts.clamp && parts.techniques)
-    throw UsageError("--clamp: what techniques bring is not clamped: leave out --contributions");
+    throw UsageError("`clamp`: what techniques bring is not clamped: leave out `contributions`");
   parts.ambient = settings.ambient.has_value();
   if (parts.ambient && parts.integrator != Integrator::path)
-    throw UsageError("--ambient: only paths from the eye can carry the ambient term: use -i path");
+    throw UsageError("`ambient`: only paths from the eye can carry the ambient term: use `integrator` path");
   if (!lights.shines()) { // the image is black, which is best left to the one that chooses no light
     parts.integrator = Integrator::path;
     parts.techniques = false;
   }
-  parts.strategy = find_strategy(settings.strategy).macro;
+  parts.strategy = settings::strategy_named(settings.strategy).name;
   parts.connect = possible_connect(settings, lights);
   parts.hierarchy = !geometry.nodes.empty() || geometry.root < 0;
   parts.triangles = geometry.has_triangles;
   parts.parallelograms = geometry.has_parallelograms;
   parts.ellipses = geometry.has_ellipses;
-  parts.planars = parts.triangles || parts.parallelograms || parts.ellipses;
   parts.spheres = geometry.sphere_count > 0;
   parts.smooth_normals = !geometry.vertex_normals.empty();
-  for (const scene::Material* m : used_materials(scene, geometry)) {
-    const bool anisotropic = m->kind == scene::Material::Kind::anisotropic_phong;
-    const bool lobe = !anisotropic && m->specular != scene::Rgb(0.0);
-    parts.two_sided |= m->two_sided;
-    parts.black |= !m->reflects();
-    parts.anisotropic |= anisotropic;
-    parts.phong_lobe |= lobe;
-    if (lobe && settings.strategy == "rejection") refuse_endless_rejection(*m);
+  const std::vector<scene::Material> materials = tables::used_materials(scene, geometry);
+  parts.models = lobes::models_of(materials);
+  for (const scene::Material& m : materials) {
+    parts.two_sided |= m.two_sided;
+    parts.black |= !lobes::reflects(m);
+    if (settings.strategy == "rejection" && m.model == lobes::shipped("phong")) refuse_endless_rejection(m);
   }
-  if (parts.ambient && parts.anisotropic)
-    throw UsageError(
-        "--ambient: the reflectivity of anisotropicphong has no closed form to weigh the ambient term "
-        "with: leave it out or use phong");
-  parts.emission = lights.has(LIGHT_PLANAR) || lights.has(LIGHT_SPHERE);
+  for (const auto& model : parts.models)
+    if (parts.ambient && model->reflectivity_is_estimate)
+      throw UsageError(fmt::format(
+          "`ambient`: the reflectivity of {} has no closed form to weigh the ambient term with: leave it out "
+          "or use phong",
+          model->name));
   parts.light_planar = lights.has(LIGHT_PLANAR);
   parts.light_sphere = lights.has(LIGHT_SPHERE);
   parts.light_point = lights.has(LIGHT_POINT);
@@ -212,56 +146,56 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
   return parts;
 }
 
+bool Parts::has_model(const std::string& name) const {
+  return std::ranges::any_of(models, [&](const auto& model) { return model->name == name; });
+}
+
+bool Parts::has_tangents() const {
+  return std::ranges::any_of(models, [](const auto& model) { return model->needs_tangents; });
+}
+
 std::vector<std::string> Parts::names() const {
   std::vector<std::string> list;
   for (const NamedPart& part : named_parts)
     if (this->*part.member) list.emplace_back(part.name);
+  if (double_precision) list.emplace_back("double_precision");
+  for (const auto& model : models) list.push_back(model->name);
   return list;
 }
 
 const char* Parts::file() const {
-  switch (integrator) {
-  case Integrator::light:
-    return "light.cl";
-  case Integrator::bidir:
-    return "bidir.cl";
-  default:
-    return "path.cl";
-  }
+  return settings::info_of(integrator).kernel_file;
 }
 
 std::map<std::string, std::string> Parts::defines() const {
   std::map<std::string, std::string> macros;
-  for (const NamedPart& part : named_parts)
-    if (this->*part.member) macros[part.macro] = "1";
-  const int kinds =
-      light_planar + light_sphere + light_point + light_spot + light_directional + light_constant;
-  const int regions = triangles + parallelograms + ellipses;
-  if (kinds > 1) macros["PHLUX_LIGHT_KINDS"] = "1";
-  if (regions > 1) macros["PHLUX_MIXED_REGIONS"] = "1";
-  if (emission || light_constant) macros["PHLUX_HITTABLE_LIGHTS"] = "1";
-  if (one_light) macros["PHLUX_ONE_LIGHT"] = "1";
-  if (lanes == static_cast<int>(few_entries)) {
-    if (few_lights) macros["PHLUX_FEW_LIGHTS"] = "1";
-    if (few_materials) macros["PHLUX_FEW_MATERIALS"] = "1";
-    if (few_primitives) macros["PHLUX_FEW_PRIMITIVES"] = "1";
-  }
-  if (phong_lobe) macros["PHONG_TABLE_INTERVALS"] = std::to_string(reflectivity_intervals);
-  if (techniques) macros["PHLUX_TECHNIQUES"] = "1";
-  if (clamp && integrator != Integrator::light) macros["PHLUX_CLAMP"] = fmt::format("{:a}f", *clamp);
-  if (integrator == Integrator::bidir) {
-    macros["PHLUX_BIDIR"] = "1";
-    if (connections > 0) macros["PHLUX_CONNECTIONS"] = fmt::format("{}.0f", connections);
-    macros["PHLUX_WEIGHTS"] = weights == Weights::balance ? "WEIGHTS_BALANCE"
-                              : weights == Weights::power ? "WEIGHTS_POWER"
-                                                          : "WEIGHTS_UNIFORM";
-  }
+  const auto define = [&](const char* name, bool value) { macros[name] = value ? "1" : "0"; };
+  for (const NamedPart& part : named_parts) define(part.macro, this->*part.member);
+  define("ONE_LIGHT", one_light);
+  define("FEW_LIGHTS", few_lights);
+  define("FEW_MATERIALS", few_materials);
+  define("FEW_PRIMITIVES", few_primitives);
+  define("RECORD_TECHNIQUES", techniques);
+  define("HAS_CLAMP", clamp && integrator != Integrator::light);
+  define("IS_BIDIR", integrator == Integrator::bidir);
+  macros["CLAMP_RADIANCE"] = fmt::format("{:a}f", clamp.value_or(0));
+  macros["CONNECTIONS"] = std::to_string(integrator == Integrator::bidir ? connections : 0);
+  macros["WEIGHTS"] = weights == Weights::balance ? "WEIGHTS_BALANCE"
+                      : weights == Weights::power ? "WEIGHTS_POWER"
+                                                  : "WEIGHTS_UNIFORM";
+  macros["PHONG_TABLE_INTERVALS"] = std::to_string(phong::reflectivity_intervals);
+  if (double_precision) macros["PHLUX_DOUBLE"] = "1";
   macros["WIDTH"] = std::to_string(lanes);
-  macros["PHLUX_STRATEGY"] = strategy;
-  macros["PHLUX_CONNECT"] = connect == Connect::none    ? "CONNECT_NONE"
-                            : connect == Connect::light ? "CONNECT_LIGHT"
-                                                        : "CONNECT_MIS";
+  macros["PHONG_STRATEGY"] = fmt::format("\"phong/strategies/{}.cl\"", strategy);
+  macros.merge(lobes::defines_of(models));
+  macros["CONNECT"] = connect == Connect::none    ? "CONNECT_NONE"
+                      : connect == Connect::light ? "CONNECT_LIGHT"
+                                                  : "CONNECT_MIS";
   return macros;
+}
+
+device::ProgramSource Parts::source(const std::string& root, const std::string& extra) const {
+  return {root, defines(), lobes::files_of(models), extra};
 }
 
 } // namespace phlux::render

@@ -8,26 +8,24 @@
 #include <vector>
 
 #include "accel/geometry.h"
-#include "device/device.h"
-#include "render/light_table.h"
+#include "device/program.h"
+#include "lobes/program.h"
 #include "render/render.h"
+#include "tables/light_table.h"
 
 namespace phlux::render {
 
 /// Tables of no more entries are few enough to be permuted in the registers of a CPU (kernels/lanes.h).
 inline constexpr std::size_t few_entries = 16;
 
-enum class Integrator { path, light, bidir };
-
 struct Parts {
   Integrator integrator = Integrator::path;
   int lanes = 1;
   bool hierarchy = false;
   bool double_precision = false; ///< kernels/lanes.h: Real is a double
-  bool planars = false, triangles = false, parallelograms = false, ellipses = false, spheres = false;
+  bool triangles = false, parallelograms = false, ellipses = false, spheres = false;
   bool smooth_normals = false, two_sided = false, black = false;
-  bool phong_lobe = false, anisotropic = false;
-  bool emission = false; ///< a ray can hit a light's surface
+  std::vector<lobes::ModelPointer> models = {lobes::shipped("diffuse")}; ///< reflectance models
   bool light_planar = false, light_sphere = false, light_point = false, light_spot = false,
        light_directional = false, light_constant = false;
   bool ambient = false;      ///< a control variate is asked for
@@ -36,31 +34,30 @@ struct Parts {
   bool one_light = false, few_lights = false, few_materials = false, few_primitives = false; ///< no code
   Connect connect = Connect::mis;
   Weights weights = Weights::balance;
-  int connections = 0;         ///< as in Settings; 0: no code for roulette
-  bool techniques = false;     ///< contributions are recorded one by one
-  std::optional<double> clamp; ///< most that a path brings to its own pixel, in units of the light table
-  std::string strategy;
+  int connections = 0;            ///< as in Settings; 0: no code for roulette
+  bool techniques = false;        ///< contributions are recorded one by one
+  std::optional<double> clamp;    ///< most that a path brings to its own pixel, in units of the light table
+  std::string strategy = "exact"; ///< of the phong model
 
+  [[nodiscard]] bool has_model(const std::string& name) const;
+  [[nodiscard]] bool has_tangents() const; ///< a model needs them
   /// Names for people, such as "spheres" or "light_planar", in a fixed order.
   [[nodiscard]] std::vector<std::string> names() const;
   /// The kernel file of the integrator.
   [[nodiscard]] const char* file() const;
   /// Macros for the kernels.
   [[nodiscard]] std::map<std::string, std::string> defines() const;
+  /// The program of the kernel file `root`, or of the text `extra`, with these parts.
+  [[nodiscard]] device::ProgramSource source(const std::string& root, const std::string& extra = "") const;
 };
 
 /// WIDTH on a device. @throws UsageError for a WIDTH without doubles where they are asked for, DeviceError
 /// where the device has none
 [[nodiscard]] int lanes_for(const device::DeviceInfo& device, const Settings& settings);
 
-/// Whether paths from the eye sample lights, if there are any.
-[[nodiscard]] bool samples_lights(const Settings& settings);
-/// Whether those samples choose by contribution.
-[[nodiscard]] bool wants_light_tree(const Settings& settings);
-
-/// @throws UsageError for an integrator that there is not, and for a strategy, a --connect or an --ambient
-/// that cannot render this scene
+/// @throws UsageError for an integrator or a strategy that there is not, and for settings that cannot render
+/// this scene
 [[nodiscard]] Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry,
-                               const LightTable& lights, const Settings& settings, int lanes);
+                               const tables::LightTable& lights, const Settings& settings, int lanes);
 
 } // namespace phlux::render

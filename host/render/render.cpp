@@ -11,7 +11,6 @@
 #include <thread>
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include "clock.h"
 #include "device/program.h"
@@ -134,7 +133,7 @@ void check(const Settings& settings) {
   if (settings.samples_per_pixel < 1)
     throw UsageError(fmt::format("{} samples per pixel: at least 1 is needed", settings.samples_per_pixel));
   if (settings.first_sample + settings.samples_per_pixel > most)
-    throw UsageError(fmt::format("--first-sample {}: samples are numbered up to {}: begin earlier",
+    throw UsageError(fmt::format("`first-sample` {}: samples are numbered up to {}: begin earlier",
                                  settings.first_sample, most));
 }
 
@@ -151,35 +150,37 @@ void check_paths_end(const scene::Scene& scene, const Settings& settings) {
   constexpr double nearly_all = 0.999;
   if (settings.rr_depth >= 0 || settings.max_depth >= 0) return;
   for (const scene::Material& m : scene.materials)
-    for (int channel = 0; channel < 3; ++channel)
-      if (m.diffuse[channel] + m.specular[channel] >= nearly_all)
-        throw UsageError(
-            "--rr-depth -1 --max-depth -1: a material reflects everything, and nothing would end a path "
-            "in a closed room: give one of the two");
+    if (lobes::largest_reflectance(m) >= nearly_all)
+      throw UsageError(
+          "`rr-depth` -1 `max-depth` -1: a material reflects everything, and nothing would end a path in a "
+          "closed room: give one of the two");
 }
 
 // What the settings make of the scene without being wrong.
-void warn(const scene::Scene& scene, const Settings& settings) {
+void warn(const scene::Scene& scene, const Settings& settings, const Events& events) {
+  if (!events.warning) return;
   const std::size_t lost =
       scene.point_lights.size() + scene.spot_lights.size() + scene.directional_lights.size();
   if (settings.integrator == "path" && settings.connect == Connect::none && lost > 0)
-    spdlog::warn("--connect none: no path can hit a point, spot or directional light: {} of the scene's "
-                 "lights are dark",
-                 lost);
+    events.warning(
+        fmt::format("`connect` none: no path can hit a point, spot or directional light: {} of the "
+                    "scene's lights are dark",
+                    lost));
   const auto anisotropic = [&](const auto& shape) {
     const scene::Material& m = scene.materials[static_cast<std::size_t>(shape.surface.material)];
-    return m.kind == scene::Material::Kind::anisotropic_phong && m.exponent_u != m.exponent_v;
+    return m.model == lobes::shipped("anisotropicphong") && m.value("exponent_u") != m.value("exponent_v");
   };
   if (std::any_of(scene.meshes.begin(), scene.meshes.end(), anisotropic))
-    spdlog::warn("anisotropicphong on a mesh: texture coordinates are not read, and exponentU is along each "
-                 "triangle's "
-                 "first edge: use rectangle, cube or disk, whose axes toWorld turns, or equal exponents");
+    events.warning("anisotropicphong on a mesh: texture coordinates are not read, and exponentU is along "
+                   "each triangle's "
+                   "first edge: use rectangle, cube or disk, whose axes toWorld turns, or equal exponents");
   if (std::any_of(scene.spheres.begin(), scene.spheres.end(), anisotropic))
-    spdlog::warn("anisotropicphong on a sphere: toWorld does not turn it, and exponentU is along the circles "
-                 "about the world's z axis: use equal exponents where that matters");
+    events.warning("anisotropicphong on a sphere: toWorld does not turn it, and exponentU is along the "
+                   "circles about the "
+                   "world's z axis: use equal exponents where that matters");
   if (settings.strategy == "lobe-estimate-printed")
-    spdlog::warn("--strategy lobe-estimate-printed is biased: it loses light at grazing angles; "
-                 "lobe-estimate does not");
+    events.warning("`strategy` lobe-estimate-printed is biased: it loses light at grazing angles; "
+                   "lobe-estimate does not");
 }
 
 // Builds the scene's program for each device. The tables for one WIDTH serve every device of that WIDTH.
@@ -187,8 +188,8 @@ class Workshop {
 public:
   Workshop(const scene::Scene& scene, const Settings& settings, const Events& events)
       : scene_(scene), settings_(settings), events_(events),
-        files_(settings.kernel_dir.empty() ? device::KernelFiles()
-                                           : device::KernelFiles(settings.kernel_dir)) {}
+        files_(settings.kernel_dir.empty() ? sources::KernelFiles()
+                                           : sources::KernelFiles(settings.kernel_dir)) {}
 
   // Of the radiances that devices hand over.
   [[nodiscard]] double unit() const { return host_->lights.unit; }
@@ -203,15 +204,13 @@ public:
                       wants_light_tree(settings_));
     Worker worker;
     worker.parts = find_parts(scene_, host_->geometry, host_->lights, settings_, lanes);
-    if (!worker.parts.phong_lobe) warn_of_plain_strategy();
-    warn_of_darkness();
-    warn_of_size();
+    if (events_.warning) warn(worker.parts);
     statistics.seconds_setup += seconds_since(begin);
-    const device::BuiltProgram built = device::build(
-        device, files_, {worker.parts.file(), worker.parts.defines(), {}}, events_.building_kernels);
+    const device::BuiltProgram built =
+        device::build(device, files_, worker.parts.source(worker.parts.file()), events_.building_kernels);
     statistics.kernels_from_cache = built.from_cache;
     statistics.portable_lanes = device::portable_lanes(device);
-    worker.launcher = std::make_unique<Launcher>(device, built.program, *host_, worker.parts, settings_);
+    worker.launcher = std::make_unique<Launcher>(device, built, *host_, worker.parts, settings_);
     const Clock::time_point warm_up_begin = Clock::now();
     worker.launcher->warm_up();
     statistics.seconds_build_kernels += built.seconds + seconds_since(warm_up_begin);
@@ -219,33 +218,29 @@ public:
   }
 
 private:
-  void warn_of_darkness() const {
-    if (!host_->lights.shines()) spdlog::warn("no light of the scene has any power: the image will be black");
-  }
-
-  // Squares of ratios of areas leave float's range: beyond these sizes the weights no longer add up to 1.
-  void warn_of_size() const {
+  // Of what the tables say about the settings.
+  void warn(const Parts& parts) const {
+    if (!host_->lights.shines())
+      events_.warning("no light of the scene has any power: the image will be black");
+    for (const char* name : {"uniform", "theta-phi", "disk", "rejection"})
+      if (settings_.strategy == name && !parts.has_model("phong"))
+        events_.warning(fmt::format(
+            "`strategy` {}: no surface has a phong lobe, so directions are drawn by the cosine", name));
+    // Squares of ratios of areas leave float's range: beyond these sizes the weights no longer add up to 1.
     constexpr double smallest = 1e-6, largest = 1e5;
     const double radius = host_->geometry.radius;
     if (settings_.integrator == "bidir" && settings_.weights == Weights::power &&
         !settings_.double_precision && (radius < smallest || radius > largest))
-      spdlog::warn(
-          "--weights power: the scene's radius is {:.1g}, and the weights are right between {:g} and "
-          "{:g}: use --weights balance",
-          radius, smallest, largest);
-  }
-
-  void warn_of_plain_strategy() const {
-    for (const char* name : {"uniform", "theta-phi", "disk", "rejection"})
-      if (settings_.strategy == name)
-        spdlog::warn("--strategy {}: no surface has a phong lobe, so directions are drawn by the cosine",
-                     name);
+      events_.warning(fmt::format(
+          "`weights` power: the scene's radius is {:.1g}, and the weights are right between {:g} and "
+          "{:g}: use `weights` balance",
+          radius, smallest, largest));
   }
 
   const scene::Scene& scene_;
   const Settings& settings_;
   const Events& events_;
-  device::KernelFiles files_;
+  sources::KernelFiles files_;
   std::optional<HostScene> host_;
   int lanes_ = 0;
 };
@@ -289,7 +284,7 @@ Statistics render(const scene::Scene& scene, const Settings& settings, film::Fil
                   const Standing& from) try {
   check(settings);
   check_paths_end(scene, settings);
-  warn(scene, settings);
+  warn(scene, settings, events);
   Statistics statistics;
   const std::vector<device::Device> devices = device::open_devices(settings.devices);
   Workshop workshop(scene, settings, events);

@@ -44,6 +44,10 @@ private:
   void add_one(Value value) { add_word(static_cast<std::uint32_t>(value)); }
   void add_one(float value) { add_word(std::bit_cast<std::uint32_t>(value == 0.0F ? 0.0F : value)); }
   void add_one(double value) { add_one(static_cast<float>(value)); }
+  void add_one(const std::string& text) {
+    add_word(static_cast<std::uint32_t>(text.size()));
+    XXH3_128bits_update(state_.get(), text.data(), text.size());
+  }
   void add_one(const Vec3& v) { add(v.x, v.y, v.z); }
   void add_one(const glm::vec3& v) { add(v.x, v.y, v.z); }
   void add_one(const std::array<std::uint32_t, 3>& corners) { add(corners[0], corners[1], corners[2]); }
@@ -60,8 +64,7 @@ private:
   }
 
   void add_one(const Material& material) {
-    const auto& [kind, diffuse, specular, exponent_u, exponent_v, two_sided] = material;
-    add(kind, diffuse, specular, exponent_u, exponent_v, two_sided);
+    add(material.model->name, material.model->text, material.values, material.two_sided);
   }
   void add_one(const Surface& surface) {
     const auto& [material, area_emitter] = surface;

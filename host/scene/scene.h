@@ -11,25 +11,11 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
+#include "scene/model.h"
+
 namespace phlux::scene {
 
 using Vec3 = glm::dvec3;
-using Rgb = glm::dvec3;
-
-/// A reflectance model and its parameters. `phong` is the modified Phong model of CW 197 (a diffuse surface
-/// has `specular` 0); `anisotropic_phong` is Ashikhmin and Shirley's. Energy is conserved: for `phong`,
-/// diffuse + specular <= 1 in every channel. Exponents are >= 0; `phong` uses exponent_u alone.
-struct Material {
-  enum class Kind { phong, anisotropic_phong };
-  Kind kind = Kind::phong;
-  Rgb diffuse{0.5};
-  Rgb specular{0.0};
-  double exponent_u = 0.0;
-  double exponent_v = 0.0;
-  bool two_sided = false; ///< reflects on both sides; otherwise the back is black
-  [[nodiscard]] bool reflects() const { return diffuse != Rgb(0.0) || specular != Rgb(0.0); }
-  bool operator==(const Material&) const = default;
-};
 
 /// What is attached to a shape: indices into Scene::materials and Scene::area_emitters (-1: emits nothing).
 struct Surface {

@@ -23,7 +23,7 @@ void warn_of_darkness(const Document& document, const scene::Scene& scene) {
 } // namespace
 
 scene::Scene load(const std::filesystem::path& file, const std::map<std::string, std::string>& definitions,
-                  const std::optional<std::array<int, 2>>& size) {
+                  const std::optional<std::array<int, 2>>& size, const lobes::Library& library) {
   Document document;
   read_document(file, definitions, document);
   Properties properties(document.scene, document);
@@ -38,12 +38,12 @@ scene::Scene load(const std::filesystem::path& file, const std::map<std::string,
     read_integrator(*integrator, document, scene.defaults);
 
   const bool scale = properties.boolean("ensure_energy_conservation", false);
-  const ExcessEnergy excess = scale ? ExcessEnergy::scale : ExcessEnergy::error;
+  const MaterialRules rules{library, scale ? ExcessEnergy::scale : ExcessEnergy::error};
   for (const Element* bsdf :
        properties.objects("bsdf")) // also those that no shape refers to: they may be misspelt
-    static_cast<void>(read_material(*bsdf, document, excess));
+    static_cast<void>(read_material(*bsdf, document, rules));
   for (const Element* emitter : properties.objects("emitter")) read_emitter(*emitter, document, scene);
-  for (const Element* shape : properties.objects("shape")) read_shape(*shape, document, excess, scene);
+  for (const Element* shape : properties.objects("shape")) read_shape(*shape, document, rules, scene);
   properties.finish();
   warn_of_darkness(document, scene);
   return scene;

@@ -7,16 +7,19 @@
 #include <optional>
 #include <string>
 
+#include "lobes/models.h"
 #include "scene/scene.h"
 
 namespace phlux::scene_file {
 
 /// Reads FILE and the meshes that it names. `definitions` are `-D name=value`, replacing `$name` and
-/// <default>s; `size` is the image's width and height in pixels in place of the film's. Warnings go to the
+/// <default>s; `size` is the image's width and height in pixels in place of the film's; `library`
+/// has the reflectance models that the file may name. Warnings go to the
 /// log (spdlog), each naming FILE:LINE.
 /// @throws SceneError "FILE:LINE: what is wrong: what would be right"
 [[nodiscard]] scene::Scene load(const std::filesystem::path& file,
                                 const std::map<std::string, std::string>& definitions = {},
-                                const std::optional<std::array<int, 2>>& size = {});
+                                const std::optional<std::array<int, 2>>& size = {},
+                                const lobes::Library& library = {});
 
 } // namespace phlux::scene_file

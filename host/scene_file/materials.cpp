@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/gtx/component_wise.hpp>
 
@@ -12,108 +13,117 @@ namespace phlux::scene_file {
 namespace {
 
 using scene::Material;
+using scene::Parameter;
 using scene::Rgb;
 
-constexpr const char* supported_bsdfs =
-    "supported are diffuse, phong, anisotropicphong and twosided around one of these";
-constexpr double default_exponent = 30.0; // these three are Mitsuba's, as are all others in this folder
-constexpr double default_diffuse = 0.5;
-constexpr double default_specular = 0.2;
 /// What Mitsuba leaves of reflectances that it scales down.
 constexpr double kept_energy = 0.99;
 
+std::string supported_bsdfs(const lobes::Library& library) {
+  std::string list;
+  for (const auto& model : library.models()) list += model->name + ", ";
+  return "supported are " + list + "and twosided around one of these";
+}
+
 std::string text(const Rgb& color) {
-  return std::to_string(color.r) + " " + std::to_string(color.g) + " " + std::to_string(color.b);
+  return color.x == color.y && color.y == color.z ? fmt::format("{:g}", color.x)
+                                                  : fmt::format("{:g} {:g} {:g}", color.x, color.y, color.z);
 }
 
-Rgb reflectance(Properties& properties, const std::string& name, double otherwise, ExcessEnergy excess) {
-  const Rgb color = properties.color(name, Rgb(otherwise));
-  if (glm::compMin(color) < 0.0 || (excess == ExcessEnergy::error && glm::compMax(color) > 1.0))
-    properties.fail_at(name, "reflectance " + text(color) + " is impossible",
-                       "every channel must be in [0, 1]");
-  return color;
+std::string range_of(const Parameter& parameter) {
+  const std::string what = parameter.kind == Parameter::Kind::colour ? "every channel" : parameter.name;
+  if (parameter.highest >= 1e30) return fmt::format("{} must be {:g} or more", what, parameter.lowest);
+  return fmt::format("{} must be in [{:g}, {:g}]", what, parameter.lowest, parameter.highest);
 }
 
-double exponent(Properties& properties, const std::string& name) {
-  const double value = properties.real(name, default_exponent);
-  if (value < 0.0)
-    properties.fail_at(name, std::to_string(value) + " is negative", "an exponent must be 0 or more");
+/// A fraction that exceeds 1 may be scaled down with the material's others.
+bool may_be_scaled(const Parameter& parameter, ExcessEnergy excess) {
+  return parameter.kind == Parameter::Kind::colour && parameter.highest == 1.0 &&
+         excess == ExcessEnergy::scale;
+}
+
+Rgb read_parameter(Properties& properties, const Parameter& parameter, const std::string& name,
+                   ExcessEnergy excess) {
+  const Rgb value = parameter.kind == Parameter::Kind::colour
+                        ? properties.color(name, Rgb(parameter.otherwise))
+                        : Rgb(properties.real(name, parameter.otherwise));
+  const bool too_high = glm::compMax(value) > parameter.highest && !may_be_scaled(parameter, excess);
+  if (glm::compMin(value) < parameter.lowest || too_high)
+    properties.fail_at(name, text(value) + " is out of range", range_of(parameter));
   return value;
 }
 
-/// Scales both by .99 / `most`, as Mitsuba does, if `most` (the largest channel of what must stay within 1)
-/// exceeds 1.
-void conserve_energy(Properties& properties, Material& material, double most, ExcessEnergy excess) {
+/// Scales the colours by .99 / the largest reflectance, as Mitsuba does, if that exceeds 1.
+void conserve_energy(Properties& properties, Material& material, ExcessEnergy excess) {
+  const double most = lobes::largest_reflectance(material);
   if (most <= 1.0) return;
   const Location& where = properties.element().where;
   const std::string wrong =
       properties.element().name() + " reflects " + std::to_string(most) + " times what arrives";
+  std::string colours;
+  for (const Parameter& parameter : material.model->parameters)
+    if (parameter.kind == Parameter::Kind::colour)
+      colours += (colours.empty() ? "" : " + ") + properties.spelling(parameter.name);
   if (excess == ExcessEnergy::error)
     fail(where, wrong,
-         properties.spelling("diffuse_reflectance") + " + " + properties.spelling("specular_reflectance") +
-             " must be at most 1 in every channel (ensureEnergyConservation=true scales them down)");
-  material.diffuse *= kept_energy / most;
-  material.specular *= kept_energy / most;
+         colours + " must be at most 1 in every channel (ensureEnergyConservation=true scales them down)");
+  for (std::size_t i = 0; i < material.values.size(); ++i)
+    if (material.model->parameters[i].kind == Parameter::Kind::colour)
+      material.values[i] *= kept_energy / most;
   warn(where, wrong + "; its reflectances are scaled by " + std::to_string(kept_energy / most));
 }
 
-Material read_lobes(Properties& properties, ExcessEnergy excess) {
+/// Mitsuba's conductor has the indices of refraction of a metal, copper where none is named; ours is a mirror
+/// with a reflectance.
+void require_no_metal(Properties& properties) {
+  const std::string otherwise = properties.document().major_version == 0 ? "Cu" : "none";
+  const std::string metal = properties.string("material", otherwise);
+  if (metal != "none")
+    properties.fail_at("material", "a conductor of " + metal + " is not supported",
+                       R"(<string name="material" value="none"/>, a mirror of specularReflectance)");
+}
+
+Material read_model(Properties& properties, const lobes::ModelPointer& model, ExcessEnergy excess) {
   Material material;
-  const std::string type = properties.element().type();
-  if (type == "diffuse") {
-    const bool long_name = properties.has("diffuse_reflectance") && !properties.has("reflectance");
-    material.diffuse =
-        reflectance(properties, long_name ? "diffuse_reflectance" : "reflectance", default_diffuse, excess);
-    conserve_energy(properties, material, glm::compMax(material.diffuse), excess);
-    return material;
+  material.model = model;
+  if (model->name == "conductor") require_no_metal(properties);
+  for (const Parameter& parameter : model->parameters) {
+    // Mitsuba reads a diffuse bsdf's reflectance by this name too.
+    const bool long_name =
+        model->name == "diffuse" && properties.has("diffuse_reflectance") && !properties.has("reflectance");
+    const std::string name = long_name ? "diffuse_reflectance" : parameter.name;
+    material.values.push_back(read_parameter(properties, parameter, name, excess));
   }
-  material.diffuse = reflectance(properties, "diffuse_reflectance", default_diffuse, excess);
-  material.specular = reflectance(properties, "specular_reflectance", default_specular, excess);
-  if (type == "phong") {
-    material.exponent_u = exponent(properties, "exponent");
-    conserve_energy(properties, material, glm::compMax(material.diffuse + material.specular), excess);
-  } else {
-    material.kind = Material::Kind::anisotropic_phong;
-    material.exponent_u = exponent(properties, "exponent_u");
-    material.exponent_v = exponent(properties, "exponent_v");
-    // The model's diffuse term already gives way to the specular one: each alone must stay within 1.
-    const double most = std::max(glm::compMax(material.diffuse), glm::compMax(material.specular));
-    conserve_energy(properties, material, most, excess);
-  }
+  conserve_energy(properties, material, excess);
   return material;
 }
 
-/// One reflectance function, whatever its parameters say: without a lobe the exponent means nothing.
-Material simplest(Material material) {
-  if (material.specular == Rgb(0.0) && material.kind == Material::Kind::phong) material.exponent_u = 0.0;
-  return material;
-}
-
-Material read_two_sided(Properties& properties, const Document& document, ExcessEnergy excess) {
+Material read_two_sided(Properties& properties, const Document& document, MaterialRules rules) {
   const Element* nested = properties.object("bsdf");
   if (!nested || nested->type() == "twosided")
     fail(properties.element().where,
          "<bsdf type=\"twosided\"> around " + (nested ? nested->name() : "nothing"),
-         "one nested or referenced diffuse, phong or anisotropicphong");
-  Material material = read_material(*nested, document, excess);
+         "one nested or referenced bsdf; " + supported_bsdfs(rules.library));
+  Material material = read_material(*nested, document, rules);
   material.two_sided = true;
   return material;
 }
 
 } // namespace
 
-scene::Material read_material(const Element& bsdf, const Document& document, ExcessEnergy excess) {
+scene::Material read_material(const Element& bsdf, const Document& document, MaterialRules rules) {
   Properties properties(bsdf, document);
   const std::string type = bsdf.type();
-  if (type != "diffuse" && type != "phong" && type != "anisotropicphong" && type != "twosided")
-    fail(bsdf.where, bsdf.name() + " is not supported", supported_bsdfs);
+  const lobes::ModelPointer model = rules.library.find(type);
+  if (!model && type != "twosided")
+    fail(bsdf.where, bsdf.name() + " is not supported", supported_bsdfs(rules.library));
   if (properties.has("ensure_energy_conservation"))
-    excess =
+    rules.excess =
         properties.boolean("ensure_energy_conservation", false) ? ExcessEnergy::scale : ExcessEnergy::error;
   const Material material =
-      type == "twosided" ? read_two_sided(properties, document, excess) : read_lobes(properties, excess);
+      model ? read_model(properties, model, rules.excess) : read_two_sided(properties, document, rules);
   properties.finish();
-  return simplest(material);
+  return lobes::simplest(material);
 }
 
 int share(std::vector<scene::Material>& materials, const scene::Material& material) {

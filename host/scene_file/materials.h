@@ -1,19 +1,25 @@
-// <bsdf>: diffuse, phong, anisotropicphong, and twosided around one of them.
+// <bsdf>: the reflectance models of the library, and twosided around one of them.
 #pragma once
 
 #include <vector>
 
+#include "lobes/models.h"
 #include "scene/scene.h"
 #include "scene_file/document.h"
 
 namespace phlux::scene_file {
 
-/// What to do where diffuse + specular exceeds 1 in a channel, unless the <bsdf> itself says.
+/// What to do where a material may reflect more than arrives, unless the <bsdf> itself says.
 enum class ExcessEnergy { error, scale };
 
-/// @throws SceneError for values outside their ranges (Material's), and for what is not supported
+struct MaterialRules {
+  const lobes::Library& library; ///< the models that may be named
+  ExcessEnergy excess = ExcessEnergy::error;
+};
+
+/// @throws SceneError for values outside the ranges that the model declares, and for what is not supported
 [[nodiscard]] scene::Material read_material(const Element& bsdf, const Document& document,
-                                            ExcessEnergy excess);
+                                            MaterialRules rules);
 
 /// The index of `material` in `materials`, where equal materials are one.
 [[nodiscard]] int share(std::vector<scene::Material>& materials, const scene::Material& material);

@@ -1,8 +1,11 @@
 #include "scene_file/sensor.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
+#include <string>
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -10,6 +13,8 @@
 #include "scene_file/properties.h"
 #include "scene_file/transform.h"
 #include "scene_file/values.h"
+#include "settings/integrators.h"
+#include "settings/values.h"
 
 namespace phlux::scene_file {
 
@@ -132,13 +137,16 @@ void read_sensor(const Element& sensor, const Document& document,
 }
 
 void read_integrator(const Element& integrator, const Document& document, scene::RenderDefaults& defaults) {
-  static const std::map<std::string, std::string> integrators{
-      {"path", "path"}, {"ptracer", "light"}, {"bdpt", "bidir"}};
   Properties properties(integrator, document);
-  const auto known = integrators.find(integrator.type());
-  if (known == integrators.end())
-    fail(integrator.where, integrator.name() + " is not supported", "supported are path, ptracer, bdpt");
-  defaults.integrator = known->second;
+  const auto known =
+      std::ranges::find(settings::integrators, integrator.type(), &settings::IntegratorInfo::mitsuba_name);
+  if (known == settings::integrators.end()) {
+    std::vector<std::string> names;
+    for (const settings::IntegratorInfo& info : settings::integrators) names.emplace_back(info.mitsuba_name);
+    fail(integrator.where, integrator.name() + " is not supported",
+         "supported are " + settings::joined(names));
+  }
+  defaults.integrator = known->name;
   for (const auto& [name, depth] :
        {std::pair{"max_depth", &defaults.max_depth}, std::pair{"rr_depth", &defaults.rr_depth}}) {
     *depth = properties.integer(name, *depth);

@@ -64,13 +64,13 @@ scene::Sphere sphere(Properties& properties, const glm::dmat4& to_world) {
   return result;
 }
 
-scene::Surface surface(Properties& properties, ExcessEnergy excess, scene::Scene& scene) {
+scene::Surface surface(Properties& properties, MaterialRules rules, scene::Scene& scene) {
   const Document& document = properties.document();
   const Element* bsdf = properties.object("bsdf");
   const Element* emitter = properties.object("emitter");
-  scene::Material material; // Mitsuba: grey 0.5 where nothing is given, black where the shape emits
-  if (emitter) material.diffuse = scene::Rgb(0.0);
-  if (bsdf) material = read_material(*bsdf, document, excess);
+  // Mitsuba: grey 0.5 where nothing is given, black where the shape emits
+  const scene::Material material =
+      bsdf ? read_material(*bsdf, document, rules) : lobes::diffuse(scene::Rgb(emitter ? 0.0 : 0.5));
   scene::Surface result{share(scene.materials, material), -1};
   if (!emitter) return result;
   const scene::AreaEmitter area = read_area_emitter(*emitter, document);
@@ -118,7 +118,7 @@ void read_patches(Properties& properties, const glm::dmat4& to_world, const scen
 
 } // namespace
 
-void read_shape(const Element& shape, const Document& document, ExcessEnergy excess, scene::Scene& scene) {
+void read_shape(const Element& shape, const Document& document, MaterialRules rules, scene::Scene& scene) {
   const std::string type = shape.type();
   static const std::set<std::string> types{"rectangle", "cube", "disk", "sphere", "obj", "ply"};
   if (!types.contains(type))
@@ -126,7 +126,7 @@ void read_shape(const Element& shape, const Document& document, ExcessEnergy exc
          "supported are rectangle, cube, disk, sphere, obj, ply");
   Properties properties(shape, document);
   const glm::dmat4 to_world = properties.transform("to_world");
-  const scene::Surface attached = surface(properties, excess, scene);
+  const scene::Surface attached = surface(properties, rules, scene);
   if (type == "obj" || type == "ply") {
     read_mesh_shape(properties, to_world, attached, scene);
   } else if (type == "sphere") {

@@ -13,6 +13,6 @@ namespace phlux::scene_file {
 /// mirrors (normals go with the inverse transpose), and flip_normals turns it over. So do all of Mitsuba's
 /// shapes, except that 0.6 turns mirrored meshes without vertex normals inside out, which Mitsuba 3 mended.
 /// @throws SceneError
-void read_shape(const Element& shape, const Document& document, ExcessEnergy excess, scene::Scene& scene);
+void read_shape(const Element& shape, const Document& document, MaterialRules rules, scene::Scene& scene);
 
 } // namespace phlux::scene_file

@@ -11,14 +11,6 @@
 namespace phlux::verify {
 namespace {
 
-scene::Material phong(const Rgb& diffuse, const Rgb& specular, double exponent) {
-  scene::Material m;
-  m.diffuse = diffuse;
-  m.specular = specular;
-  m.exponent_u = exponent;
-  return m;
-}
-
 std::string rgb_text(const Rgb& c) {
   return c.r == c.g && c.g == c.b ? fmt::format("{:.3g}", c.r)
                                   : fmt::format("({:.3g} {:.3g} {:.3g})", c.r, c.g, c.b);
@@ -26,11 +18,11 @@ std::string rgb_text(const Rgb& c) {
 
 } // namespace
 
-Case make_case(const render::MaterialTable& table, int material, double degrees) {
+Case make_case(const std::vector<scene::Material>& materials, int material, double degrees) {
   Case one;
   one.material = material;
   one.degrees = degrees;
-  one.at.model = model_of(table.records[static_cast<std::size_t>(material)]);
+  one.at.model = model_of(materials[static_cast<std::size_t>(material)]);
   const double angle = degrees * std::numbers::pi / 180;
   // An odd longitude, so that x and y are not mistaken for one another.
   one.at.fixed = as_float(polar(angle, 2.2));
@@ -43,24 +35,24 @@ Case make_case(const render::MaterialTable& table, int material, double degrees)
 
 Cases make_cases(bool quick) {
   // The first is that of CW 197's figures 6 and 7.
-  std::vector<scene::Material> materials{phong(Rgb(.4), Rgb(.05), 50),
-                                         phong({.4, .3, .2}, {.3, .4, .5}, 10),
-                                         phong({.05, .1, 0}, {.8, .6, .9}, 1000),
-                                         phong({0, 0, 0}, {.9, .5, .1}, 1),
-                                         phong(Rgb(.05), Rgb(.9), 1e6),
-                                         phong({.7, .6, .5}, {.25, .2, .3}, 2)};
+  std::vector<scene::Material> materials{lobes::phong(Rgb(.4), Rgb(.05), 50),
+                                         lobes::phong({.4, .3, .2}, {.3, .4, .5}, 10),
+                                         lobes::phong({.05, .1, 0}, {.8, .6, .9}, 1000),
+                                         lobes::phong({0, 0, 0}, {.9, .5, .1}, 1),
+                                         lobes::phong(Rgb(.05), Rgb(.9), 1e6),
+                                         lobes::phong({.7, .6, .5}, {.25, .2, .3}, 2)};
   std::vector<double> angles{0, 50, 80, 89.9};
   if (!quick) {
-    for (const auto& m : {phong(Rgb(0), Rgb(1), 10), phong(Rgb(.1), Rgb(.8), 90), phong(Rgb(.2), Rgb(.3), 0),
-                          phong({.5, .4, .1}, {.1, .4, .2}, 1e4), phong(Rgb(.7, .5, .3), Rgb(0), 5),
-                          phong(Rgb(.25), Rgb(.5), 2.5)})
+    for (const auto& m : {lobes::phong(Rgb(0), Rgb(1), 10), lobes::phong(Rgb(.1), Rgb(.8), 90),
+                          lobes::phong(Rgb(.2), Rgb(.3), 0), lobes::phong({.5, .4, .1}, {.1, .4, .2}, 1e4),
+                          lobes::phong(Rgb(.7, .5, .3), Rgb(0), 5), lobes::phong(Rgb(.25), Rgb(.5), 2.5)})
       materials.push_back(m);
     angles = {0, 30, 60, 75, 85, 89.9};
   }
-  Cases cases{render::material_table(materials), {}};
+  Cases cases{materials, {}};
   for (std::size_t m = 0; m < materials.size(); ++m)
     for (const double angle : angles)
-      cases.cases.push_back(make_case(cases.table, static_cast<int>(m), angle));
+      cases.cases.push_back(make_case(cases.materials, static_cast<int>(m), angle));
   return cases;
 }
 

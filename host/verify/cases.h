@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "render/material_table.h"
+#include "lobes/program.h"
 #include "verify/sphere_grid.h"
 #include "verify/strategy.h"
 
@@ -18,7 +18,7 @@ struct Case {
 };
 
 struct Cases {
-  render::MaterialTable table;
+  std::vector<scene::Material> materials;
   std::vector<Case> cases;
 };
 
@@ -26,7 +26,7 @@ struct Cases {
 [[nodiscard]] Cases make_cases(bool quick);
 
 /// One case of a table's material; the fixed direction is that of float32, off the axes.
-[[nodiscard]] Case make_case(const render::MaterialTable& table, int material, double degrees);
+[[nodiscard]] Case make_case(const std::vector<scene::Material>& materials, int material, double degrees);
 
 /// What the parts of all strategies have in the cells of a grid about the lobe, integrated in float64.
 struct CaseCells {

@@ -17,14 +17,6 @@ constexpr double reflectivity_error = 1e-4; // relative, at every exponent and a
 constexpr double value_error = 1e-5;        // relative, of f_r where it is well conditioned
 constexpr double known_error = 1e-6;        // of printed values, which have 8 digits
 
-scene::Material phong(const Rgb& diffuse, const Rgb& specular, double exponent) {
-  scene::Material m;
-  m.diffuse = diffuse;
-  m.specular = specular;
-  m.exponent_u = exponent;
-  return m;
-}
-
 std::vector<double> exponents(bool quick) {
   std::vector<double> list{0, 0.1, 0.3, 0.5, 1, 1.5, 2, 3};
   const int per_decade = quick ? 1 : 4;
@@ -65,11 +57,12 @@ ModelCases make_model_cases(bool quick) {
   ModelCases cases;
   cases.exponents = exponents(quick);
   std::vector<scene::Material> materials;
-  for (const double n : cases.exponents) materials.push_back(phong({0, 0.3, 0.5}, {1, 0.7, 0.2}, n));
+  for (const double n : cases.exponents) materials.push_back(lobes::phong({0, 0.3, 0.5}, {1, 0.7, 0.2}, n));
   for (const auto& known : known_values)
-    materials.push_back(phong(Rgb(known.diffuse), Rgb(known.specular), known.exponent));
-  for (const auto& known : known_reflectivities) materials.push_back(phong(Rgb(0), Rgb(1), known.exponent));
-  cases.table = render::material_table(materials);
+    materials.push_back(lobes::phong(Rgb(known.diffuse), Rgb(known.specular), known.exponent));
+  for (const auto& known : known_reflectivities)
+    materials.push_back(lobes::phong(Rgb(0), Rgb(1), known.exponent));
+  cases.materials = materials;
   return cases;
 }
 
@@ -80,7 +73,7 @@ void check_reflectivity(const DeviceModel& device, const ModelCases& cases, bool
   for (const double degrees : angles(quick)) cosines.push_back(as_float({cosine_of(degrees), 0, 0}).x);
   for (std::size_t m = 0; m < cases.exponents.size(); ++m) {
     const auto seen = device.reflectivity(static_cast<int>(m), cosines);
-    const Model model = model_of(cases.table.records[m]);
+    const Model model = model_of(cases.materials[m]);
     for (std::size_t i = 0; i < cosines.size(); ++i) {
       const double angle = std::acos(cosines[i]);
       const Rgb right = model.diffuse + model.specular * lobe_reflectivity(model.exponent, angle);
@@ -119,7 +112,7 @@ void check_values(const DeviceModel& device, const ModelCases& cases, std::size_
   for (std::size_t m = 0; m < cases.exponents.size(); ++m) {
     const auto pairs = random_pairs(cases.exponents[m], count);
     const auto seen = device.evaluate(static_cast<int>(m), pairs);
-    const Model model = model_of(cases.table.records[m]);
+    const Model model = model_of(cases.materials[m]);
     const std::string where = fmt::format("n {:.6g}", model.exponent);
     double asymmetry = 0, error = 0, edge = 0;
     for (std::size_t i = 0; i < pairs.size(); ++i) {

@@ -55,7 +55,7 @@ void check_known_variances(const Subject& subject, const DeviceModel& device, co
   const Strategy& strategy = subject.strategy;
   const bool roulette = strategy.family != Family::smooth;
   for (std::size_t i = 0; i < std::size(known_variances); ++i) {
-    const Case one = make_case(cases.table, static_cast<int>(i), known_variances[i].degrees);
+    const Case one = make_case(cases.materials, static_cast<int>(i), known_variances[i].degrees);
     const Moments m = draw(device, one, count, 900 + static_cast<std::uint32_t>(i), roulette);
     const double mean = one.at.total().r, allowed = 1e-5 * mean; // float32
     if (!strategy.biased())
@@ -79,7 +79,7 @@ void check_known_losses(const Subject& subject, const DeviceModel& device, const
   std::string note = "biased, as printed in CW 197: loses";
   for (std::size_t i = 0; i < std::size(known_losses); ++i) {
     const Case one =
-        make_case(cases.table, static_cast<int>(std::size(known_variances) + i), known_losses[i].degrees);
+        make_case(cases.materials, static_cast<int>(std::size(known_variances) + i), known_losses[i].degrees);
     const Moments m = draw(device, one, count, 950 + static_cast<std::uint32_t>(i), true);
     const double specular = one.at.reflectivity, loss = 1 - m.mean() / specular,
                  error = m.standard_error() / specular;
@@ -100,15 +100,11 @@ void check_known_losses(const Subject& subject, const DeviceModel& device, const
 VarianceCases make_variance_cases() {
   std::vector<scene::Material> materials;
   const auto add = [&](double diffuse, double specular, double exponent) {
-    scene::Material m;
-    m.diffuse = Rgb(diffuse);
-    m.specular = Rgb(specular);
-    m.exponent_u = exponent;
-    materials.push_back(m);
+    materials.push_back(lobes::phong(Rgb(diffuse), Rgb(specular), exponent));
   };
   for (const auto& known : known_variances) add(known.diffuse, known.specular, known.exponent);
   for (const auto& known : known_losses) add(0, 1, known.exponent);
-  return {render::material_table(materials)};
+  return {materials};
 }
 
 void check_variances(const Subject& subject, const DeviceModel& device, const VarianceCases& cases) {

@@ -48,7 +48,7 @@ void check_extremes(const Subject& subject); ///< first and last random numbers,
 
 /// Materials of known variances and of known bias.
 struct VarianceCases {
-  render::MaterialTable table;
+  std::vector<scene::Material> materials;
 };
 [[nodiscard]] VarianceCases make_variance_cases();
 /// Longer runs. `device` was built with the table of `cases`.
@@ -56,7 +56,7 @@ void check_variances(const Subject& subject, const DeviceModel& device, const Va
 
 /// Of the model, whatever the strategy.
 struct ModelCases {
-  render::MaterialTable table; ///< first one material per exponent
+  std::vector<scene::Material> materials; ///< first one material per exponent
   std::vector<double> exponents;
 };
 [[nodiscard]] ModelCases make_model_cases(bool quick);

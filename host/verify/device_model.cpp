@@ -2,31 +2,23 @@
 
 #include <algorithm>
 #include <bit>
-#include <cctype>
 #include <cmath>
 
 #include "device/work_groups.h"
+#include "render/parts.h"
 
 namespace phlux::verify {
 namespace {
 
-constexpr std::size_t sample_values = 9, pair_values = 8; // planes of verify.cl
+constexpr std::size_t sample_values = 10, pair_values = 10; // planes of verify.cl
 
-std::string macro_of(const std::string& strategy) {
-  std::string macro = "STRATEGY_" + strategy;
-  for (char& c : macro) c = c == '-' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return macro;
-}
-
-device::ProgramSource source_of(const std::string& strategy, int lanes, bool with_lobe) {
-  device::ProgramSource source{"verify.cl",
-                               {{"WIDTH", std::to_string(lanes)},
-                                {"PHLUX_GIVEN_WORDS", "1"},
-                                {"PHLUX_STRATEGY", macro_of(strategy)},
-                                {"PHONG_TABLE_INTERVALS", std::to_string(render::reflectivity_intervals)}},
-                               ""};
-  if (with_lobe) source.defines["PHLUX_PHONG_LOBE"] = "1";
-  return source;
+device::ProgramSource source_of(const std::string& strategy, int lanes,
+                                const std::vector<lobes::ModelPointer>& models) {
+  render::Parts parts;
+  parts.lanes = lanes;
+  parts.strategy = strategy;
+  parts.models = models;
+  return parts.source("measure/verify.cl");
 }
 
 template<typename T>
@@ -50,11 +42,14 @@ std::uint32_t word_for(double u) {
   return static_cast<std::uint32_t>(std::clamp(std::floor(u * 0x1p23), 0.0, 0x1p23 - 1)) << 9;
 }
 
-DeviceModel::DeviceModel(const device::Device& device, const device::KernelFiles& files, int lanes,
-                         const std::string& strategy, const render::MaterialTable& materials, bool with_lobe)
-    : device_(device), lanes_(lanes),
-      program_(device::build(device, files, source_of(strategy, lanes, with_lobe)).program),
-      materials_(buffer_of(device, materials.records)), table_(buffer_of(device, materials.reflectivity)) {}
+DeviceModel::DeviceModel(const device::Device& device, const sources::KernelFiles& files, int lanes,
+                         const std::string& strategy, const std::vector<scene::Material>& materials)
+    : device_(device), lanes_(lanes) {
+  const lobes::MaterialTable table = lobes::material_table(materials);
+  program_ = device::build(device, files, source_of(strategy, lanes, table.models)).program;
+  materials_ = buffer_of(device, table.records);
+  table_ = buffer_of(device, table.tables);
+}
 
 std::size_t DeviceModel::elements_of_groups(std::size_t elements) const {
   return device::items_for(elements, lanes_) * static_cast<std::size_t>(lanes_);
@@ -89,7 +84,8 @@ std::vector<Sample> DeviceModel::run_samples(cl::Kernel& kernel, cl_uint last, s
   std::vector<Sample> samples(elements);
   for (std::size_t i = 0; i < elements; ++i) {
     const auto at = [&](std::size_t k) -> double { return results[k * plane + i]; };
-    samples[i] = {{at(0), at(1), at(2)}, {at(3), at(4), at(5)}, at(6), at(7) != 0, static_cast<int>(at(8))};
+    samples[i] = {
+        {at(0), at(1), at(2)}, {at(3), at(4), at(5)}, at(6), at(7) != 0, static_cast<int>(at(8)), at(9) != 0};
   }
   return samples;
 }
@@ -136,7 +132,7 @@ std::vector<PairValues> DeviceModel::evaluate(int material, const std::vector<Pa
   std::vector<PairValues> values(pairs.size());
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const auto at = [&](std::size_t k) -> double { return results[k * plane + i]; };
-    values[i] = {{at(0), at(1), at(2)}, {at(3), at(4), at(5)}, at(6), at(7)};
+    values[i] = {{at(0), at(1), at(2)}, {at(3), at(4), at(5)}, at(6), at(7), at(8), at(9)};
   }
   return values;
 }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "device/program.h"
-#include "render/material_table.h"
+#include "lobes/program.h"
 #include "verify/model.h"
 
 namespace phlux::verify {
@@ -18,6 +18,7 @@ struct Sample {
   double density = 0;
   bool survives = true;
   int draws = 0;
+  bool delta = false; ///< sampled from a delta distribution
 };
 
 struct Pair {
@@ -26,6 +27,7 @@ struct Pair {
 struct PairValues {
   Rgb value, reversed;                      ///< f_r of (a, b), and of (b, a)
   double density = 0, reversed_density = 0; ///< of b where a is fixed, and of a where b is
+  double reverse = 0, reversed_reverse = 0; ///< the same two as the other call states them: of a, and of b
 };
 
 /// Random words that a sampler gets: for roulette and the choice of a lobe, for the direction (two), and for
@@ -38,8 +40,8 @@ using Words = std::array<std::uint32_t, 4>;
 class DeviceModel {
 public:
   /// Builds the kernels. @throws DeviceError
-  DeviceModel(const device::Device& device, const device::KernelFiles& files, int lanes,
-              const std::string& strategy, const render::MaterialTable& materials, bool with_lobe = true);
+  DeviceModel(const device::Device& device, const sources::KernelFiles& files, int lanes,
+              const std::string& strategy, const std::vector<scene::Material>& materials);
 
   /// `count` samples of the sequence `seed`, from its path `first` on; materials by their index in the table.
   [[nodiscard]] std::vector<Sample> sample(int material, const Direction& fixed, std::size_t count,

@@ -40,9 +40,9 @@ double Model::specular_max() const {
   return std::max({specular.r, specular.g, specular.b});
 }
 
-Model model_of(const MaterialRecord& record) {
-  const auto rgb = [](const float* from) { return Rgb(from[0], from[1], from[2]); };
-  return {rgb(record.diffuse), rgb(record.specular), record.exponent};
+Model model_of(const scene::Material& phong) {
+  return {as_float(phong.value("diffuse_reflectance")), as_float(phong.value("specular_reflectance")),
+          as_float(phong.value("exponent")).x};
 }
 
 Direction polar(double angle, double longitude) {

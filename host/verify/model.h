@@ -7,7 +7,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "scene_data.h"
+#include "scene/model.h"
 
 namespace phlux::verify {
 
@@ -23,7 +23,7 @@ struct Model {
 };
 
 /// The parameters that the device computes with: float32's.
-[[nodiscard]] Model model_of(const MaterialRecord& record);
+[[nodiscard]] Model model_of(const scene::Material& phong);
 
 /// z turned by `angle`, at `longitude` from x; radians.
 [[nodiscard]] Direction polar(double angle, double longitude);

@@ -28,7 +28,7 @@ Report run(const device::Device& device, const Settings& settings) {
         std::ranges::find(settings.strategies, strategy.name) == settings.strategies.end())
       continue;
     if (settings.progress) settings.progress(strategy.name);
-    const DeviceModel model(device, settings.kernels, settings.lanes, strategy.name, cases.table);
+    const DeviceModel model(device, settings.kernels, settings.lanes, strategy.name, cases.materials);
     const Subject subject{strategy,       model, cases, cells, samples_of(device, settings),
                           settings.quick, report};
     check_samples(subject);
@@ -36,12 +36,14 @@ Report run(const device::Device& device, const Settings& settings) {
     check_pairs(subject);
     check_jacobian(subject);
     check_extremes(subject);
-    const DeviceModel known(device, settings.kernels, settings.lanes, strategy.name, variance_cases.table);
+    const DeviceModel known(device, settings.kernels, settings.lanes, strategy.name,
+                            variance_cases.materials);
     check_variances(subject, known, variance_cases);
     if (!first) continue;
     first = false;
     const ModelCases model_cases = make_model_cases(settings.quick);
-    const DeviceModel of_model(device, settings.kernels, settings.lanes, strategy.name, model_cases.table);
+    const DeviceModel of_model(device, settings.kernels, settings.lanes, strategy.name,
+                               model_cases.materials);
     check_model(of_model, model_cases, settings.quick, subject.samples / 2, report);
   }
   report.judge();

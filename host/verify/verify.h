@@ -16,7 +16,7 @@ struct Settings {
   bool quick = false;                  ///< fewer cases and samples
   std::size_t samples = 0;             ///< per case; 0: what suits `quick` and the device
   std::vector<std::string> strategies; ///< names; empty: all
-  device::KernelFiles kernels;
+  sources::KernelFiles kernels;
   std::function<void(const std::string&)> progress; ///< called with the name of what comes next
 };
 

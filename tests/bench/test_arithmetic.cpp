@@ -3,10 +3,10 @@
 
 #include <catch2/catch.hpp>
 
-#include "bench/arithmetic.h"
-#include "bench/csv.h"
-#include "bench/phong_program.h"
-#include "bench/saved_table.h"
+#include "bench/arithmetic/arithmetic.h"
+#include "bench/common/phong_program.h"
+#include "bench/common/tables/csv.h"
+#include "bench/common/tables/saved_table.h"
 #include "kernel_copy.h"
 #include "temporary_folder.h"
 
@@ -79,7 +79,7 @@ TEST_CASE("Polynomials of our own are as right as they were fitted") {
 
 TEST_CASE("A formula made worse has larger errors") {
   const KernelCopy copy("arithmetic.cl", "(Real)(-7.21347332e-01f)", "(Real)(-7.21447332e-01f)");
-  const ArithmeticKernels worse(test_device(), device::KernelFiles(copy.folder()), test_device().info.lanes);
+  const ArithmeticKernels worse(test_device(), sources::KernelFiles(copy.folder()), test_device().info.lanes);
   CHECK(errors_of(worse, "function_own_log").largest_relative >
         50 * errors_of("function_own_log").largest_relative);
   CHECK(errors_of(worse, "function_log").largest_relative == errors_of("function_log").largest_relative);

@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "bench/figures.h"
+#include "bench/figures/figures.h"
 #include "errors.h"
 #include "temporary_folder.h"
 

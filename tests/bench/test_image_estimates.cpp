@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "bench/image_estimates.h"
+#include "bench/common/methods/image_estimates.h"
 #include "files/compare.h"
 
 using namespace phlux::bench;

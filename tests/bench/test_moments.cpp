@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "bench/moments.h"
+#include "bench/common/moments.h"
 
 using namespace phlux::bench;
 

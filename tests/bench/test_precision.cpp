@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "bench/precision.h"
+#include "bench/precision/precision.h"
 
 using namespace phlux::bench;
 

@@ -5,9 +5,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "bench/radiance.h"
-#include "bench/sampler.h"
-#include "sampling_radiance.h"
+#include "bench/sampling/radiance.h"
+#include "bench/sampling/sampler.h"
+#include "measure/sampling_radiance.h"
 
 using namespace phlux;
 using namespace phlux::bench;

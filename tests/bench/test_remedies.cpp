@@ -1,4 +1,4 @@
-#include "bench/remedies.h"
+#include "bench/remedies/remedies.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
 
-#include "bench/many_lights_scene.h"
+#include "bench/remedies/many_lights_scene.h"
 
 using namespace phlux;
 using namespace phlux::bench;

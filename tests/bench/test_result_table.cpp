@@ -2,8 +2,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "bench/fingerprint.h"
-#include "bench/result_table.h"
+#include "bench/common/methods/result_table.h"
+#include "bench/common/tables/fingerprint.h"
 #include "temporary_folder.h"
 
 using namespace phlux;

@@ -2,7 +2,7 @@
 // say.
 #include <catch2/catch.hpp>
 
-#include "bench/sampler.h"
+#include "bench/sampling/sampler.h"
 #include "render/render.h"
 
 using namespace phlux;

@@ -7,9 +7,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "bench/sampling.h"
-#include "bench/sampling_table.h"
-#include "bench/saved_table.h"
+#include "bench/common/tables/saved_table.h"
+#include "bench/sampling/sampling.h"
+#include "bench/sampling/sampling_table.h"
 #include "temporary_folder.h"
 
 using namespace phlux;

@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
 
-#include "bench/array_file.h"
-#include "bench/reference.h"
-#include "bench/saved_table.h"
+#include "bench/common/methods/reference.h"
+#include "bench/common/tables/array_file.h"
+#include "bench/common/tables/saved_table.h"
 #include "errors.h"
 #include "temporary_folder.h"
 

@@ -2,8 +2,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "bench/scene_bench.h"
-#include "bench/timed_render.h"
+#include "bench/common/methods/scene_bench.h"
+#include "bench/common/methods/timed_render.h"
 #include "errors.h"
 #include "scene_file/load.h"
 

@@ -5,9 +5,10 @@
 
 #include <catch2/catch.hpp>
 
-#include "bench/scene_bench.h"
-#include "bench/stability.h"
-#include "bench/stability_scene.h"
+#include "bench/common/methods/scene_bench.h"
+#include "bench/stability/stability.h"
+#include "bench/stability/stability_scene.h"
+#include "materials.h"
 
 using namespace phlux;
 using namespace phlux::bench;
@@ -46,7 +47,7 @@ TEST_CASE("The lamp of the atlas has the same power in every cell, and is never 
   for (const StabilityCell& cell : stability_cells(false)) {
     const scene::Scene scene = stability_scene(cell.exponent, cell.light_radius, 8);
     CHECK(power(scene) == Approx(20));
-    CHECK(scene.materials[3].exponent_u == cell.exponent);
+    CHECK(phlux::test::exponent_of(scene.materials[3]) == cell.exponent);
     const scene::Patch& disk = scene.patches.back();
     for (int i = 0; i < 64; ++i) {
       const double angle = 2 * std::numbers::pi * i / 64;

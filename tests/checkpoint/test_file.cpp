@@ -27,7 +27,7 @@ checkpoint::Session small_session() {
   checkpoint::Session session{
       .scene = "box.xml", .scene_digest = "1234", .choices = {}, .settings = {}, .standing = {}};
   session.choices.definitions["a"] = "b";
-  session.choices.seed = 7;
+  session.choices.choose(settings::named("seed"), "7");
   session.settings.seed = 7;
   session.standing.paths = 12;
   session.standing.first_nonfinite = {3, 1, 2};
@@ -44,7 +44,7 @@ struct Saved : TemporaryFolder {
     write("c", text);
     try {
       static_cast<void>(checkpoint::read(*this / "c"));
-    } catch (const SceneError& error) {
+    } catch (const FileError& error) {
       return error.what();
     }
     return "nothing";
@@ -63,13 +63,14 @@ TEST_CASE("A checkpoint comes back from its file whole") {
   CHECK(read.film.mean(1) == small_film().mean(1));
   CHECK(read.film.mean(4) == small_film().mean(4));
   CHECK(read.film.has_variance() == small_film().has_variance());
+  CHECK(read.session.choices.texts == small_session().choices.texts);
   CHECK(read.session.choices.definitions == small_session().choices.definitions);
   CHECK(read.session.standing.place.missing.size() == 1);
   CHECK(read.session.standing.first_nonfinite->pixel == 3);
 }
 
 TEST_CASE("The format is that of its version: who changes one raises the other, and then this length") {
-  CHECK(Saved().bytes.substr(0, 19) == "phlux checkpoint 1 ");
+  CHECK(Saved().bytes.substr(0, 19) == "phlux checkpoint 2 ");
   CHECK(Saved().bytes.size() == 9738);
 }
 
@@ -90,7 +91,7 @@ TEST_CASE("What is no whole checkpoint of this version is refused in a line that
   }
   std::string later = saved.bytes;
   later[17] = '9';
-  CHECK_THAT(saved.refusal(later), Contains("is a checkpoint of format 9") && Contains("reads format 1"));
+  CHECK_THAT(saved.refusal(later), Contains("is a checkpoint of format 9") && Contains("reads format 2"));
   CHECK_THROWS_WITH(checkpoint::read(saved / "missing"), Contains("missing: cannot be read: No such file"));
   CHECK_THROWS_WITH(checkpoint::read(saved.path()), Contains("is no file"));
 }
@@ -119,34 +120,33 @@ TEST_CASE("A checkpoint of another image is refused, naming what differs") {
   checkpoint::Session now = small_session();
   now.settings.samples_per_pixel = 32;
   CHECK(refusal(now) == "nothing");
-  CHECK(refusal(now, 5) ==
-        "c: is of 3x2 pixels, not 5x2: give --size 3x2, or leave out --resume to begin anew");
+  CHECK(refusal(now, 5) == "c: is of 3x2 pixels, not 5x2: give `size` 3x2");
   now.scene_digest = "4321";
   CHECK_THAT(refusal(now), Contains("c: is of another scene, box.xml as it was then: give that"));
 
   CHECK_THAT(
       refusal([](Settings& s) { s.integrator = "bidir"; }),
       Contains(
-          "c: is of a render with --integrator path, not with --integrator bidir: give --integrator path"));
-  CHECK_THAT(refusal([](Settings& s) { s.strategy = "cosine"; }), Contains("--strategy"));
-  CHECK_THAT(refusal([](Settings& s) { s.connect = render::Connect::none; }), Contains("--connect mis"));
-  CHECK_THAT(refusal([](Settings& s) { s.weights = render::Weights::power; }), Contains("--weights balance"));
+          "c: is of a render with `integrator` path, not with `integrator` bidir: give `integrator` path"));
+  CHECK_THAT(refusal([](Settings& s) { s.strategy = "cosine"; }), Contains("`strategy`"));
+  CHECK_THAT(refusal([](Settings& s) { s.connect = render::Connect::none; }), Contains("`connect` mis"));
+  CHECK_THAT(refusal([](Settings& s) { s.weights = render::Weights::power; }), Contains("`weights` balance"));
   CHECK_THAT(refusal([](Settings& s) { s.light_selection = render::LightSelection::power; }),
-             Contains("--light-selection"));
-  CHECK_THAT(refusal([](Settings& s) { s.connections = 0; }), Contains("--connections 2"));
-  CHECK_THAT(refusal([](Settings& s) { s.techniques = true; }), Contains("leave out --contributions"));
-  CHECK_THAT(refusal([](Settings& s) { s.ambient = 0.5; }), Contains("leave out --ambient"));
-  CHECK_THAT(refusal([](Settings& s) { s.clamp = 5.0; }), Contains("without --clamp, not with --clamp 5"));
-  CHECK_THAT(refusal([](Settings& s) { s.max_depth = 3; }), Contains("--max-depth -1"));
-  CHECK_THAT(refusal([](Settings& s) { s.rr_depth = 3; }), Contains("--rr-depth 5"));
-  CHECK_THAT(refusal([](Settings& s) { s.seed = 8; }), Contains("--seed 7"));
-  CHECK_THAT(refusal([](Settings& s) { s.first_sample = 8; }), Contains("--first-sample 0"));
-  CHECK_THAT(refusal([](Settings& s) { s.double_precision = true; }), Contains("--precision single"));
+             Contains("`light-selection`"));
+  CHECK_THAT(refusal([](Settings& s) { s.connections = 0; }), Contains("`connections` 2"));
+  CHECK_THAT(refusal([](Settings& s) { s.techniques = true; }), Contains("leave out `contributions`"));
+  CHECK_THAT(refusal([](Settings& s) { s.ambient = 0.5; }), Contains("leave out `ambient`"));
+  CHECK_THAT(refusal([](Settings& s) { s.clamp = 5.0; }), Contains("without `clamp`, not with `clamp` 5"));
+  CHECK_THAT(refusal([](Settings& s) { s.max_depth = 3; }), Contains("`max-depth` -1"));
+  CHECK_THAT(refusal([](Settings& s) { s.rr_depth = 3; }), Contains("`rr-depth` 5"));
+  CHECK_THAT(refusal([](Settings& s) { s.seed = 8; }), Contains("`seed` 7"));
+  CHECK_THAT(refusal([](Settings& s) { s.first_sample = 8; }), Contains("`first-sample` 0"));
+  CHECK_THAT(refusal([](Settings& s) { s.double_precision = true; }), Contains("`precision` single"));
 }
 
 TEST_CASE("A checkpoint with more samples than are asked for is refused") {
   CHECK_THAT(
       refusal([](render::Settings& s) { s.samples_per_pixel = 31; }),
-      Contains("has 32 samples per pixel already, and --spp 31 asks for fewer: give --spp 32 or more"));
+      Contains("has 32 samples per pixel already, and `spp` 31 asks for fewer: give `spp` 32 or more"));
   CHECK(refusal([](render::Settings& s) { s.time_limit = 1.0; }) == "nothing");
 }

@@ -49,7 +49,7 @@ TEST_CASE("The plain command writes an image and a preview, named after the scen
   }
   CHECK(image.info.version == PHLUX_VERSION);
   CHECK(image.info.scene == "scene.xml");
-  CHECK(image.info.integrator == "path");
+  CHECK(image.info.text("integrator") == "path");
   CHECK(image.info.samples == 8.0);
   CHECK_FALSE(image.info.device.empty());
   CHECK_FALSE(image.info.driver.empty());
@@ -72,7 +72,7 @@ TEST_CASE("Options reach the files") {
   CHECK(mean(image.channels.at("variance.G")) > 0.0);
   CHECK(image.info.samples == 3.0);
   CHECK(image.info.seed == 7);
-  CHECK(image.info.strategy == "cosine");
+  CHECK(image.info.text("strategy") == "cosine");
   CHECK_THAT(TemporaryFolder::read(place / "look.png"), Catch::StartsWith("\x89PNG"));
 }
 

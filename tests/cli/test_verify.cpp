@@ -35,8 +35,8 @@ TEST_CASE("phlux verify: a table, and every figure as JSON") {
 
 TEST_CASE("phlux verify: a wrong kernel is named, with histograms as files") {
   const TemporaryFolder folder;
-  const KernelCopy wrong("phong.cl", "cosine_power_direction(m.exponent + 1.0f, u1, u2)",
-                         "cosine_power_direction(m.exponent, u1, u2)");
+  const KernelCopy wrong("phong/strategies/exact.cl", "Vec3 v = cosine_power_direction(m.exponent + 1.0f,",
+                         "Vec3 v = cosine_power_direction(m.exponent,");
   const Outcome outcome =
       run({{"verify", "--quick", "--strategy", "exact", "--kernel-dir", wrong.folder().string()},
            folder.path(),

@@ -28,7 +28,7 @@ Device test_device() {
 }
 
 ProgramSource twice() {
-  return {"", {{"FACTOR", "2.0f"}}, twice_kernel};
+  return {"", {{"FACTOR", "2.0f"}}, {}, twice_kernel};
 }
 
 float run(const Device& device, const cl::Program& program, float x) {
@@ -55,10 +55,10 @@ TEST_CASE("a program is built once and then loaded") {
                                     "0"); // PoCL read it when it started; phlux reads it now
   const auto device = test_device();
 
-  const auto first = build(device, KernelFiles(), twice());
+  const auto first = build(device, sources::KernelFiles(), twice());
   CHECK_FALSE(first.from_cache);
   CHECK(run(device, first.program, 3.0f) == 6.0f);
-  const auto second = build(device, KernelFiles(), twice());
+  const auto second = build(device, sources::KernelFiles(), twice());
   CHECK(run(device, second.program, 3.0f) == 6.0f);
   REQUIRE(files_in(cache.path()).size() == 1);
   const auto file = files_in(cache.path()).front();
@@ -67,13 +67,13 @@ TEST_CASE("a program is built once and then loaded") {
   SECTION("another define is another program") {
     auto source = twice();
     source.defines["FACTOR"] = "3.0f";
-    const auto other = build(device, KernelFiles(), source);
+    const auto other = build(device, sources::KernelFiles(), source);
     CHECK_FALSE(other.from_cache);
     CHECK(run(device, other.program, 3.0f) == 9.0f);
   }
   SECTION("other options are another program") {
     const Environment options("PHLUX_KERNEL_OPTIONS", "-cl-opt-disable");
-    CHECK_FALSE(build(device, KernelFiles(), twice()).from_cache);
+    CHECK_FALSE(build(device, sources::KernelFiles(), twice()).from_cache);
   }
   SECTION("a damaged file is replaced") {
     const auto good = TemporaryFolder::read(file);
@@ -82,19 +82,19 @@ TEST_CASE("a program is built once and then loaded") {
     for (const auto& bad :
          {std::string(), std::string("x"), good.substr(0, good.size() / 2), flipped, good + "x"}) {
       std::ofstream(file, std::ios::binary) << bad;
-      const auto rebuilt = build(device, KernelFiles(), twice());
+      const auto rebuilt = build(device, sources::KernelFiles(), twice());
       CHECK_FALSE(rebuilt.from_cache);
       CHECK(run(device, rebuilt.program, 3.0f) == 6.0f);
-      CHECK(build(device, KernelFiles(), twice()).from_cache);
+      CHECK(build(device, sources::KernelFiles(), twice()).from_cache);
     }
   }
   SECTION("a binary that the driver refuses is replaced") {
     const std::string nonsense(64, 'n');
     std::ofstream(file, std::ios::binary) << hash_of(nonsense) << nonsense;
-    const auto rebuilt = build(device, KernelFiles(), twice());
+    const auto rebuilt = build(device, sources::KernelFiles(), twice());
     CHECK_FALSE(rebuilt.from_cache);
     CHECK(run(device, rebuilt.program, 3.0f) == 6.0f);
-    CHECK(build(device, KernelFiles(), twice()).from_cache);
+    CHECK(build(device, sources::KernelFiles(), twice()).from_cache);
   }
 }
 
@@ -105,8 +105,8 @@ TEST_CASE("PoCL keeps its programs itself") {
   const Environment variable("PHLUX_CACHE_DIR", cache.path().string());
   auto source = twice(); // a comment would not do: the key passes over those
   source.defines["UNIQUE"] = std::to_string(std::chrono::system_clock::now().time_since_epoch().count());
-  CHECK_FALSE(build(device, KernelFiles(), source).from_cache);
-  const auto again = build(device, KernelFiles(), source);
+  CHECK_FALSE(build(device, sources::KernelFiles(), source).from_cache);
+  const auto again = build(device, sources::KernelFiles(), source);
   CHECK(again.from_cache);
   CHECK(run(device, again.program, 3.0f) == 6.0f);
   CHECK(files_in(cache.path()).empty());
@@ -119,7 +119,7 @@ TEST_CASE("without a writable cache, programs are built all the same") {
   const Environment no_driver_cache("POCL_KERNEL_CACHE", "0");
   const auto device = test_device();
   for (int time = 0; time < 2; ++time) {
-    const auto built = build(device, KernelFiles(), twice());
+    const auto built = build(device, sources::KernelFiles(), twice());
     CHECK_FALSE(built.from_cache);
     CHECK(run(device, built.program, 3.0f) == 6.0f);
   }
@@ -163,11 +163,11 @@ TEST_CASE("a failed build names the kernel file and line") {
   folder.write("part.h",
                "int right(int x);\nint right(int x) { return x; }\nint wrong(void) { return nowhere; }\n");
   const auto device = test_device();
-  const KernelFiles files(folder.path());
-  CHECK_THROWS_AS(build(device, files, {"root.cl", {}, ""}), DeviceError);
-  CHECK_THROWS_WITH(build(device, files, {"root.cl", {}, ""}),
+  const sources::KernelFiles files(folder.path());
+  CHECK_THROWS_AS(build(device, files, {"root.cl", {}, {}, ""}), DeviceError);
+  CHECK_THROWS_WITH(build(device, files, {"root.cl", {}, {}, ""}),
                     StartsWith("part.h:3: ") && Contains("nowhere"));
-  CHECK_THROWS_WITH(build(device, files, {"", {}, "\n__kernel void f(void) { nowhere(); }\n"}),
+  CHECK_THROWS_WITH(build(device, files, {"", {}, {}, "\n__kernel void f(void) { nowhere(); }\n"}),
                     StartsWith("extra:2: "));
 }
 
@@ -178,7 +178,7 @@ TEST_CASE("a compiler that refuses the processor's own instructions gets portabl
                           "#else\n"
                           "static inline float own(float x) { return 5 * x; }\n"
                           "#endif\n");
-  const KernelFiles files(folder.path());
+  const sources::KernelFiles files(folder.path());
   const std::string kernel = "__kernel void twice(__global float* x) { x[0] = own(x[0]); }\n";
   const auto device = test_device();
   CHECK_THROWS_WITH(build(device, files, {"lanes.h", {}, "__kernel void f(void) { wrong(); }\n"}),
@@ -218,7 +218,7 @@ TEST_CASE("slow is called when building takes long, and only then", "[slow]") {
       text += "__kernel void k" + std::to_string(i) +
               "(__global float16* x) { x[get_global_id(0)] = pow(x[1], x[2]); }\n";
     calls = 0;
-    return build(device, KernelFiles(), {"", {{"UNIQUE", now}}, text}, [&] { ++calls; }).seconds;
+    return build(device, sources::KernelFiles(), {"", {{"UNIQUE", now}}, {}, text}, [&] { ++calls; }).seconds;
   };
   // Its patience is 0.2 s; near that, or where the machine has other work, it may be called or not.
   constexpr double quick = 0.1, slow = 0.6;
@@ -235,6 +235,7 @@ TEST_CASE("options for every program") {
   const Environment more("PHLUX_KERNEL_OPTIONS", "-Werror");
   CHECK_THAT(build_options(), Contains(" -Werror"));
   if (test_device().info.platform == "Portable Computing Language") // not every compiler knows the option
-    CHECK_THROWS_AS(build(test_device(), KernelFiles(), {"", {}, "__kernel void f(void) { int x; x; }\n"}),
-                    DeviceError);
+    CHECK_THROWS_AS(
+        build(test_device(), sources::KernelFiles(), {"", {}, {}, "__kernel void f(void) { int x; x; }\n"}),
+        DeviceError);
 }

@@ -17,7 +17,7 @@
 #include "files/output.h"
 #include "temporary_folder.h"
 
-using phlux::SceneError;
+using phlux::FileError;
 using phlux::film::Film;
 using namespace phlux::files;
 
@@ -26,16 +26,16 @@ namespace {
 const RenderInfo render_info{.version = "0.1.0",
                              .scene = "scenes/box.xml",
                              .scene_digest = "0af",
-                             .integrator = "path",
-                             .strategy = "mixture",
+                             .settings = {{"integrator", "path"},
+                                          {"strategy", "mixture"},
+                                          {"max-depth", std::int64_t{9}},
+                                          {"clamp", 4.0}},
                              .samples = 64.0,
                              .seed = std::numeric_limits<std::uint64_t>::max(),
                              .ranges = {{std::numeric_limits<std::uint64_t>::max(), 0, 64}, {7, 64, 128}},
-                             .max_depth = 9,
                              .device = "a device",
                              .driver = "3.1",
                              .seconds = 1.5,
-                             .clamp = 4.0,
                              .clamped_share = 0.25};
 
 Film numbered_film() {
@@ -102,12 +102,11 @@ TEST_CASE("An EXR file has the channels and attributes of the contract") {
   const RenderInfo info = read_exr(folder / "a.exr").info;
   CHECK(info.version == render_info.version);
   CHECK(info.scene == render_info.scene);
-  CHECK(info.strategy == render_info.strategy);
+  CHECK(info.settings == render_info.settings);
   CHECK(info.samples == render_info.samples);
   CHECK(info.seed == render_info.seed);
   CHECK(info.ranges == render_info.ranges);
   CHECK(info.scene_digest == render_info.scene_digest);
-  CHECK(info.max_depth == render_info.max_depth);
   CHECK(info.seconds == render_info.seconds);
 }
 
@@ -129,7 +128,7 @@ TEST_CASE("Other programs' files are read: half channels, an offset data window,
   CHECK(image.info.version.empty());
 }
 
-TEST_CASE("What is no EXR image is a SceneError of one line that names the file") {
+TEST_CASE("What is no EXR image is a FileError of one line that names the file") {
   const TemporaryFolder folder;
   const std::string file = (folder / "a.exr").string();
   SECTION("missing") {}
@@ -152,6 +151,6 @@ TEST_CASE("What is no EXR image is a SceneError of one line that names the file"
   SECTION("a folder") {
     std::filesystem::create_directory(file);
   }
-  CHECK_THROWS_AS(read_exr(file), SceneError);
+  CHECK_THROWS_AS(read_exr(file), FileError);
   CHECK_THROWS_WITH(read_exr(file), Catch::StartsWith(file + ": ") && !Catch::Contains("\n"));
 }

@@ -22,16 +22,13 @@ Image flat(float radiance, float variance, double samples, SampleRange range) {
   image.info = {.version = "0.0.9",
                 .scene = "box.xml",
                 .scene_digest = "12",
-                .integrator = "path",
-                .strategy = "exact",
+                .settings = {{"integrator", "path"}, {"strategy", "exact"}, {"max-depth", std::int64_t{8}}},
                 .samples = samples,
                 .seed = range.seed,
                 .ranges = {range},
-                .max_depth = 8,
                 .device = "a",
                 .driver = "1",
-                .seconds = 2.0,
-                .clamp = {}};
+                .seconds = 2.0};
   return image;
 }
 
@@ -43,7 +40,7 @@ std::string refusal(Image other, const std::function<void(Image&)>& change) {
   merger.add("a.exr", first);
   try {
     merger.add("b.exr", other);
-  } catch (const phlux::SceneError& error) {
+  } catch (const phlux::FileError& error) {
     return error.what();
   }
   return "nothing";
@@ -72,7 +69,7 @@ TEST_CASE("Images are weighted by their samples, and their variances by the squa
   CHECK(merged.info.seed == 7);
   CHECK(merged.info.ranges == std::vector<SampleRange>{{7, 0, 10}, {8, 0, 30}});
   CHECK(merged.info.scene_digest == "12");
-  CHECK(merged.info.max_depth == 8);
+  CHECK(merged.info.text("max-depth") == "8");
   CHECK(merged.info.device == "a");
 
   Merger more; // a merged image is an image
@@ -85,7 +82,7 @@ TEST_CASE("Images are weighted by their samples, and their variances by the squa
 TEST_CASE("Methods without bias may be merged, and what is lost is noted") {
   Merger merger;
   Image other = second;
-  other.info.integrator = "bidir";
+  other.info.settings["integrator"] = "bidir";
   other.channels.erase("variance.G");
   merger.add("a.exr", first);
   merger.add("b.exr", other);
@@ -93,8 +90,8 @@ TEST_CASE("Methods without bias may be merged, and what is lost is noted") {
   CHECK_THAT(merger.notes()[0], Contains("b.exr is by bidir exact, and a.exr by path exact"));
   CHECK_THAT(merger.notes()[1], Contains("b.exr has no variance channels"));
   CHECK(merger.result().channels.size() == 3);
-  CHECK(merger.result().info.integrator == "path, bidir");
-  CHECK(merger.result().info.strategy == "exact");
+  CHECK(merger.result().info.text("integrator") == "path, bidir");
+  CHECK(merger.result().info.text("strategy") == "exact");
 }
 
 TEST_CASE("What cannot be merged is refused, saying why") {
@@ -102,16 +99,16 @@ TEST_CASE("What cannot be merged is refused, saying why") {
   CHECK_THAT(refusal([](Image& i) { i.width = 1, i.height = 2; }),
              Contains("b.exr: is 1x2 pixels, but a.exr is 2x1"));
   CHECK_THAT(refusal([](Image& i) { i.info.scene_digest = "13"; }), Contains("b.exr: is of another scene"));
-  CHECK_THAT(refusal([](Image& i) { i.info.max_depth = -1; }),
-             Contains("paths of --max-depth -1, but a.exr of 8"));
+  CHECK_THAT(refusal([](Image& i) { i.info.settings["max-depth"] = std::int64_t{-1}; }),
+             Contains("b.exr: was rendered with `max-depth` -1, but a.exr with `max-depth` 8"));
   CHECK_THAT(refusal([](Image& i) { i.info.samples = 0; }), Contains("does not say which samples it has"));
   CHECK_THAT(refusal([](Image& i) { i.info.ranges.clear(); }), Contains("does not say which samples it has"));
   CHECK_THAT(refusal([](Image& i) { i.channels.erase("G"); }), Contains("lacks a channel of R, G and B"));
-  CHECK_THAT(refusal([](Image& i) { i.info.clamp = 4.0; }),
-             Contains("b.exr: was rendered with --clamp 4, a bias, but a.exr is without bias"));
-  CHECK_THAT(refusal([](Image& i) { i.info.strategy = "lobe-estimate-printed"; }),
+  CHECK_THAT(refusal([](Image& i) { i.info.settings["clamp"] = 4.0; }),
+             Contains("b.exr: was rendered with `clamp` 4, but a.exr without `clamp`"));
+  CHECK_THAT(refusal([](Image& i) { i.info.settings["strategy"] = "lobe-estimate-printed"; }),
              Contains("which has a bias"));
-  CHECK(refusal([](Image& i) { i.info.strategy = "lobe-estimate"; }) == "nothing");
+  CHECK(refusal([](Image& i) { i.info.settings["strategy"] = "lobe-estimate"; }) == "nothing");
 }
 
 TEST_CASE("Samples that two images share are refused") {
@@ -120,7 +117,7 @@ TEST_CASE("Samples that two images share are refused") {
   };
   CHECK_THAT(with({7, 0, 10}),
              Contains("b.exr: has samples 0 to 9 of seed 7, and a.exr has samples 0 to 9: render"));
-  CHECK_THAT(with({7, 9, 20}), Contains("--first-sample 10"));
+  CHECK_THAT(with({7, 9, 20}), Contains("`first-sample` 10"));
   CHECK(with({7, 10, 20}) == "nothing");
   CHECK(with({6, 0, 10}) == "nothing");
 }

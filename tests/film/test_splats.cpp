@@ -10,7 +10,7 @@
 #include <catch2/catch.hpp>
 
 #include "film/splat_records.h"
-#include "scene_data.h"
+#include "scene/scene_data.h"
 
 using phlux::film::BlockSum;
 using phlux::film::Film;

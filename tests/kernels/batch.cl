@@ -1,4 +1,4 @@
-#include "batch.cl"
+#include "transport/batch.cl"
 
 // Each work-item takes the paths of batch `first_batch` + its number with lanes that fall idle as `words` say.
 __kernel void take_batches(int pixel_count, int first_pixel, int job_count, int first_sample, int block_samples,

@@ -1,4 +1,4 @@
-#include "camera.cl"
+#include "scene/camera.cl"
 
 // What the camera sees of its own rays.
 __kernel void see_rays(SCENE_PARAMETERS, __global const Uint* pixel, __global const Real* u, __global const Real* v,

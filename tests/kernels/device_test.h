@@ -18,7 +18,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "device/program.h"
+#include "device/kernel.h"
 #include "tested_kernels.h"
 
 namespace device_test {
@@ -45,9 +45,9 @@ inline std::size_t thinned(std::size_t count, std::size_t factor = 64) {
   return test_device().info.platform == "Oclgrind" ? count / factor + 1 : count;
 }
 
-inline phlux::device::KernelFiles kernel_files() {
+inline phlux::sources::KernelFiles kernel_files() {
   const std::filesystem::path folder = phlux::test::tested_kernels();
-  return folder.empty() ? phlux::device::KernelFiles() : phlux::device::KernelFiles(folder);
+  return folder.empty() ? phlux::sources::KernelFiles() : phlux::sources::KernelFiles(folder);
 }
 
 /// The text of a file of tests/kernels.
@@ -87,28 +87,35 @@ class Program {
   using Fetches = std::vector<std::function<void()>>;
 
 public:
-  Program(Variant variant, const std::string& text, std::map<std::string, std::string> defines = {})
+  Program(Variant variant, const std::string& text, const std::map<std::string, std::string>& defines = {})
+      : Program(variant, text, phlux::device::ProgramSource{"", defines, {}, ""}) {}
+
+  /// Adds the text to `source`.
+  Program(Variant variant, const std::string& text, phlux::device::ProgramSource source)
       : width_(static_cast<std::size_t>(variant.width)) {
-    defines["WIDTH"] = std::to_string(variant.width);
-    if (variant.portable) defines["LANES_PORTABLE"] = "1";
-    program_ = phlux::device::build(test_device(), kernel_files(), {"", defines, text}).program;
+    source.extra += text;
+    source.defines["WIDTH"] = std::to_string(variant.width);
+    if (variant.portable) source.defines["LANES_PORTABLE"] = "1";
+    program_ = phlux::device::build(test_device(), kernel_files(), source);
   }
 
-  [[nodiscard]] cl::Kernel kernel(const std::string& name) const { return {program_, name.c_str()}; }
+  [[nodiscard]] phlux::device::Kernel kernel(const std::string& name) const { return {program_, name}; }
 
   /// Runs a kernel over `count` lanes. Arguments: a vector (read), out(vector), table(vector) or a scalar.
   template<typename... Arguments>
   void run(const std::string& name, std::size_t count, const Arguments&... arguments) const {
-    run_bound(kernel(name), 0, count, arguments...);
+    run_bound(kernel(name), count, arguments...);
   }
 
   /// The same for a kernel whose first arguments are set already.
   template<typename... Arguments>
-  void run_bound(cl::Kernel kernel, cl_uint first, std::size_t count, const Arguments&... arguments) const {
+  void run_bound(phlux::device::Kernel kernel, std::size_t count, const Arguments&... arguments) const {
     const std::size_t items = (count + width_ - 1) / width_;
+    cl_uint first = kernel.first_unset();
     Fetches fetches; // which also keep the buffers alive: a kernel does not
     (set(kernel, first++, items, fetches, arguments), ...);
-    test_device().queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(items), cl::NDRange(1));
+    test_device().queue.enqueueNDRangeKernel(kernel.ready(), cl::NullRange, cl::NDRange(items),
+                                             cl::NDRange(1));
     test_device().queue.finish();
     for (const auto& fetch : fetches) fetch();
   }
@@ -117,12 +124,12 @@ private:
   using Words = std::vector<std::uint32_t>;
 
   template<typename T>
-  void set(cl::Kernel& kernel, cl_uint index, std::size_t, Fetches&, const T& scalar) const {
-    kernel.setArg(index, scalar);
+  void set(phlux::device::Kernel& kernel, cl_uint index, std::size_t, Fetches&, const T& scalar) const {
+    kernel.set(index, scalar);
   }
 
   template<typename T>
-  void set(cl::Kernel& kernel, cl_uint index, std::size_t items, Fetches& fetches,
+  void set(phlux::device::Kernel& kernel, cl_uint index, std::size_t items, Fetches& fetches,
            const std::vector<T>& values) const {
     constexpr std::size_t words = sizeof(T) / 4;
     Words lanes(items * width_ * words);
@@ -132,16 +139,17 @@ private:
         std::memcpy(&lanes[lane_word(i, k, words, width_)], reinterpret_cast<const char*>(&value) + 4 * k, 4);
       }
     const cl::Buffer memory = buffer(lanes.data(), lanes.size() * 4);
-    kernel.setArg(index, memory);
+    kernel.set(index, memory);
     fetches.emplace_back([memory] {});
   }
 
   template<typename T>
-  void set(cl::Kernel& kernel, cl_uint index, std::size_t items, Fetches& fetches, const Out<T>& out) const {
+  void set(phlux::device::Kernel& kernel, cl_uint index, std::size_t items, Fetches& fetches,
+           const Out<T>& out) const {
     constexpr std::size_t words = sizeof(T) / 4;
     const std::size_t bytes = items * width_ * words * 4;
     const cl::Buffer memory(test_device().context, CL_MEM_READ_WRITE, bytes);
-    kernel.setArg(index, memory);
+    kernel.set(index, memory);
     fetches.emplace_back([this, memory, bytes, &values = out.values] {
       Words lanes(bytes / 4);
       test_device().queue.enqueueReadBuffer(memory, CL_TRUE, 0, bytes, lanes.data());
@@ -152,10 +160,11 @@ private:
   }
 
   template<typename T>
-  void set(cl::Kernel& kernel, cl_uint index, std::size_t, Fetches& fetches, const Table<T>& table) const {
+  void set(phlux::device::Kernel& kernel, cl_uint index, std::size_t, Fetches& fetches,
+           const Table<T>& table) const {
     const std::size_t bytes = table.values.size() * sizeof(T);
     const cl::Buffer memory = buffer(table.values.data(), bytes);
-    kernel.setArg(index, memory);
+    kernel.set(index, memory);
     fetches.emplace_back([memory, bytes, &values = table.values] {
       test_device().queue.enqueueReadBuffer(memory, CL_TRUE, 0, bytes, values.data());
     });
@@ -166,19 +175,24 @@ private:
   }
 
   std::size_t width_;
-  cl::Program program_;
+  phlux::device::BuiltProgram program_;
 };
 
 /// A program of tests/kernels/NAME, built when it is first asked for and never released.
-inline const Program& program_of(const std::string& name, Variant variant,
-                                 const std::map<std::string, std::string>& defines = {}) {
+inline const Program& program_with(const std::string& name, Variant variant,
+                                   const phlux::device::ProgramSource& source) {
   static auto& programs = *new std::map<std::string, Program>;
   std::ostringstream key;
   key << name << ' ' << variant;
-  for (const auto& [macro, value] : defines) key << ' ' << macro << '=' << value;
+  for (const auto& [macro, value] : source.defines) key << ' ' << macro << '=' << value;
+  for (const auto& [file, text] : source.files) key << ' ' << file << '=' << text;
   const auto found = programs.find(key.str());
   if (found != programs.end()) return found->second;
-  return programs.emplace(key.str(), Program(variant, read_file(name), defines)).first->second;
+  return programs.emplace(key.str(), Program(variant, read_file(name), source)).first->second;
+}
+inline const Program& program_of(const std::string& name, Variant variant,
+                                 const std::map<std::string, std::string>& defines = {}) {
+  return program_with(name, variant, {"", defines, {}, ""});
 }
 
 } // namespace device_test

@@ -1,4 +1,4 @@
-#include "frames.h"
+#include "math/frames.h"
 
 __kernel void signs_and_ints(__global const Real* x, __global const Real* sign, __global const Int* whole,
                              __global Real* product, __global Int* carried) {

@@ -1,4 +1,4 @@
-#include "emission.cl"
+#include "scene/emission.cl"
 
 typedef struct {
   Vec3 origin, direction, radiance, position, normal;
@@ -22,16 +22,16 @@ __kernel void sample_emission(SCENE_PARAMETERS, uint2 seed, __global const Uint*
   to.origin = e.ray.origin;
   to.direction = e.ray.direction;
   to.radiance = e.radiance;
-  to.position = e.place.position;
-  to.normal = e.place.normal;
+  to.position = e.origin.position;
+  to.normal = e.origin.normal;
   to.density = e.density;
-  to.cosine = vec_dot(e.place.normal, e.ray.direction);
+  to.cosine = vec_dot(e.origin.normal, e.ray.direction);
   to.light = e.light;
   to.surface = e.surface ? yes : no;
   to.sky = e.sky ? yes : no;
-  const Vec3 way = vec_sub(e.place.position, lit[i]);
+  const Vec3 way = vec_sub(e.origin.position, lit[i]);
   const Real distance = sqrt(vec_dot(way, way));
-  const Real cosine = -vec_dot(e.place.normal, way) / distance;
+  const Real cosine = -vec_dot(e.origin.normal, way) / distance;
   const Real choice = light_probability(&scene, e.light);
   const Real per_angle = light_density(&scene, lit[i], e.light, choice, distance, cosine);
   const Real density = per_angle * cosine / (distance * distance);

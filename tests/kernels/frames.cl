@@ -1,4 +1,4 @@
-#include "frames.h"
+#include "math/frames.h"
 
 __kernel void about(__global const Vec3* z, __global Frame* frame) {
   const size_t i = get_global_id(0);

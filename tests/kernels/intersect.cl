@@ -1,6 +1,4 @@
-#define PHLUX_PLANARS
-#define PHLUX_SPHERES
-#include "intersect.cl"
+#include "scene/intersect.cl"
 
 typedef struct {
   Real u, v, distance, facing;

@@ -1,4 +1,4 @@
-#include "vectors.h"
+#include "math/vectors.h"
 
 typedef struct {
   int a;

@@ -1,4 +1,4 @@
-#include "lights.cl"
+#include "scene/lights.cl"
 
 typedef struct {
   Vec3 origin, direction, radiance;

@@ -1,22 +1,24 @@
-#include "material.cl"
+#include "lobes/material.cl"
 
 #define AT get_global_id(0)
 
 __kernel void evaluate(SCENE_PARAMETERS, int material, __global const Vec3* fixed, __global const Vec3* generated,
                        __global Vec3* value) {
   SCENE_FROM_PARAMETERS
-  value[AT] = material_eval(material_at(&scene, (Int)(material)), fixed[AT], generated[AT]);
+  value[AT] = material_evaluate(material_at(&scene, (Int)(material)), fixed[AT], generated[AT]).value;
 }
 
 __kernel void density_of(SCENE_PARAMETERS, int material, __global const Vec3* fixed, __global const Vec3* generated,
                          __global Real* density) {
   SCENE_FROM_PARAMETERS
-  density[AT] = material_density(material_at(&scene, (Int)(material)), fixed[AT], generated[AT]);
+  density[AT] = material_evaluate(material_at(&scene, (Int)(material)), fixed[AT], generated[AT]).density;
 }
 
 __kernel void reflectivity_of(SCENE_PARAMETERS, int material, __global const Real* cosine, __global Vec3* value) {
   SCENE_FROM_PARAMETERS
-  value[AT] = phong_reflectivity(material_at(&scene, (Int)(material)).phong, cosine[AT]);
+  const Real z = cosine[AT];
+  const Vec3 fixed = vec3(sqrt((1.0f - z) * (1.0f + z)), (Real)(0.0f), z);
+  value[AT] = material_reflectivity(material_at(&scene, (Int)(material)), fixed);
 }
 
 typedef struct {
@@ -32,8 +34,9 @@ __kernel void sample_of(SCENE_PARAMETERS, int material, __global const Vec3* fix
   sequence.pixel = path[AT];
   sequence.sample = (Uint)(0u);
   sequence.seed = seed;
-  const PhongSample s = material_sample(material_at(&scene, (Int)(material)), fixed[AT], sequence, (Uint)(0u),
-                                        roulette ? ALL_LANES : NO_LANES, ALL_LANES);
+  const MaterialSample s =
+      material_sample(material_at(&scene, (Int)(material)), fixed[AT], random_draws(sequence, (Uint)(0u)),
+                      roulette ? ALL_LANES : NO_LANES, ALL_LANES);
   Sample to;
   to.direction = s.direction;
   to.weight = s.weight;

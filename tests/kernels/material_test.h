@@ -6,6 +6,7 @@
 
 #include "device_test.h"
 #include "directions.h"
+#include "lobes/models.h"
 #include "scene_test.h"
 
 namespace device_test {
@@ -34,7 +35,7 @@ public:
     run("density_of", values.size(), material, fixed, generated, out(values));
     return values;
   }
-  /// Of the modified Phong model.
+  /// For directions in the plane of x and z.
   [[nodiscard]] std::vector<Float3> reflectivity(int material, const std::vector<float>& cosines) const {
     std::vector<Float3> values(cosines.size());
     run("reflectivity_of", values.size(), material, cosines, out(values));
@@ -65,21 +66,10 @@ private:
   SceneProgram program_;
 };
 
-inline phlux::scene::Material phong(const phlux::scene::Rgb& diffuse, const phlux::scene::Rgb& specular,
-                                    double exponent) {
-  phlux::scene::Material m;
-  m.diffuse = diffuse;
-  m.specular = specular;
-  m.exponent_u = exponent;
-  return m;
-}
-
+using phlux::lobes::phong;
 inline phlux::scene::Material anisotropic(const phlux::scene::Rgb& diffuse, const phlux::scene::Rgb& specular,
                                           double exponent_u, double exponent_v) {
-  phlux::scene::Material m = phong(diffuse, specular, exponent_u);
-  m.kind = phlux::scene::Material::Kind::anisotropic_phong;
-  m.exponent_v = exponent_v;
-  return m;
+  return phlux::lobes::anisotropic_phong(diffuse, specular, exponent_u, exponent_v);
 }
 
 } // namespace device_test

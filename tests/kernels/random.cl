@@ -1,4 +1,4 @@
-#include "random.h"
+#include "math/random.h"
 
 __kernel void words(__global const RandomWords* counter, uint2 key, __global RandomWords* answer) {
   const size_t i = get_global_id(0);

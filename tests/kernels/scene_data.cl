@@ -1,5 +1,5 @@
-#include "lanes.h"
-#include "scene_data.h"
+#include "lanes/lanes.h"
+#include "scene/scene_data.h"
 
 __kernel void sizes(__global int* size) {
   int k = 0;

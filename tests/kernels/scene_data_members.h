@@ -1,25 +1,15 @@
 // Every member of every struct that host and kernels share, for both compilers to say where they put it.
 #define SHARED_STRUCTS(STRUCT)                                                                               \
   STRUCT(PrimitiveRecord)                                                                                    \
-  STRUCT(MaterialRecord) STRUCT(LightRecord) STRUCT(LightNodeRecord) STRUCT(CameraRecord)
+  STRUCT(LightRecord) STRUCT(LightNodeRecord) STRUCT(CameraRecord)
 
 #define SHARED_MEMBERS(MEMBER)                                                                               \
   MEMBER(PrimitiveRecord, material)                                                                          \
   MEMBER(PrimitiveRecord, light)                                                                             \
   MEMBER(PrimitiveRecord, region)                                                                            \
-  MEMBER(MaterialRecord, diffuse)                                                                            \
-  MEMBER(MaterialRecord, specular)                                                                           \
-  MEMBER(MaterialRecord, exponent)                                                                           \
-  MEMBER(MaterialRecord, exponent_v)                                                                         \
-  MEMBER(MaterialRecord, diffuse_max)                                                                        \
-  MEMBER(MaterialRecord, specular_max)                                                                       \
-  MEMBER(MaterialRecord, table_scale)                                                                        \
-  MEMBER(MaterialRecord, grazing_reflectivity)                                                               \
-  MEMBER(MaterialRecord, table_row)                                                                          \
-  MEMBER(MaterialRecord, flags)                                                                              \
   MEMBER(LightRecord, kind)                                                                                  \
   MEMBER(LightRecord, primitive)                                                                             \
-  MEMBER(LightRecord, power)                                                                                 \
+  MEMBER(LightRecord, radiance)                                                                              \
   MEMBER(LightRecord, area)                                                                                  \
   MEMBER(LightRecord, position)                                                                              \
   MEMBER(LightRecord, direction)                                                                             \

@@ -21,13 +21,13 @@ public:
                const phlux::render::Settings& settings)
       : host_(phlux::render::prepare(scene, settings.traversal, variant.width)),
         parts_(parts_of(scene, host_, settings, variant.width)), device_(test_device(), host_, parts_),
-        program_(&program_of(file, variant, parts_.defines())) {}
+        program_(&program_with(file, variant, parts_.source(""))) {}
 
   template<typename... Arguments>
   void run(const char* name, std::size_t count, const Arguments&... arguments) const {
-    cl::Kernel kernel = program_->kernel(name);
-    const cl_uint first = device_.bind(kernel);
-    program_->run_bound(kernel, first, count, arguments...);
+    phlux::device::Kernel kernel = program_->kernel(name);
+    device_.bind(kernel);
+    program_->run_bound(std::move(kernel), count, arguments...);
   }
 
   [[nodiscard]] const phlux::render::HostScene& host() const { return host_; }

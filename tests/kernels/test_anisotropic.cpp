@@ -3,6 +3,7 @@
 #include <numbers>
 #include <vector>
 
+#include "materials.h"
 #include "sampling_test.h"
 
 using namespace device_test;
@@ -29,19 +30,20 @@ glm::dvec3 formula(const phlux::scene::Material& m, const glm::dvec3& k1, const 
   if (k1.z <= 0 || k2.z <= 0) return glm::dvec3(0);
   const glm::dvec3 h = glm::normalize(k1 + k2);
   const double hk = glm::dot(h, k1), sine2 = h.x * h.x + h.y * h.y;
-  const double weighted = m.exponent_u * h.x * h.x + m.exponent_v * h.y * h.y;
+  const double weighted = phlux::test::exponent_of(m) * h.x * h.x + phlux::test::exponent_v_of(m) * h.y * h.y;
   const double power = sine2 > 0 ? std::exp(weighted / sine2 * 0.5 * std::log1p(-sine2)) : 1;
-  const double lobe =
-      std::sqrt((m.exponent_u + 1) * (m.exponent_v + 1)) / (8 * pi) * power / (hk * std::max(k1.z, k2.z));
-  const glm::dvec3 fresnel = m.specular + (1.0 - m.specular) * fifth(1 - hk);
+  const double lobe = std::sqrt((phlux::test::exponent_of(m) + 1) * (phlux::test::exponent_v_of(m) + 1)) /
+                      (8 * pi) * power / (hk * std::max(k1.z, k2.z));
+  const glm::dvec3 fresnel =
+      phlux::test::specular_of(m) + (1.0 - phlux::test::specular_of(m)) * fifth(1 - hk);
   const double under = 28 / (23 * pi) * (1 - fifth(1 - k1.z / 2)) * (1 - fifth(1 - k2.z / 2));
-  return lobe * fresnel + under * m.diffuse * (1.0 - m.specular);
+  return lobe * fresnel + under * phlux::test::diffuse_of(m) * (1.0 - phlux::test::specular_of(m));
 }
 
 SphereGrid grid_of(const phlux::scene::Material& m, const Float3& fixed) {
   // A lobe of half vectors is about four times as wide, in solid angle, as seen in mirrored directions.
-  auto cuts = lobe_cuts(m.exponent_u / 4);
-  for (const double cut : lobe_cuts(m.exponent_v / 4)) cuts.push_back(cut);
+  auto cuts = lobe_cuts(phlux::test::exponent_of(m) / 4);
+  for (const double cut : lobe_cuts(phlux::test::exponent_v_of(m) / 4)) cuts.push_back(cut);
   return {glm::normalize(glm::dvec3(-fixed.x, -fixed.y, fixed.z)), cuts};
 }
 
@@ -76,7 +78,8 @@ TEST_CASE("anisotropic: the value is the formula's, the same both ways, and 0 be
         const double hk = glm::length(from + to) / 2;
         const glm::dvec3 h = glm::normalize(from + to);
         const double steep =
-            1 + std::max(material.exponent_u, material.exponent_v) * std::hypot(h.x, h.y) / (h.z * h.z);
+            1 + std::max(phlux::test::exponent_of(material), phlux::test::exponent_v_of(material)) *
+                    std::hypot(h.x, h.y) / (h.z * h.z);
         const double tolerance =
             4e-6 + 4e-7 * steep / hk + 2e-7 / std::min(from.z, std::max(to.z, 1e-7)) + 2e-7 / (hk * hk);
         for (int channel = 0; channel < 3; ++channel) {

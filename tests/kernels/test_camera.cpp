@@ -25,7 +25,7 @@ constexpr Film films[] = {{1, 1, 0.5, 0, 0},
 
 Scene scene_of(const Film& film) {
   Scene scene;
-  scene.materials.push_back({});
+  scene.materials.push_back(phlux::lobes::diffuse(phlux::scene::Rgb(0.5)));
   scene.spheres.push_back({});
   Camera& camera = scene.camera;
   camera.forward = glm::normalize(dvec3(1, -2, 0.5));

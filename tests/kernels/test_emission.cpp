@@ -26,7 +26,7 @@ struct Emitted {
 // A floor that emits nothing holds the scene together: lights without a surface need a scene's size.
 Scene floor_alone() {
   Scene scene;
-  scene.materials.push_back({});
+  scene.materials.push_back(phlux::lobes::diffuse(phlux::scene::Rgb(0.5)));
   scene.patches.push_back({Patch::Region::parallelogram, dvec3(1, 2, -3), {4, 0, 0}, {0, 3, 0}, {}});
   return scene;
 }

@@ -49,7 +49,7 @@ void add_light(Scene& scene, Shape shape, const dvec3& at) {
 
 Scene scene_of(Shape shape) {
   Scene scene;
-  scene.materials.push_back({});
+  scene.materials.push_back(phlux::lobes::diffuse(phlux::scene::Rgb(0.5)));
   add_light(scene, shape, dvec3(0));
   return scene;
 }
@@ -187,7 +187,7 @@ namespace {
 // Five with a surface, lamps, and light from far away.
 Scene scene_of_many() {
   Scene scene;
-  scene.materials.push_back({});
+  scene.materials.push_back(phlux::lobes::diffuse(phlux::scene::Rgb(0.5)));
   for (int i = 0; i < 5; ++i) add_light(scene, shapes[i], dvec3(8 * i, 0, 0));
   scene.point_lights.push_back({dvec3(3, 3, 5), dvec3(60)});
   scene.point_lights.push_back({dvec3(5, -3, 5), dvec3(0)}); // without power: never
@@ -297,7 +297,7 @@ TEST_CASE("lights: a light of another side, or that faces away, is hardly ever c
       variants[0], "lights.cl",
       [] {
         Scene scene; // two that face up, one below the other, and one above that faces them
-        scene.materials.push_back({});
+        scene.materials.push_back(phlux::lobes::diffuse(phlux::scene::Rgb(0.5)));
         add_light(scene, Shape::disk, dvec3(0, 0, 0));
         add_light(scene, Shape::triangle, dvec3(0, 0, -3));
         add_light(scene, Shape::rectangle, dvec3(0, 0, 9));
@@ -308,7 +308,7 @@ TEST_CASE("lights: a light of another side, or that faces away, is hardly ever c
   const auto of = [&](const Choices& choices, std::size_t shape) { // lights stand in the primitives' order
     const auto& records = program.host().lights.records;
     for (std::size_t light = 0; light < records.size(); ++light)
-      if (records[light].power[0] == static_cast<float>(1 + shape))
+      if (records[light].radiance[0] == static_cast<float>(1 + shape))
         return by_tree(program, choices, light, 0);
     return -1.0;
   };

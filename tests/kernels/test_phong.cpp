@@ -5,8 +5,9 @@
 
 #include "device_test.h"
 #include "material_test.h"
+#include "materials.h"
+#include "phong/reflectivity.h"
 #include "quadrature.h"
-#include "render/material_table.h"
 
 using namespace device_test;
 
@@ -19,8 +20,10 @@ glm::dvec3 phong_formula(const phlux::scene::Material& m, const glm::dvec3& a, c
   if (a.z <= 0 || b.z <= 0) return glm::dvec3(0);
   const glm::dvec3 mirrored(-a.x, -a.y, a.z);
   const double half = glm::length(mirrored - b) / 2; // sine of half of alpha
-  const double power = half * half < 0.5 ? std::exp(m.exponent_u * std::log1p(-2 * half * half)) : 0;
-  return m.diffuse / pi + m.specular * ((m.exponent_u + 2) / (2 * pi) * power);
+  const double power =
+      half * half < 0.5 ? std::exp(phlux::test::exponent_of(m) * std::log1p(-2 * half * half)) : 0;
+  return phlux::test::diffuse_of(m) / pi +
+         phlux::test::specular_of(m) * ((phlux::test::exponent_of(m) + 2) / (2 * pi) * power);
 }
 
 } // namespace
@@ -71,7 +74,7 @@ TEST_CASE("phong: the value is the formula's, the same both ways, and 0 below th
         // so.
         const glm::dvec3 mirrored(-a[i].x, -a[i].y, a[i].z);
         const double sine = glm::length(mirrored - to_double(b[i]));
-        const double tolerance = 3e-6 + 2e-7 * material.exponent_u * sine;
+        const double tolerance = 3e-6 + 2e-7 * phlux::test::exponent_of(material) * sine;
         for (int channel = 0; channel < 3; ++channel) {
           REQUIRE(std::abs(got[channel] - right[channel]) <= tolerance * right[channel] + 1e-30);
           REQUIRE(std::abs(got[channel] - other[channel]) <= 1e-6 * right[channel] + 1e-30);
@@ -94,8 +97,9 @@ TEST_CASE("phong: reflectivity on the device is the closed form's to the table's
       CAPTURE(v, exponents[m]);
       const auto values = program.reflectivity(static_cast<int>(m), cosines);
       for (std::size_t i = 0; i < cosines.size(); ++i) {
-        const double lobe = phlux::render::lobe_reflectivity(exponents[m], cosines[i]);
-        const glm::dvec3 right = materials[m].diffuse + materials[m].specular * lobe;
+        const double lobe = phlux::phong::lobe_reflectivity(exponents[m], cosines[i]);
+        const glm::dvec3 right =
+            phlux::test::diffuse_of(materials[m]) + phlux::test::specular_of(materials[m]) * lobe;
         for (int channel = 0; channel < 3; ++channel)
           REQUIRE(std::abs(to_double(values[i])[channel] - right[channel]) <= 7e-5 * right[channel] + 2e-7);
       }

@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "render/material_table.h"
+#include "materials.h"
+#include "phong/reflectivity.h"
 #include "sampling_test.h"
 
 using namespace device_test;
@@ -53,11 +54,13 @@ std::vector<Case> cases_of(const Strategy& strategy) {
   std::vector<Case> cases;
   for (std::size_t m = 0; m < materials.size(); ++m)
     for (const double angle : angles) {
-      if ((strategy.traits & no_peaks) != 0 && materials[m].exponent_u > 100) continue;
+      if ((strategy.traits & no_peaks) != 0 && phlux::test::exponent_of(materials[m]) > 100) continue;
       // At an odd longitude, so that x and y are not mistaken for one another.
       const Float3 fixed = to_float(polar(angle * std::numbers::pi / 180, 1.1));
-      const double lobe = phlux::render::lobe_reflectivity(materials[m].exponent_u, fixed.z);
-      cases.push_back({static_cast<int>(m), fixed, materials[m].diffuse + materials[m].specular * lobe});
+      const double lobe = phlux::phong::lobe_reflectivity(phlux::test::exponent_of(materials[m]), fixed.z);
+      cases.push_back(
+          {static_cast<int>(m), fixed,
+           phlux::test::diffuse_of(materials[m]) + phlux::test::specular_of(materials[m]) * lobe});
     }
   return cases;
 }
@@ -65,7 +68,8 @@ std::vector<Case> cases_of(const Strategy& strategy) {
 SphereGrid grid_of(const Strategy& strategy, const Case& one) {
   if ((strategy.traits & smooth) != 0) return {{0, 0, 1}, {}};
   const glm::dvec3 mirrored(-one.fixed.x, -one.fixed.y, one.fixed.z);
-  return {glm::normalize(mirrored), lobe_cuts(materials[static_cast<std::size_t>(one.material)].exponent_u)};
+  return {glm::normalize(mirrored),
+          lobe_cuts(phlux::test::exponent_of(materials[static_cast<std::size_t>(one.material)]))};
 }
 
 // Statistical questions of the whole test: each case asks for directions and three channels of weights, with
@@ -125,7 +129,7 @@ TEST_CASE("phong: the printed estimate loses as much energy as it must") {
   double sum = 0;
   const std::size_t count = thinned(400000);
   for (const Sample& s : program.sample(0, fixed, count, 77, true)) sum += s.survives != 0 ? s.weight.x : 0;
-  const double lobe = phlux::render::lobe_reflectivity(50, fixed.z);
+  const double lobe = phlux::phong::lobe_reflectivity(50, fixed.z);
   CHECK(sum / static_cast<double>(count) / lobe ==
         Approx(1 - 0.107).margin(5 / std::sqrt(static_cast<double>(count))));
 }

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "device_test.h"
-#include "scene_data.h"
+#include "scene/scene_data.h"
 #include "scene_data_members.h"
 
 using namespace device_test;

@@ -42,7 +42,7 @@ public:
 
 private:
   phlux::scene::Surface surface() {
-    scene.materials.push_back({});
+    scene.materials.push_back(phlux::lobes::diffuse(phlux::scene::Rgb(0.5)));
     return {static_cast<int>(scene.materials.size()) - 1, -1};
   }
 };

@@ -1,6 +1,7 @@
 // Weights of bidirectional paths: they sum to 1 over the ways to make a path, and are what its densities say.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "device_test.h"
@@ -18,6 +19,7 @@ struct GivenPath {
   float distance2[most_edges];
   float film, chosen, emission;
   int hittable;
+  int delta[most_edges + 1];
 };
 struct TechniqueWeights {
   float of[most_edges + 1];
@@ -26,7 +28,8 @@ struct TechniqueWeights {
 const char* const heuristics[] = {"WEIGHTS_BALANCE", "WEIGHTS_POWER", "WEIGHTS_UNIFORM"};
 
 // Densities are spread over `octaves` to either side of 1.
-GivenPath random_path(Random& random, double octaves, bool hittable) {
+// With probability `delta` a vertex has a delta event, whose densities are the same both ways and count as 1.
+GivenPath random_path(Random& random, double octaves, bool hittable, double delta = 0) {
   const auto density = [&] { return static_cast<float>(std::exp2(random.uniform(-octaves, octaves))); };
   const auto cosine = [&] { return static_cast<float>(random.uniform(0.01, 1)); };
   GivenPath path{};
@@ -41,6 +44,11 @@ GivenPath random_path(Random& random, double octaves, bool hittable) {
   path.chosen = density();
   path.emission = density();
   path.hittable = hittable;
+  for (std::size_t i = 1; i <= most_edges && delta > 0; ++i) {
+    if (random.uniform(0, 1) >= delta) continue;
+    path.delta[i] = 1;
+    path.forward[i] = path.backward[i] = 1;
+  }
   return path;
 }
 
@@ -64,11 +72,19 @@ double log_density(const GivenPath& p, std::size_t edges, std::size_t s) {
   return sum;
 }
 
-// Of every technique, from scratch.
+// Whether the technique can make the path: no subpath ends at a delta event, and a light that is hit has a
+// surface.
+bool is_possible(const GivenPath& path, std::size_t edges, std::size_t s) {
+  if (s == 0) return path.hittable != 0;
+  return path.delta[s - 1] == 0 && (s == edges || path.delta[s] == 0);
+}
+
+// Of every technique, from scratch; empty if there is none.
 std::vector<double> weights_of(const GivenPath& path, std::size_t edges, std::size_t heuristic) {
   std::vector<double> logs;
   for (std::size_t s = 0; s <= edges; ++s)
-    logs.push_back(s == 0 && path.hittable == 0 ? -INFINITY : log_density(path, edges, s));
+    logs.push_back(is_possible(path, edges, s) ? log_density(path, edges, s) : -INFINITY);
+  if (*std::max_element(logs.begin(), logs.end()) == -INFINITY) return {};
   const double power = heuristic == 0 ? 1 : 2, largest = *std::max_element(logs.begin(), logs.end());
   std::vector<double> weights;
   double sum = 0;
@@ -81,9 +97,9 @@ std::vector<double> weights_of(const GivenPath& path, std::size_t edges, std::si
 }
 
 std::vector<TechniqueWeights> weigh(Variant v, std::size_t heuristic, const std::vector<GivenPath>& paths,
-                                    std::size_t edges) {
+                                    std::size_t edges, bool has_delta = false) {
   std::vector<TechniqueWeights> weights(paths.size());
-  program_of("weights.cl", v, {{"PHLUX_WEIGHTS", heuristics[heuristic]}})
+  program_of("weights.cl", v, {{"WEIGHTS", heuristics[heuristic]}, {"HAS_DELTA", has_delta ? "1" : "0"}})
       .run("weigh", paths.size(), paths, static_cast<int>(edges), out(weights));
   return weights;
 }
@@ -93,16 +109,18 @@ std::vector<TechniqueWeights> weigh(Variant v, std::size_t heuristic, const std:
 TEST_CASE("weights: over all techniques they sum to 1, and each is what the densities say") {
   for (const Variant v : variants)
     for (std::size_t heuristic = 0; heuristic < 3; ++heuristic)
-      for (const bool hittable : {true, false}) {
+      for (const auto& [hittable, delta] : {std::pair(true, 0.0), {false, 0.0}, {true, 0.4}, {false, 0.2}}) {
         Random random(111);
         std::vector<GivenPath> paths;
-        for (std::size_t i = 0; i < thinned(1000); ++i) paths.push_back(random_path(random, 3, hittable));
+        for (std::size_t i = 0; i < thinned(1000); ++i)
+          paths.push_back(random_path(random, 3, hittable, delta));
         for (std::size_t edges = hittable ? 1 : 2; edges <= most_edges; ++edges) {
-          CAPTURE(v, heuristics[heuristic], hittable, edges);
-          const auto weights = weigh(v, heuristic, paths, edges);
+          CAPTURE(v, heuristics[heuristic], hittable, delta, edges);
+          const auto weights = weigh(v, heuristic, paths, edges, delta > 0);
           double worst_sum = 0, worst_weight = 0;
           for (std::size_t i = 0; i < paths.size(); ++i) {
             const auto right = weights_of(paths[i], edges, heuristic);
+            if (right.empty()) continue;
             double sum = 0;
             for (std::size_t s = 0; s <= edges; ++s) {
               const double weight = weights[i].of[s];

@@ -1,4 +1,4 @@
-#include "lanes.h"
+#include "lanes/lanes.h"
 
 __kernel void turns(__global const Real* turns, __global Real* cosine, __global Real* sine) {
   const size_t i = get_global_id(0);

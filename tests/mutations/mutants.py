@@ -69,11 +69,11 @@ MUTANTS = [
 ]
 
 # Mistakes of light tracing and bidirectional path tracing, with the program and the test cases that are to see them.
-INTEGRATORS = ("test_render", "[mutations]")
-SMOOTH, FLAT = ("test_render", "a ball of eight*"), ("test_render", "a low gap*")
+INTEGRATORS = ("test_images", "[mutations]")
+SMOOTH, FLAT = ("test_images", "a ball of eight*"), ("test_render", "a low gap*")
 CAMERA, EMISSION, LIGHTS, WEIGHTS, BATCHES = (
     ("test_kernels", name + ":*") for name in ("camera", "emission", "lights", "weights", "batches"))
-REMEDIES = ("test_render", "light samples by power*,roulette of connections leaves*")
+REMEDIES = ("test_images", "light samples by power*,roulette of connections leaves*")
 
 INTEGRATOR_MUTANTS = [
     ("splat without its cosine", "light_walk.cl", "adjoint_cosine(v, generated, cosine) * view.film.density / view.distance2",
@@ -88,14 +88,14 @@ INTEGRATOR_MUTANTS = [
     ("eye connected through surfaces", "shadow_queue.cl", "const Mask free = waiting & !scene_occluded", "const Mask free = waiting | scene_occluded",
      INTEGRATORS),
     ("light's point seen from behind", "light_walk.cl", "Mask faces = e.surface & (cosine > 0.0f);", "Mask faces = e.surface;",
-     ("test_render", "an emitter seen from behind*")),
+     ("test_images", "an emitter seen from behind*")),
     ("light's point without pi", "light_walk.cl", "Real chosen = PHONG_PI * e.density", "Real chosen = e.density", INTEGRATORS),
     ("sky seen with half its density", "light_walk.cl", "chosen = e.sky ? (0.25f * PHONG_INV_PI)", "chosen = e.sky ? (0.5f * PHONG_INV_PI)", INTEGRATORS),
     ("light subpaths without the adjoint factor", "walk.cl", "if (adjoint) throughput", "if (adjoint > 1) throughput", SMOOTH),
     ("adjoint factor of splats and connections missing", "walk.cl",
      "return v.fixed.z * geometric_cosine / vec_dot(v.point.normal, from_frame(v.point.frame, v.fixed));", "return generated.z;", SMOOTH),
     ("reverse density without swapped arguments (walk)", "walk.cl", "material_density(v.material, sample.direction, v.fixed)",
-     "material_density(v.material, v.fixed, sample.direction)", ("test_render", "furnace box by light and bidir: 2*")),
+     "material_density(v.material, v.fixed, sample.direction)", ("test_images", "furnace box by light and bidir: 2*")),
     ("reverse density without swapped arguments (splat)", "light_walk.cl", "material_density(v.material, generated, v.fixed)",
      "material_density(v.material, v.fixed, generated)", INTEGRATORS),
     ("reverse density without swapped arguments (light sample)", "bidir.cl", "material_density(v.material, generated, v.fixed), cosine",
@@ -106,9 +106,9 @@ INTEGRATOR_MUTANTS = [
      "adjoint_cosine(light.vertex, to_eye, light_cosine), reflected)", INTEGRATORS),
     ("connection without a cosine", "bidir.cl", "vec_scale(to_light.z * adjoint_cosine", "vec_scale(adjoint_cosine", INTEGRATORS),
     ("connections make paths that are too long", "bidir.cl", "b->limits.edges - 2 - pair->eye_index", "b->limits.edges - 1 - pair->eye_index",
-     ("test_render", "furnace box by light and bidir: every*")),
+     ("test_images", "furnace box by light and bidir: every*")),
     ("connections leave the longest paths out", "bidir.cl", "b->limits.edges - 2 - pair->eye_index", "b->limits.edges - 3 - pair->eye_index",
-     ("test_render", "furnace box by light and bidir: every*")),
+     ("test_images", "furnace box by light and bidir: every*")),
     ("wrong density of the sky as it is hit", "bidir.cl", "const Real sampled = sky->probability * walk->sky_density;",
      "const Real sampled = sky->probability * PHONG_INV_PI;", INTEGRATORS),
     ("wrong density of the sky as a path's start", "bidir.cl", "choice * v.fixed.z * PHONG_INV_PI", "choice * PHONG_INV_PI", INTEGRATORS),

@@ -10,6 +10,7 @@
 
 namespace {
 
+using phlux::lobes::shipped;
 using phlux::render::Connect;
 using phlux::render::Integrator;
 using phlux::render::Parts;
@@ -17,51 +18,54 @@ using phlux::render::Weights;
 
 Parts everything() {
   Parts parts;
-  for (const auto part :
-       {&Parts::hierarchy, &Parts::planars, &Parts::triangles, &Parts::parallelograms, &Parts::ellipses,
-        &Parts::spheres, &Parts::smooth_normals, &Parts::two_sided, &Parts::phong_lobe, &Parts::anisotropic,
-        &Parts::emission, &Parts::light_planar, &Parts::light_sphere, &Parts::light_point, &Parts::light_spot,
-        &Parts::light_directional, &Parts::light_constant, &Parts::light_choice})
+  for (const auto part : {&Parts::hierarchy, &Parts::triangles, &Parts::parallelograms, &Parts::ellipses,
+                          &Parts::spheres, &Parts::smooth_normals, &Parts::two_sided, &Parts::light_planar,
+                          &Parts::light_sphere, &Parts::light_point, &Parts::light_spot,
+                          &Parts::light_directional, &Parts::light_constant, &Parts::light_choice})
     parts.*part = true;
-  parts.strategy = "STRATEGY_EXACT";
+  parts.models = {shipped("anisotropicphong"), shipped("conductor"), shipped("phong")};
+  parts.strategy = "exact";
   return parts;
 }
 
 Parts everything_brute_force() {
   Parts parts = everything();
   parts.hierarchy = false;
-  parts.strategy = "STRATEGY_LOBE_RHO";
+  parts.strategy = "lobe-rho";
   return parts;
 }
 
 Parts diffuse_box() {
   Parts parts;
-  parts.planars = parts.parallelograms = parts.emission = parts.light_planar = true;
-  parts.strategy = "STRATEGY_COSINE";
+  parts.parallelograms = parts.light_planar = true;
+  parts.strategy = "cosine";
   return parts;
 }
 
 Parts glossy_spheres() {
   Parts parts = diffuse_box();
-  parts.spheres = parts.phong_lobe = true;
-  parts.strategy = "STRATEGY_EXACT";
+  parts.spheres = true;
+  parts.models = {shipped("phong")};
+  parts.strategy = "exact";
   return parts;
 }
 
 Parts mesh() {
   Parts parts;
-  parts.hierarchy = parts.planars = parts.triangles = parts.smooth_normals = parts.phong_lobe = true;
-  parts.emission = parts.light_planar = parts.light_choice = true;
+  parts.hierarchy = parts.triangles = parts.smooth_normals = true;
+  parts.models = {shipped("phong")};
+  parts.light_planar = parts.light_choice = true;
   parts.connect = Connect::light;
-  parts.strategy = "STRATEGY_LOBE_KS";
+  parts.strategy = "lobe-ks";
   return parts;
 }
 
 Parts sphere_in_sky() {
   Parts parts;
-  parts.spheres = parts.phong_lobe = parts.light_constant = true;
+  parts.spheres = parts.light_constant = true;
+  parts.models = {shipped("phong")};
   parts.connect = Connect::none;
-  parts.strategy = "STRATEGY_MIXTURE";
+  parts.strategy = "mixture";
   return parts;
 }
 
@@ -82,16 +86,21 @@ Parts with_techniques(Parts parts) {
   return parts;
 }
 
-// A scene-less program that measures the sampler.
-std::map<std::string, std::string> sampler(const std::string& strategy) {
-  return {{"PHLUX_STRATEGY", strategy}, {"PHLUX_PHONG_LOBE", "1"}, {"FIXED_DIRECTIONS", "16"}};
+// A program without a scene, which measures a reflectance model by a strategy.
+Parts phong(const std::string& strategy) {
+  Parts parts;
+  parts.models = {shipped("phong")};
+  parts.strategy = strategy;
+  return parts;
 }
 
 bool write(const std::filesystem::path& folder, const std::string& name, const std::string& root, int lanes,
-           std::map<std::string, std::string> defines) {
-  defines["WIDTH"] = std::to_string(lanes);
+           Parts parts) {
+  parts.lanes = lanes;
+  phlux::device::ProgramSource source = parts.source(root);
+  source.defines["FIXED_DIRECTIONS"] = "16";
   std::ofstream file(folder / (name + "." + std::to_string(lanes) + ".cl"));
-  file << phlux::device::expand({}, {root, defines, ""});
+  file << phlux::device::expand({}, source);
   return static_cast<bool>(file.flush());
 }
 
@@ -121,16 +130,14 @@ int main(int argc, char** argv) {
       {"glossy-spheres-bidir-double", in_double(by(Integrator::bidir, glossy_spheres()))}};
   bool good = true;
   for (const int lanes : {1, 4, 8, 16}) {
-    for (auto [name, parts] : programs) {
+    for (const auto& [name, parts] : programs) {
       if (parts.double_precision && lanes != 1) continue;
-      parts.lanes = lanes;
-      good = good && write(folder, name, parts.file(), lanes, parts.defines());
+      good = good && write(folder, name, parts.file(), lanes, parts);
     }
-    for (const std::string strategy : {"EXACT", "REJECTION", "FOLD", "LOBE_ESTIMATE", "DISK"})
-      good = good &&
-             write(folder, "sampling-" + strategy, "sampling.cl", lanes, sampler("STRATEGY_" + strategy));
-    good = good && write(folder, "figures", "figures.cl", lanes, sampler("STRATEGY_EXACT"));
-    good = good && write(folder, "arithmetic", "arithmetic.cl", lanes, {{"PHLUX_PHONG_LOBE", "1"}});
+    for (const std::string& strategy : phlux::render::strategy_names())
+      good = good && write(folder, "sampling-" + strategy, "measure/sampling.cl", lanes, phong(strategy));
+    good = good && write(folder, "figures", "measure/figures.cl", lanes, phong("exact"));
+    good = good && write(folder, "arithmetic", "measure/arithmetic.cl", lanes, phong("exact"));
   }
   return good ? 0 : 1;
 }

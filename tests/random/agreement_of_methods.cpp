@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "images/welch.h"
 #include "random/repeated_render.h"
-#include "render/welch.h"
 #include "sidak.h"
 
 namespace phlux::test {

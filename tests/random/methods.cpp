@@ -1,4 +1,5 @@
 #include "random/methods.h"
+#include "materials.h"
 
 #include <algorithm>
 #include <array>
@@ -185,17 +186,17 @@ SceneFacts facts_of(const scene::Scene& scene) {
   for (const PrimitiveRecord& p : host.geometry.primitives) {
     if (p.region == REGION_NONE) continue;
     const scene::Material& m = scene.materials[static_cast<std::size_t>(p.material)];
-    const bool anisotropic = m.kind == scene::Material::Kind::anisotropic_phong;
-    if (anisotropic || m.specular != scene::Rgb(0.0))
-      facts.largest_exponent =
-          std::max({facts.largest_exponent, m.exponent_u, anisotropic ? m.exponent_v : 0.0});
+    const bool anisotropic = m.model == lobes::shipped("anisotropicphong");
+    if (anisotropic || phlux::test::specular_of(m) != scene::Rgb(0.0))
+      facts.largest_exponent = std::max({facts.largest_exponent, phlux::test::exponent_of(m),
+                                         anisotropic ? phlux::test::exponent_v_of(m) : 0.0});
   }
   const Surfaces surfaces(host.geometry);
   facts.narrowest_view = narrowest_view(surfaces, host.camera, host.geometry.radius);
   for (const LightRecord& light : host.lights.records) {
     const bool spreads = light.kind == LIGHT_POINT || light.kind == LIGHT_SPOT;
     const double unit = host.lights.unit / (spreads ? std::pow(host.geometry.radius, 2) : 1);
-    for (const float power : light.power)
+    for (const float power : light.radiance)
       facts.brightest = std::max(facts.brightest, unit * static_cast<double>(power));
     facts.in_small_spots += static_cast<double>(light.probability) *
                             part_on_near_surfaces(surfaces, light, small_spot * host.geometry.radius);

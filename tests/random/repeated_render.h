@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "render/prepared_render.h"
+#include "images/prepared_render.h"
 
 namespace phlux::test {
 

@@ -10,7 +10,14 @@ namespace {
 
 Scene one_of_each() {
   Scene scene;
+  Model model;
+  model.name = "phong";
+  model.parameters.resize(2);
   scene.materials.resize(2);
+  for (Material& material : scene.materials) {
+    material.model = std::make_shared<const Model>(model);
+    material.values = {Rgb(0.5), Rgb(30)};
+  }
   scene.area_emitters.resize(1);
   scene.patches.resize(1);
   scene.spheres.resize(1);
@@ -28,9 +35,18 @@ TEST_CASE("The digest of a scene changes with all that its light depends on") {
   CHECK(digest_before.size() == 32);
   CHECK(digest(one_of_each()) == digest_before);
   const std::vector<std::function<void(Scene&)>> changes = {
-      [](Scene& s) { s.materials[1].diffuse.g = 0.25; },
+      [](Scene& s) { s.materials[1].values[0].g = 0.25; },
       [](Scene& s) { s.materials[1].two_sided = true; },
-      [](Scene& s) { s.materials[0].kind = Material::Kind::anisotropic_phong; },
+      [](Scene& s) {
+        Model other;
+        other.name = "velvet";
+        s.materials[0].model = std::make_shared<const Model>(other);
+      },
+      [](Scene& s) {
+        Model changed = *s.materials[0].model; // a user's own model, with another text
+        changed.text = "static inline";
+        s.materials[0].model = std::make_shared<const Model>(changed);
+      },
       [](Scene& s) { s.materials.pop_back(); },
       [](Scene& s) { s.area_emitters[0].radiance.r = 2; },
       [](Scene& s) { s.patches[0].edge_v.z = 1; },

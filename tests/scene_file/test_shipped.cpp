@@ -7,6 +7,7 @@
 
 #include <glm/gtx/component_wise.hpp>
 
+#include "materials.h"
 #include "scene_file/load.h"
 
 using phlux::scene_file::load;
@@ -74,7 +75,7 @@ TEST_CASE("The furnaces are what their closed forms need") {
   const auto box = load(scenes / "furnace-box.xml");
   REQUIRE(box.patches.size() == 6);
   CHECK(box.materials.size() == 1);
-  CHECK(box.materials[0].diffuse == phlux::scene::Rgb(0.5));
+  CHECK(phlux::test::diffuse_of(box.materials[0]) == phlux::scene::Rgb(0.5));
   CHECK(box.area_emitters.at(0).radiance == phlux::scene::Rgb(1.0));
   for (const auto& wall : box.patches) { // the camera sees the front of each
     const auto normal = glm::cross(wall.edge_u, wall.edge_v);

@@ -18,7 +18,7 @@ const device::Device& test_device() {
 }
 
 verify::Report run_quick(int lanes, std::vector<std::string> strategies = {},
-                         device::KernelFiles kernels = {}) {
+                         sources::KernelFiles kernels = {}) {
   verify::Settings settings;
   settings.lanes = lanes;
   settings.quick = true;
@@ -71,17 +71,17 @@ TEST_CASE("verify: wrong kernels fail the checks that are there for them", "[slo
     std::string strategy, file, from, to, check;
   };
   const Mistake mistakes[] = {
-      {"exact", "phong.cl", "cosine_power_direction(m.exponent + 1.0f, u1, u2)",
-       "cosine_power_direction(m.exponent, u1, u2)", "directions"},
-      {"mixture", "phong.cl", "* (m.exponent + 1.0f) / (m.exponent + 2.0f)", "", "densities"},
-      {"cosine", "random_directions.h", "polar_direction(sqrt(1.0f - u1), sqrt(u1), u2)",
+      {"exact", "phong/strategies/exact.cl", "Vec3 v = cosine_power_direction(m.exponent + 1.0f,",
+       "Vec3 v = cosine_power_direction(m.exponent,", "directions"},
+      {"mixture", "phong/one_part.cl", "* (m.exponent + 1.0f) / (m.exponent + 2.0f)", "", "densities"},
+      {"cosine", "math/directions.h", "polar_direction(sqrt(1.0f - u1), sqrt(u1), u2)",
        "polar_direction(sqrt((1.0f - u1) * (1.0f + u1)), u1, u2)", "jacobian"},
-      {"lobe-ks", "phong.cl", "total / (survival * shares.diffuse)", "total / shares.diffuse", "means"},
+      {"lobe-ks", "lobes/material.cl", "vec_scale(1.0f / survival, s.weight)", "s.weight", "means"},
   };
   for (const Mistake& m : mistakes) {
     CAPTURE(m.strategy, m.to);
     const KernelCopy copy(m.file, m.from, m.to);
-    const verify::Report report = run_quick(16, {m.strategy}, device::KernelFiles(copy.folder()));
+    const verify::Report report = run_quick(16, {m.strategy}, sources::KernelFiles(copy.folder()));
     CHECK_FALSE(report.passed());
     CHECK(fails(report, m.check));
   }

@@ -1,0 +1,141 @@
+#include "bench/common/methods/result_table.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "bench/common/tables/csv.h"
+
+namespace phlux::bench {
+namespace {
+
+using Values = ResultTable::Values;
+
+Values all_columns(const Values& key_columns, const Values& columns) {
+  Values all = key_columns;
+  all.insert(all.end(), {"integrator", "strategy", "connect_or_weights"});
+  all.insert(all.end(), columns.begin(), columns.end());
+  all.emplace_back("settings");
+  return all;
+}
+
+} // namespace
+
+ResultTable::ResultTable(const std::filesystem::path& folder, const std::string& name,
+                         const Values& key_columns, const Values& columns)
+    : table_(folder, name, all_columns(key_columns, columns)), key_size_(key_columns.size()) {}
+
+bool ResultTable::is_of(const SavedTable::Row& row, const Values& key) const {
+  return std::equal(key.begin(), key.end(), row.begin());
+}
+
+Method ResultTable::method_of(const SavedTable::Row& row) const {
+  return {row[key_size_], row[key_size_ + 1], row[key_size_ + 2]};
+}
+
+std::vector<Method> ResultTable::missing(const Values& key, const std::vector<Method>& methods,
+                                         const std::string& settings) const {
+  const auto row_of = [&](const Method& method) {
+    return std::ranges::find_if(table_.rows(), [&](const SavedTable::Row& row) {
+      return is_of(row, key) && method_of(row) == method && row.back() == settings;
+    });
+  };
+  std::vector<Method> without;
+  bool only_refusals = true;
+  for (const Method& method : methods) {
+    const auto row = row_of(method);
+    if (row != table_.rows().end() && table_.value(*row, "verdict") != word_of(Verdict::refused)) continue;
+    only_refusals = only_refusals && row != table_.rows().end();
+    without.push_back(method);
+  }
+  return only_refusals ? std::vector<Method>{} : without;
+}
+
+void ResultTable::forget(const Values& key, const std::vector<Method>& again, const std::string& settings) {
+  table_.remove_if([&](const SavedTable::Row& row) {
+    return is_of(row, key) && (row.back() != settings || std::ranges::count(again, method_of(row)) > 0);
+  });
+}
+
+void ResultTable::add(const Values& key, const Method& method, const Values& values,
+                      const std::string& settings) {
+  SavedTable::Row row = key;
+  row.insert(row.end(), {method.integrator, method.strategy, method.variant});
+  row.insert(row.end(), values.begin(), values.end());
+  row.push_back(settings);
+  table_.add(std::move(row));
+}
+
+const std::vector<std::string>& result_columns() {
+  static const std::vector<std::string> columns = {"device",
+                                                   "samples_per_pixel",
+                                                   "seconds",
+                                                   "relmse",
+                                                   "variance_per_sample",
+                                                   "variance_standard_error",
+                                                   "top_share",
+                                                   "seconds_per_sample",
+                                                   "variance_times_seconds", // the contract's end here
+                                                   "verdict",
+                                                   "reason",
+                                                   "variance_measured",
+                                                   "variance_measured_standard_error",
+                                                   "seconds_per_sample_least",
+                                                   "seconds_per_sample_most",
+                                                   "processor_seconds_per_sample",
+                                                   "mean",
+                                                   "mean_standard_error",
+                                                   "mean_bias_sigma",
+                                                   "rounds",
+                                                   "seed",
+                                                   "image",
+                                                   "reference_by",
+                                                   "reference_relmse",
+                                                   "reference_seconds",
+                                                   "lanes"};
+  return columns;
+}
+
+std::vector<std::string> result_values(const MethodResult& result, const ReferenceImage& reference,
+                                       const scene::Camera& camera, const Measured& measured) {
+  Values row = {csv_value(measured.device)};
+  const bool refused = result.verdict == Verdict::refused, sound = result.verdict == Verdict::sound;
+  const auto figure = [&](double value, bool earned = true) {
+    row.push_back(refused || !earned ? "" : number_text(value));
+  };
+  const ConvergencePoint end = refused ? ConvergencePoint{} : result.convergence.back();
+  figure(end.samples_per_pixel);
+  figure(end.seconds);
+  figure(end.relmse);
+  const bool variance_known = result.verdict != Verdict::suspect_variance;
+  figure(result.variance.value, variance_known);
+  figure(result.variance.standard_error, variance_known);
+  figure(result.top_share);
+  figure(result.seconds_per_sample);
+  const double seconds =
+      measured.processor_time ? result.processor_seconds_per_sample : result.seconds_per_sample;
+  figure(result.variance.value * seconds, sound);
+  row.emplace_back(word_of(result.verdict));
+  row.push_back(csv_value(result.reason));
+  figure(result.variance.value);
+  figure(result.variance.standard_error);
+  figure(result.seconds_per_sample_least);
+  figure(result.seconds_per_sample_most);
+  figure(result.processor_seconds_per_sample);
+  figure(result.mean.value);
+  figure(result.mean.standard_error);
+  figure(result.mean_bias_sigma);
+  for (const std::string& text :
+       {fmt::format("{}", result.rounds), fmt::format("{}", measured.seed),
+        fmt::format("{}x{}", camera.width, camera.height), csv_value(reference.method),
+        number_text(reference.relmse), number_text(reference.seconds), fmt::format("{}", measured.lanes)})
+    row.push_back(text);
+  return row;
+}
+
+std::string number_text(double value) {
+  return std::isfinite(value) ? fmt::format("{:.6g}", value) : "";
+}
+
+} // namespace phlux::bench

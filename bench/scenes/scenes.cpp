@@ -1,0 +1,321 @@
+#include "bench/scenes/scenes.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "bench/common/methods/build_ahead.h"
+#include "bench/common/methods/result_table.h"
+#include "bench/common/methods/timed_render.h"
+#include "bench/common/report/draw.h"
+#include "bench/common/report/scripts.h"
+#include "bench/common/status_line.h"
+#include "bench/common/tables/array_file.h"
+#include "bench/common/tables/csv.h"
+#include "bench/common/tables/fingerprint.h"
+#include "bench/common/tables/provenance.h"
+#include "clock.h"
+#include "device/device.h"
+#include "errors.h"
+#include "scene/image_size.h"
+#include "scene_file/load.h"
+
+namespace phlux::bench {
+namespace {
+
+constexpr double default_seconds = 120, quick_seconds = 11; // a scene
+constexpr double default_total = 17 * 60, quick_total = 90;
+constexpr int default_side = 128, quick_side = 64;
+
+const std::vector<std::string> convergence_columns = {
+    "seconds", "samples_per_pixel", "relmse", "relmse_least", "relmse_most", "relmse_expected", "rounds"};
+
+// ---- What is the same in two runs
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+struct Run { // what all scenes share
+  const ScenesOptions& options;
+  device::DeviceInfo device;
+  int lanes = 0;
+  std::vector<Method> methods;
+  double seconds = 0;      // a scene
+  double seconds_left = 0; // a scene, of what building kernels left
+};
+
+struct SceneRun {
+  std::string name;
+  scene::Scene scene;
+  std::string settings; // fingerprint of all that the figures depend on but the method
+};
+
+SceneRun load(const std::filesystem::path& file, const Run& run) {
+  const int side = run.options.side.value_or(run.options.quick ? quick_side : default_side);
+  SceneRun result{file.stem().string(), load_at_size(file, side), {}};
+  Fingerprint fingerprint;
+  fingerprint.add(text_of(file));
+  for (const scene::Mesh& mesh : result.scene.meshes)
+    fingerprint.add(mesh.positions.data(), mesh.positions.size() * sizeof(scene::Vec3));
+  fingerprint.add(fmt::format("{} {} {} {} {} {} {} {}", PHLUX_VERSION, result.scene.camera.width,
+                              result.scene.camera.height, run.options.quick, run.seconds, run.options.seed,
+                              run.lanes, run.device.name));
+  fingerprint.add(run.options.kernel_dir.string());
+  result.settings = fingerprint.text();
+  return result;
+}
+
+// ---- The tables
+
+std::vector<std::string> convergence_values(const ReferenceImage& reference, const MethodResult& result,
+                                            const ConvergencePoint& point) {
+  std::vector<std::string> row;
+  for (const double value :
+       {point.seconds, point.samples_per_pixel, point.relmse, point.relmse_least, point.relmse_most,
+        result.variance.value / point.samples_per_pixel + reference.relmse})
+    row.push_back(number_text(value));
+  row.push_back(fmt::format("{}", point.rounds));
+  return row;
+}
+
+struct Tables {
+  explicit Tables(const std::filesystem::path& folder)
+      : results(folder, "scenes.csv", {"scene"}, result_columns()),
+        convergence(folder, "scenes-convergence.csv", {"scene"}, convergence_columns) {}
+
+  void replace(const Run& run, const SceneRun& scene, const std::vector<Method>& methods,
+               const ReferenceImage& reference, const std::vector<MethodResult>& measured) {
+    results.forget({scene.name}, methods, scene.settings);
+    convergence.forget({scene.name}, methods, scene.settings);
+    for (const MethodResult& result : measured) {
+      results.add({scene.name}, result.method,
+                  result_values(result, reference, scene.scene.camera,
+                                {run.device.name, run.lanes, run.options.seed}),
+                  scene.settings);
+      for (const ConvergencePoint& point : result.convergence)
+        convergence.add({scene.name}, result.method, convergence_values(reference, result, point),
+                        scene.settings);
+    }
+    write();
+  }
+  void write() const {
+    convergence.write();
+    results.write(); // last: what it has is there in full
+  }
+
+  ResultTable results, convergence;
+};
+
+// ---- One scene
+
+std::string file_name(const Method& m) {
+  return fmt::format("{}-{}-{}.npy", m.integrator, m.variant == "-" ? "all" : m.variant, m.strategy);
+}
+
+void write_images(const std::filesystem::path& folder, const scene::Camera& camera,
+                  const ReferenceImage& reference, const std::vector<MethodResult>& results) {
+  make_folder(folder);
+  const std::vector<std::size_t> shape = {static_cast<std::size_t>(camera.height),
+                                          static_cast<std::size_t>(camera.width), 3};
+  write_array(folder / "reference.npy", shape, reference.radiance);
+  for (const MethodResult& result : results)
+    if (result.verdict != Verdict::refused)
+      write_array(folder / file_name(result.method), shape, result.first_image.radiance);
+}
+
+void print(const SceneRun& scene, const ReferenceImage& reference, const std::vector<MethodResult>& results) {
+  fmt::print("{}, {}x{}; reference by {}, {:.0f} samples per pixel, relative MSE {:.2g}\n", scene.name,
+             scene.scene.camera.width, scene.scene.camera.height, reference.method,
+             reference.samples_per_pixel, reference.relmse);
+  fmt::print("  {:<28} {:>12} {:>10} {:>14} {:>10}  {}\n", "method", "variance", "ns/sample", "to variance 1",
+             "top 0.1%", "");
+  for (const MethodResult& r : results) {
+    if (r.verdict == Verdict::refused) {
+      fmt::print("  {:<28} {}: {}\n", r.method.name(), word_of(r.verdict), r.reason);
+      continue;
+    }
+    const bool sound = r.verdict == Verdict::sound;
+    fmt::print("  {:<28} {:>12} {:>10.1f} {:>14} {:>9.1f}%  {}{}{}\n", r.method.name(),
+               fmt::format("{:.4g}", r.variance.value), 1e9 * r.seconds_per_sample,
+               sound ? fmt::format("{:.3g} us", 1e6 * r.variance.value * r.seconds_per_sample) : "-",
+               100 * r.top_share, sound ? "" : word_of(r.verdict), sound ? "" : ": ", sound ? "" : r.reason);
+  }
+  std::fflush(stdout);
+}
+
+ReferenceImage reference_of(const SceneBench& bench, const SceneRun& scene,
+                            const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / (scene.name + ".exr");
+  if (auto saved = read_reference(file, scene.settings)) return *saved;
+  const ReferenceImage reference = bench.reference();
+  make_folder(folder);
+  write_reference(file, scene.settings, reference, scene.scene.camera);
+  return reference;
+}
+
+struct SceneResults {
+  ReferenceImage reference;
+  std::vector<MethodResult> methods;
+};
+
+SceneBenchSettings settings_for(const ScenesOptions& options) {
+  return bench_settings(options, options.quick ? 3 : 6);
+}
+
+SceneResults measure(const Run& run, const SceneRun& scene, const std::vector<Method>& methods,
+                     Tables& tables, const std::function<void(const std::string&)>& report) {
+  SceneBenchSettings settings = settings_for(run.options);
+  settings.seconds = run.seconds_left;
+  settings.report = report;
+  SceneBench bench(scene.scene, settings);
+  bench.try_methods(methods);
+  ReferenceImage reference = reference_of(bench, scene, run.options.folder / "references");
+  const std::vector<MethodResult> results = bench.measure(reference);
+  // The reference's own renders may all have missed what the rounds met.
+  for (const MethodResult& result : results)
+    if (result.method.name() == reference.method)
+      reference.relmse = std::max(reference.relmse, result.variance.value / reference.samples_per_pixel);
+  write_images(run.options.folder / "scenes-images" / scene.name, scene.scene.camera, reference, results);
+  tables.replace(run, scene, methods, reference, results);
+  return {reference, results};
+}
+
+// ---- All scenes
+
+void check_names(const std::vector<std::filesystem::path>& files) {
+  std::map<std::string, std::filesystem::path> seen;
+  for (const auto& file : files)
+    if (const auto [other, added] = seen.try_emplace(file.stem().string(), file); !added)
+      throw UsageError(fmt::format("--scene {}: has the name of {}: tables tell scenes by it", file.string(),
+                                   other->second.string()));
+}
+
+double seconds_for_each(const ScenesOptions& options, double total, std::size_t scenes) {
+  return options.seconds.value_or(
+      std::min(options.quick ? quick_seconds : default_seconds, total / static_cast<double>(scenes)));
+}
+
+std::string command_of(const ScenesOptions& options) {
+  std::string command = "phlux bench scenes";
+  if (options.quick) command += " --quick";
+  command += text_of_amount(options) + text_of_strategies(options);
+  for (const auto& scene : options.scenes) command += " --scene " + scene.filename().string();
+  return command;
+}
+
+struct Done {
+  std::size_t scenes = 0, programs = 0, programs_built = 0;
+};
+
+void measure_all(const Run& run, const std::vector<SceneRun>& scenes, Tables& tables, Done& done) {
+  StatusLine status;
+  std::vector<std::vector<Method>> methods_of;
+  for (const SceneRun& scene : scenes)
+    methods_of.push_back(tables.results.missing({scene.name}, run.methods, scene.settings));
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const std::vector<Method>& methods = methods_of[i];
+    if (methods.empty()) {
+      fmt::print("{}: measured already\n", scenes[i].name);
+      continue;
+    }
+    const Clock::time_point begin = Clock::now();
+    const auto later = std::count_if(methods_of.begin() + static_cast<std::ptrdiff_t>(i) + 1,
+                                     methods_of.end(), [](const auto& those) { return !those.empty(); });
+    const SceneResults results = measure(run, scenes[i], methods, tables, [&](const std::string& what) {
+      const double left = std::max(0.0, run.seconds_left - seconds_since(begin)) +
+                          run.seconds_left * static_cast<double>(later);
+      status.show(fmt::format("scene {} of {}, {}: {}  {} left", i + 1, scenes.size(), scenes[i].name, what,
+                              clock_text(left)));
+    });
+    status.clear();
+    print(scenes[i], results.reference, results.methods);
+    ++done.scenes;
+  }
+}
+
+void finish(const Run& run, const Done& done) {
+  // Where nothing was measured, what is there says how it was.
+  if (done.scenes > 0 || !std::filesystem::exists(run.options.folder / "scenes.provenance.json")) {
+    const std::string kernels =
+        done.programs > 0
+            ? fmt::format("{} programs of {} scenes and methods were not in the cache; all were built before "
+                          "anything was timed",
+                          done.programs_built, done.programs)
+            : "built before anything was timed";
+    write_provenance(run.options.folder, "scenes",
+                     {command_of(run.options), run.device, run.lanes, kernels,
+                      fmt::format("{} and up for the rounds, from 1000000 above for trials, from 2000000 "
+                                  "above for references",
+                                  run.options.seed)});
+  }
+  draw_charts(run.options.folder, scenes_script());
+}
+
+} // namespace
+
+scene::Scene load_at_size(const std::filesystem::path& file, int largest_side) {
+  scene::Scene scene = scene_file::load(file);
+  scene::shrink_image(scene.camera, largest_side);
+  return scene;
+}
+
+std::vector<std::filesystem::path> shipped_scenes() {
+  std::error_code ignored;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", ignored);
+  for (const std::filesystem::path& folder :
+       {std::filesystem::path("scenes"), program.parent_path().parent_path() / "scenes"}) {
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
+      if (entry.path().extension() == ".xml") files.push_back(entry.path());
+    std::ranges::sort(files);
+    if (!files.empty()) return files;
+  }
+  throw UsageError("no folder scenes/ here with scenes that ship: name some with --scene FILE.xml");
+}
+
+bool measure_scenes(const ScenesOptions& options) {
+  const std::vector<std::filesystem::path> files = options.scenes.empty() ? shipped_scenes() : options.scenes;
+  check_names(files);
+  for (const auto& file : files)
+    (void)scene_file::load(file); // bad ones are errors before minutes have passed
+  make_folder(options.folder);
+  Tables tables(options.folder);
+  Done done;
+  const Clock::time_point begin = Clock::now();
+  const std::vector<Method> methods = all_methods(options.strategies, options.quick);
+  if (options.build_ahead && tables.results.empty()) {
+    tables.write();
+    StatusLine status;
+    status.show("building kernels");
+    done.programs = files.size() * methods.size();
+    std::vector<std::function<scene::Scene()>> loads;
+    for (const auto& file : files) loads.emplace_back([&file] { return scene_file::load(file); });
+    done.programs_built = build_programs(loads, methods, settings_for(options));
+  }
+  const device::Device device = device::open_devices(options.devices).front();
+  const double total = options.quick ? quick_total : default_total;
+  const double seconds = seconds_for_each(options, total, files.size());
+  const Run run{options,
+                device.info,
+                options.lanes_on(device.info),
+                methods,
+                seconds,
+                seconds_left_for_each(options, seconds, total, seconds_since(begin), files.size())};
+  std::vector<SceneRun> scenes;
+  for (const auto& file : files) scenes.push_back(load(file, run));
+  if (!runs_to_end([&] { measure_all(run, scenes, tables, done); }, options.interrupted)) {
+    fmt::print("interrupted: the same command goes on with the scenes that are missing\n");
+    return false;
+  }
+  finish(run, done);
+  fmt::print("{}\n", (options.folder / "index.html").string());
+  return true;
+}
+
+} // namespace phlux::bench

@@ -1,0 +1,253 @@
+#include "bench/stability/stability.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "bench/common/methods/build_ahead.h"
+#include "bench/common/methods/result_table.h"
+#include "bench/common/methods/timed_render.h"
+#include "bench/common/report/draw.h"
+#include "bench/common/report/scripts.h"
+#include "bench/common/status_line.h"
+#include "bench/common/tables/array_file.h"
+#include "bench/common/tables/csv.h"
+#include "bench/common/tables/fingerprint.h"
+#include "bench/common/tables/provenance.h"
+#include "bench/stability/stability_scene.h"
+#include "clock.h"
+#include "device/device.h"
+
+namespace phlux::bench {
+namespace {
+
+constexpr double default_seconds = 20, quick_seconds = 10; // a cell
+constexpr double default_total = 13 * 60, quick_total = 90;
+constexpr int default_side = 48, quick_side = 32;
+constexpr double reference_share = 0.15; // of a cell's time
+constexpr int trial_renders = 2;         // who makes the reference is known
+// Whatever its rivals do in a cell, bidir balance is known to have a technique for every path of the scene.
+const Method reference_method{"bidir", "exact", "balance"};
+
+// A processor's own time does not see what else the machine does; of other devices it says nothing.
+std::vector<std::string> columns() {
+  std::vector<std::string> all = result_columns();
+  all.emplace_back("clock"); // of variance_times_seconds
+  return all;
+}
+
+std::vector<Method> methods_of(const StabilityOptions& options) {
+  std::vector<Method> methods = all_methods(options.strategies, options.quick && options.variants.empty());
+  if (!options.variants.empty())
+    std::erase_if(methods, [&](Method method) {
+      method.strategy = reference_method.strategy;
+      return std::ranges::count(options.variants, method.name()) == 0;
+    });
+  return methods;
+}
+
+struct Run { // what all cells share
+  const StabilityOptions& options;
+  device::DeviceInfo device;
+  int lanes = 0, side = 0;
+  std::vector<Method> methods;
+  double seconds = 0;      // a cell
+  double seconds_left = 0; // a cell, of what building kernels left
+
+  [[nodiscard]] Measured measured() const { return {device.name, lanes, options.seed, device.type == "cpu"}; }
+};
+
+struct CellRun {
+  ResultTable::Values key;
+  scene::Scene scene;
+  std::string settings; // fingerprint of all that the figures depend on but the method
+
+  [[nodiscard]] std::string name() const { return fmt::format("n{}-r{}", key[0], key[1]); }
+  [[nodiscard]] std::string title() const { return fmt::format("n {}, light radius {}", key[0], key[1]); }
+};
+
+CellRun cell_run(const Run& run, const StabilityCell& cell) {
+  CellRun result{{number_text(cell.exponent), number_text(cell.light_radius)},
+                 stability_scene(cell.exponent, cell.light_radius, run.side),
+                 {}};
+  Fingerprint fingerprint;
+  for (const scene::Patch& patch : result.scene.patches)
+    for (const scene::Vec3& vector : {patch.origin, patch.edge_u, patch.edge_v})
+      fingerprint.add(&vector, sizeof vector);
+  fingerprint.add(fmt::format("{} {} {} {} {} {} {} {}", PHLUX_VERSION, run.side, run.options.quick,
+                              run.seconds, run.options.seed, run.lanes, run.device.name,
+                              run.options.kernel_dir.string()));
+  result.settings = fingerprint.text();
+  return result;
+}
+
+// ---- One cell
+
+ReferenceImage reference_of(const CellRun& cell, const SceneBenchSettings& settings,
+                            const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / ("stability-" + cell.name() + ".exr");
+  if (auto saved = read_reference(file, cell.settings)) return *saved;
+  if (settings.report) settings.report("reference by " + reference_method.name());
+  const ReferenceImage reference =
+      make_reference(cell.scene, reference_method, render_settings(reference_method, cell.scene, settings),
+                     std::max(reference_share * settings.seconds, 0.25), settings.interrupted);
+  make_folder(folder);
+  write_reference(file, cell.settings, reference, cell.scene.camera);
+  return reference;
+}
+
+void write_image(const std::filesystem::path& folder, const CellRun& cell, const ReferenceImage& reference) {
+  make_folder(folder);
+  const auto side = static_cast<std::size_t>(cell.scene.camera.width);
+  write_array(folder / (cell.name() + ".npy"), {side, side, 3}, reference.radiance);
+}
+
+void print(const Run& run, const CellRun& cell, const std::vector<MethodResult>& results) {
+  const auto cost = [&](const MethodResult& r) {
+    return r.variance.value *
+           (run.measured().processor_time ? r.processor_seconds_per_sample : r.seconds_per_sample);
+  };
+  std::vector<const MethodResult*> sound;
+  std::vector<std::string> others;
+  for (const MethodResult& result : results) {
+    if (result.verdict == Verdict::sound)
+      sound.push_back(&result);
+    else
+      others.push_back(fmt::format("{} {}", result.method.name(), word_of(result.verdict)));
+  }
+  std::ranges::sort(sound, {}, [&](const MethodResult* r) { return cost(*r); });
+  std::string text = cell.title() + ": ";
+  text += sound.empty()
+              ? "no method is sound"
+              : fmt::format("{}, {:.3g} us to variance 1", sound[0]->method.name(), 1e6 * cost(*sound[0]));
+  if (sound.size() > 1)
+    text += fmt::format("; {} takes {:.3g} times as long", sound[1]->method.name(),
+                        cost(*sound[1]) / cost(*sound[0]));
+  if (!others.empty()) text += fmt::format("; {}", fmt::join(others, ", "));
+  fmt::print("{}\n", text);
+  std::fflush(stdout);
+}
+
+void measure(const Run& run, const CellRun& cell, const std::vector<Method>& methods, ResultTable& table,
+             StatusLine& status, const std::function<void(const std::string&)>& report) {
+  const Clock::time_point begin = Clock::now();
+  SceneBenchSettings settings = bench_settings(run.options, trial_renders);
+  settings.seconds = run.seconds_left;
+  settings.report = report;
+  ReferenceImage reference = reference_of(cell, settings, run.options.folder / "references");
+  settings.seconds = std::max(0.0, run.seconds_left - seconds_since(begin));
+  SceneBench bench(cell.scene, settings);
+  bench.try_methods(methods);
+  const std::vector<MethodResult> results = bench.measure(reference);
+  write_image(run.options.folder / "stability-images", cell, reference);
+  table.forget(cell.key, methods, cell.settings);
+  for (const MethodResult& result : results) {
+    auto values = result_values(result, reference, cell.scene.camera, run.measured());
+    values.emplace_back(run.measured().processor_time ? "processor" : "wall");
+    table.add(cell.key, result.method, values, cell.settings);
+  }
+  table.write();
+  status.clear();
+  print(run, cell, results);
+}
+
+// ---- All cells
+
+void measure_all(const Run& run, const std::vector<CellRun>& cells, ResultTable& table) {
+  StatusLine status;
+  std::vector<std::pair<const CellRun*, std::vector<Method>>> work;
+  for (const CellRun& cell : cells)
+    if (auto methods = table.missing(cell.key, run.methods, cell.settings); !methods.empty())
+      work.emplace_back(&cell, std::move(methods));
+  if (work.size() < cells.size())
+    fmt::print("{} of {} cells are measured already\n", cells.size() - work.size(), cells.size());
+  for (std::size_t i = 0; i < work.size(); ++i) {
+    const auto& [cell, methods] = work[i];
+    const Clock::time_point begin = Clock::now();
+    measure(run, *cell, methods, table, status, [&](const std::string& what) {
+      const double left = std::max(0.0, run.seconds_left - seconds_since(begin)) +
+                          run.seconds_left * static_cast<double>(work.size() - i - 1);
+      status.show(fmt::format("cell {} of {}, {}: {}  {} left", i + 1, work.size(), cell->title(), what,
+                              clock_text(left)));
+    });
+  }
+}
+
+std::string command_of(const StabilityOptions& options) {
+  std::string command = "phlux bench stability";
+  if (options.quick) command += " --quick";
+  for (const StabilityCell& cell : options.cells)
+    command += fmt::format(" --cell {},{}", number_text(cell.exponent), number_text(cell.light_radius));
+  for (const std::string& variant : options.variants) command += fmt::format(" --method '{}'", variant);
+  return command + text_of_strategies(options) + text_of_amount(options);
+}
+
+// One program for all cells: they differ in numbers alone.
+void build_kernels(const StabilityOptions& options, const StabilityCell& cell,
+                   const std::vector<Method>& methods) {
+  StatusLine status;
+  status.show("building kernels");
+  std::vector<Method> all = methods;
+  if (std::ranges::count(all, reference_method) == 0) all.push_back(reference_method);
+  (void)build_programs({[&] { return stability_scene(cell.exponent, cell.light_radius, 1); }}, all,
+                       bench_settings(options, trial_renders));
+}
+
+} // namespace
+
+std::vector<StabilityCell> stability_cells(bool quick) {
+  const std::vector<double> exponents =
+      quick ? std::vector<double>{1, 100, 1e4} : std::vector<double>{1, 10, 100, 1e3, 1e4, 1e5};
+  const std::vector<double> radii =
+      quick ? std::vector<double>{.3, .03, .003} : std::vector<double>{.3, .1, .03, .01, .003, .001};
+  std::vector<StabilityCell> cells;
+  for (const double exponent : exponents)
+    for (const double radius : radii) cells.push_back({exponent, radius});
+  return cells;
+}
+
+std::vector<std::string> stability_method_names() {
+  std::vector<std::string> names;
+  for (const Method& method : all_methods({reference_method.strategy}, false)) names.push_back(method.name());
+  return names;
+}
+
+bool measure_stability(const StabilityOptions& options) {
+  const std::vector<StabilityCell> cells =
+      options.cells.empty() ? stability_cells(options.quick) : options.cells;
+  const std::vector<Method> methods = methods_of(options);
+  make_folder(options.folder);
+  ResultTable table(options.folder, "stability.csv", {"exponent", "light_radius"}, columns());
+  const Clock::time_point begin = Clock::now();
+  if (options.build_ahead && table.empty()) {
+    table.write();
+    build_kernels(options, cells.front(), methods);
+  }
+  const device::Device device = device::open_devices(options.devices).front();
+  const double seconds = options.seconds.value_or(options.quick ? quick_seconds : default_seconds);
+  const Run run{options,
+                device.info,
+                options.lanes_on(device.info),
+                options.side.value_or(options.quick ? quick_side : default_side),
+                methods,
+                seconds,
+                seconds_left_for_each(options, seconds, options.quick ? quick_total : default_total,
+                                      seconds_since(begin), cells.size())};
+  std::vector<CellRun> runs;
+  for (const StabilityCell& cell : cells) runs.push_back(cell_run(run, cell));
+  if (!runs_to_end([&] { measure_all(run, runs, table); }, options.interrupted)) {
+    fmt::print("interrupted: the same command goes on with the cells that are missing\n");
+    return false;
+  }
+  write_provenance(
+      options.folder, "stability",
+      {command_of(options), device.info, run.lanes, "built before anything was timed",
+       fmt::format("{} and up for the rounds, from 2000000 above for references", options.seed)});
+  draw_charts(options.folder, stability_script());
+  fmt::print("{}\n", (options.folder / "index.html").string());
+  return true;
+}
+
+} // namespace phlux::bench

@@ -1,0 +1,128 @@
+#include "lobes/program.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include <fmt/format.h>
+
+#include "lobes/shipped.h"
+#include "scene/scene_data.h"
+
+namespace phlux::lobes {
+namespace {
+
+int parameter_words(const scene::Model& model) {
+  int words = model.derived_words;
+  for (const scene::Parameter& parameter : model.parameters)
+    words += parameter.kind == scene::Parameter::Kind::colour ? 3 : 1;
+  return words;
+}
+
+int record_words(const std::vector<ModelPointer>& models) {
+  int most = 0;
+  for (const ModelPointer& model : models) most = std::max(most, parameter_words(*model));
+  return MATERIAL_HEADER + most;
+}
+
+std::string changed(std::string text, int (*change)(int)) {
+  for (char& c : text) c = static_cast<char>(change(static_cast<unsigned char>(c)));
+  return text;
+}
+
+std::string upper(const std::string& name) {
+  return changed(name, [](int c) { return std::toupper(c); });
+}
+
+std::string capitalised(const std::string& name) {
+  return upper(name.substr(0, 1)) + name.substr(1);
+}
+
+bool has(const std::vector<ModelPointer>& models, bool scene::Model::*property) {
+  return std::ranges::any_of(models, [&](const ModelPointer& m) { return (*m).*property; });
+}
+
+scene::Material as_phong(const scene::Material& diffuse) {
+  scene::Material material = phong(diffuse.value("reflectance"), scene::Rgb(0.0), 0.0);
+  material.two_sided = diffuse.two_sided;
+  return material;
+}
+
+/// Appends the words of a material's parameters.
+void append_words(std::vector<float>& records, const scene::Material& material, LobeTables& tables) {
+  for (std::size_t i = 0; i < material.values.size(); ++i) {
+    const bool colour = material.model->parameters[i].kind == scene::Parameter::Kind::colour;
+    for (int channel = 0; channel < (colour ? 3 : 1); ++channel)
+      records.push_back(static_cast<float>(material.values[i][channel]));
+  }
+  const ShippedModel* model = find_shipped(*material.model);
+  if (!model || !model->derive) return;
+  const std::vector<float> derived = model->derive(material, tables);
+  records.insert(records.end(), derived.begin(), derived.end());
+}
+
+} // namespace
+
+std::vector<ModelPointer> models_of(const std::vector<scene::Material>& materials) {
+  std::vector<ModelPointer> models;
+  for (const scene::Material& material : materials)
+    if (std::ranges::find(models, material.model) == models.end()) models.push_back(material.model);
+  if (std::ranges::find(models, shipped("phong")) != models.end()) std::erase(models, shipped("diffuse"));
+  if (models.empty()) models.push_back(shipped("diffuse"));
+  std::ranges::sort(models, {}, [](const ModelPointer& m) { return m->name; });
+  return models;
+}
+
+std::map<std::string, std::string> files_of(const std::vector<ModelPointer>& models) {
+  std::map<std::string, std::string> files;
+  std::string text, list;
+  int number = 0;
+  for (const ModelPointer& model : models) {
+    const std::string name = upper(model->name);
+    if (model->derived_words == 0) text += fmt::format("#define {}_DERIVED(NUMBER, INDEX)\n", name);
+    text += fmt::format("#include \"{}\"\n", model->file);
+    if (!model->has_survival)
+      text += fmt::format("#define {}_SURVIVAL(m, fixed, random) vec_max({}_reflectivity(m, fixed))\n", name,
+                          model->name);
+    list += fmt::format(" MODEL({}, {}, {}, {})", number++, model->name, capitalised(model->name), name);
+    if (!model->text.empty()) files[model->file] = model->text;
+  }
+  files["lobes/models.cl"] =
+      fmt::format("#include \"lobes/lobe.h\"\n{}#define MODELS(MODEL){}\n", text, list);
+  return files;
+}
+
+std::map<std::string, std::string> defines_of(const std::vector<ModelPointer>& models) {
+  return {{"MODEL_COUNT", std::to_string(models.size())},
+          {"MATERIAL_WORDS", std::to_string(record_words(models))},
+          {"HAS_DELTA", has(models, &scene::Model::has_delta) ? "1" : "0"},
+          {"HAS_TANGENTS", has(models, &scene::Model::needs_tangents) ? "1" : "0"}};
+}
+
+MaterialTable material_table(const std::vector<scene::Material>& materials,
+                             std::vector<ModelPointer> models) {
+  MaterialTable table{std::move(models), {}, materials.size(), {}};
+  const auto words = static_cast<std::size_t>(record_words(table.models));
+  const bool has_phong = std::ranges::find(table.models, shipped("phong")) != table.models.end();
+  LobeTables tables;
+  for (const scene::Material& given : materials) {
+    const bool stands_for = has_phong && given.model == shipped("diffuse");
+    const scene::Material material = stands_for ? as_phong(given) : given;
+    const auto found = std::ranges::find(table.models, material.model);
+    const std::size_t end = table.records.size() + words;
+    if (found != table.models.end()) {
+      const int sides = MATERIAL_FRONT | (material.two_sided ? MATERIAL_BACK : 0);
+      table.records.push_back(bits_of(static_cast<int>(found - table.models.begin())));
+      table.records.push_back(bits_of(reflects(material) ? sides : 0));
+      append_words(table.records, material, tables);
+    }
+    table.records.resize(end);
+  }
+  table.tables = std::move(tables.values);
+  return table;
+}
+
+MaterialTable material_table(const std::vector<scene::Material>& materials) {
+  return material_table(materials, models_of(materials));
+}
+
+} // namespace phlux::lobes

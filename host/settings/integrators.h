@@ -1,0 +1,41 @@
+// The integrators: what each is called and how it forms paths. Whatever differs between them follows from
+// this table.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace phlux::settings {
+
+enum class Integrator { path, light, bidir };
+
+struct IntegratorInfo {
+  Integrator integrator;
+  const char* name;         ///< of options, messages and files
+  const char* mitsuba_name; ///< of scene files
+  const char* kernel_file;
+  const char* kernel;
+  bool eye_paths; ///< subpaths from the eye: kernels sum what each pixel gets
+  bool
+      light_paths; ///< subpaths from lights: kernels record contributions to any pixel one by one, in batches
+
+  /// Connects both kinds of subpaths: there are many ways to make a path, and vertices are kept in memory.
+  [[nodiscard]] constexpr bool bidirectional() const { return eye_paths && light_paths; }
+};
+
+/// In the order of Integrator.
+inline constexpr std::array<IntegratorInfo, 3> integrators = {{
+    {Integrator::path, "path", "path", "transport/path.cl", "trace_paths", true, false},
+    {Integrator::light, "light", "ptracer", "transport/light.cl", "trace_light", false, true},
+    {Integrator::bidir, "bidir", "bdpt", "transport/bidir.cl", "trace_bidir", true, true},
+}};
+
+[[nodiscard]] constexpr const IntegratorInfo& info_of(Integrator integrator) {
+  return integrators[static_cast<std::size_t>(integrator)];
+}
+/// @throws UsageError where there is no integrator of that name
+[[nodiscard]] const IntegratorInfo& integrator_named(const std::string& name);
+[[nodiscard]] const std::vector<std::string>& integrator_names();
+
+} // namespace phlux::settings

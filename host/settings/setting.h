@@ -1,0 +1,148 @@
+// One setting of a render, as options, messages and files know it: everything that they do with settings
+// follows from the list of them in settings.h.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "scene/scene.h"
+#include "settings/values.h"
+
+namespace phlux::settings {
+
+struct Settings;
+
+/// What a setting has an effect on.
+enum class Affects {
+  expectation, ///< the image that a render converges to
+  estimate,    ///< the noise about it
+  film,        ///< what is kept beside the image
+  samples,     ///< which samples are taken
+  amount,      ///< how many
+  execution    ///< where and how kernels run: no more than rounding
+};
+
+/// std::monostate: absent.
+using Value = std::variant<std::monostate, std::string, std::int64_t, std::uint64_t, double>;
+/// What read() takes: numbers with all their digits. Empty where absent.
+[[nodiscard]] std::string text_of(const Value& value);
+
+// What a setting may be.
+struct OneOf { ///< of these names: the value is a name, or its index, or for a number what the name says
+  std::vector<std::string> names;
+};
+struct Whole {
+  std::uint64_t least, most;
+};
+struct Depth {};    ///< 1 or more, or -1 for unbounded
+struct Positive {}; ///< finite, above 0
+struct Switch {     ///< on or off, with no option of its own: the text where it is on
+  const char* on;
+};
+
+struct Setting {
+  std::string name; ///< "rr-depth"
+  Affects affects;
+  std::string placeholder; ///< of a value in help, such as "N"
+  std::string help;        ///< without the default; empty: no option sets it
+
+  /// @throws UsageError "`NAME` TEXT: what would be right"
+  std::function<void(const std::string& text, Settings& to)> read;
+  std::function<Value(const Settings& of)> value;
+  std::function<void(const Settings& from, Settings& to)> copy;
+  std::function<void(const scene::RenderDefaults& from, Settings& to)>
+      from_scene; ///< empty: no scene says it
+
+  /// A setting that is chosen must be of some use: where `holds` is false, "`NAME`" and `otherwise` say why
+  /// it is not; {} in that is the integrator's name.
+  struct Condition {
+    std::function<bool(const Settings&)> holds;
+    std::string otherwise;
+  };
+  std::vector<Condition> conditions;
+
+  template<class T, class Domain>
+  Setting(std::string setting_name, Affects what, T Settings::*member, Domain domain,
+          std::string value_placeholder, std::string help_text);
+
+  /// The scene says it where the user does not.
+  template<class T>
+  [[nodiscard]] Setting or_scene(T Settings::*member, T scene::RenderDefaults::*of) && {
+    from_scene = [member, of](const scene::RenderDefaults& from, Settings& to) { to.*member = from.*of; };
+    return std::move(*this);
+  }
+  [[nodiscard]] Setting only_where(std::function<bool(const Settings&)> holds, std::string otherwise) && {
+    conditions.push_back({std::move(holds), std::move(otherwise)});
+    return std::move(*this);
+  }
+
+  [[nodiscard]] std::string text(const Settings& of) const { return text_of(value(of)); }
+};
+
+template<class T>
+T value_in(const OneOf& domain, const std::string& name, const std::string& text) {
+  const std::size_t index = choice(name, text, domain.names);
+  if constexpr (std::is_same_v<T, std::string>)
+    return domain.names[index];
+  else if constexpr (std::is_same_v<T, int>)
+    return std::stoi(domain.names[index]);
+  else
+    return static_cast<T>(index);
+}
+template<class T>
+T value_in(Whole domain, const std::string& name, const std::string& text) {
+  return static_cast<T>(whole_number(name, text, domain.least, domain.most));
+}
+template<class T>
+T value_in(Depth, const std::string& name, const std::string& text) {
+  return depth(name, text);
+}
+template<class T>
+T value_in(Positive, const std::string& name, const std::string& text) {
+  return positive_number(name, text);
+}
+template<class T>
+T value_in(Switch, const std::string&, const std::string& text) {
+  return !text.empty();
+}
+
+template<class T>
+Value value_of(const OneOf& domain, const T& value) {
+  if constexpr (std::is_same_v<T, std::string>)
+    return value;
+  else if constexpr (std::is_same_v<T, int>)
+    return value == 0 ? Value() : std::to_string(value);
+  else
+    return domain.names.at(static_cast<std::size_t>(value));
+}
+inline Value value_of(Switch domain, bool value) {
+  return value ? Value(domain.on) : Value();
+}
+template<class Domain, class T>
+Value value_of(const Domain&, const T& value) {
+  if constexpr (std::is_same_v<T, std::optional<double>>)
+    return value ? Value(*value) : Value();
+  else if constexpr (std::is_signed_v<T>)
+    return static_cast<std::int64_t>(value);
+  else
+    return value;
+}
+
+template<class T, class Domain>
+Setting::Setting(std::string setting_name, Affects what, T Settings::*member, Domain domain,
+                 std::string value_placeholder, std::string help_text)
+    : name(std::move(setting_name)), affects(what), placeholder(std::move(value_placeholder)),
+      help(std::move(help_text)),
+      read([member, domain, label = settings::quoted(name)](const std::string& text, Settings& to) {
+        to.*member = value_in<T>(domain, label, text);
+      }),
+      value([member, domain](const Settings& of) { return value_of(domain, of.*member); }),
+      copy([member](const Settings& from, Settings& to) { to.*member = from.*member; }) {}
+
+} // namespace phlux::settings

@@ -1,0 +1,213 @@
+#include "tables/light_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "tables/light_tree.h"
+
+namespace phlux::tables {
+namespace {
+
+using scene::Rgb;
+using scene::Vec3;
+constexpr double pi = std::numbers::pi;
+
+double mean(const Rgb& rgb) {
+  return (rgb.r + rgb.g + rgb.b) / 3;
+}
+
+void set(float (&to)[3], const Vec3& from) {
+  for (int i = 0; i < 3; ++i) to[i] = static_cast<float>(from[i]);
+}
+
+LightRecord record_of(LightKinds kind, const Rgb& power) {
+  LightRecord record{};
+  record.kind = kind;
+  record.primitive = -1;
+  set(record.radiance, power);
+  return record;
+}
+
+// Collects lights (their emission_density yet without the probability of selection), the power of each in
+// watts (averaged over the channels), and which of them are one emitter of the scene: the triangles of a mesh
+// are.
+class Collector {
+public:
+  static constexpr int own_group = -1;
+  void add(const LightRecord& record, double power, int group = own_group) {
+    table.records.push_back(record);
+    table.records.back().node = -1;
+    powers.push_back(power);
+    groups.push_back(group != own_group ? group : --last_own_);
+  }
+  // The one that was added last has a place; its bounds are without its index.
+  void place(PlacedLight bounds) {
+    bounds.light = static_cast<int>(table.records.size()) - 1;
+    if (powers.back() > 0) placed.push_back(bounds);
+  }
+  LightTable table;
+  std::vector<double> powers;
+  std::vector<int> groups;
+  std::vector<PlacedLight> placed; // those with power
+
+private:
+  int last_own_ = own_group;
+};
+
+// Half of the samples in proportion to power, half evenly over the emitters (and by power within one): the
+// power that a sky or a sun sends into a wide scene says nothing of what it brings to the part in view, and
+// must not starve a lamp. A light without power is never chosen.
+std::vector<double> probabilities(const Collector& lights) {
+  double total = 0;
+  std::map<int, double> power_of_group;
+  for (std::size_t i = 0; i < lights.powers.size(); ++i) {
+    total += lights.powers[i];
+    if (lights.powers[i] > 0) power_of_group[lights.groups[i]] += lights.powers[i];
+  }
+  std::vector<double> chances;
+  for (std::size_t i = 0; i < lights.powers.size() && total > 0; ++i) {
+    const double power = lights.powers[i];
+    chances.push_back(power <= 0 ? 0
+                                 : 0.5 * power / total + 0.5 * power / power_of_group[lights.groups[i]] /
+                                                             static_cast<double>(power_of_group.size()));
+  }
+  return chances;
+}
+
+void add_surfaces(Collector& to, const scene::Scene& scene, accel::Geometry& geometry) {
+  std::size_t emitting = 0;
+  for (std::size_t i = 0; i < geometry.primitives.size(); ++i) {
+    if (geometry.emitters[i] < 0) continue;
+    const Rgb radiance = scene.area_emitters[static_cast<std::size_t>(geometry.emitters[i])].radiance;
+    const bool sphere = static_cast<int>(i) >= geometry.first_sphere;
+    LightRecord record = record_of(sphere ? LIGHT_SPHERE : LIGHT_PLANAR, radiance);
+    const accel::EmittingPrimitive& emitter = geometry.emitting[emitting++];
+    record.primitive = static_cast<int>(i);
+    record.area = static_cast<float>(emitter.area);
+    record.emission_density = static_cast<float>(1 / (pi * emitter.area));
+    geometry.primitives[i].light = static_cast<int>(to.table.records.size());
+    to.add(record, pi * emitter.area * mean(radiance), geometry.emitters[i]);
+    const double widest = sphere ? emitter.area / 4 : emitter.area; // cross-section
+    to.place({0, emitter.low, emitter.high, sphere ? Vec3(0, 0, 1) : emitter.normal, sphere ? pi : 0.0,
+              widest * mean(radiance)});
+  }
+}
+
+void add_points(Collector& to, const scene::Scene& scene, const Vec3& origin) {
+  for (const scene::PointLight& light : scene.point_lights) {
+    LightRecord record = record_of(LIGHT_POINT, light.intensity);
+    set(record.position, light.position - origin);
+    record.emission_density = static_cast<float>(1 / (4 * pi));
+    to.add(record, 4 * pi * mean(light.intensity));
+    const Vec3 at = light.position - origin;
+    to.place({0, at, at, Vec3(0, 0, 1), pi, mean(light.intensity)});
+  }
+  for (const scene::SpotLight& light : scene.spot_lights) {
+    LightRecord record = record_of(LIGHT_SPOT, light.intensity);
+    set(record.position, light.position - origin);
+    set(record.direction, light.direction);
+    // A beam as wide as the cone falls off within the smallest angle that float tells apart.
+    const double transition = std::max(light.cutoff_angle - light.beam_width, 1e-6);
+    record.cutoff = static_cast<float>(light.cutoff_angle);
+    record.inv_transition = static_cast<float>(1 / transition);
+    // 1 / (2 pi (1 - cos(cutoff))), without cancellation: the kernel draws directions from the whole cone.
+    const double half_sine = std::sin(light.cutoff_angle / 2);
+    record.emission_density = static_cast<float>(1 / (4 * pi * half_sine * half_sine));
+    const double full = 2 * pi * (1 - (std::cos(light.beam_width) + std::cos(light.cutoff_angle)) / 2);
+    to.add(record, full * mean(light.intensity));
+    const Vec3 at = light.position - origin;
+    to.place({0, at, at, light.direction, light.cutoff_angle, mean(light.intensity)});
+  }
+}
+
+void add_distant(Collector& to, const scene::Scene& scene, double radius) {
+  const double disk = pi * radius * radius;
+  for (const scene::DirectionalLight& light : scene.directional_lights) {
+    LightRecord record = record_of(LIGHT_DIRECTIONAL, light.irradiance);
+    set(record.direction, light.direction);
+    record.area = static_cast<float>(disk);
+    record.emission_density = static_cast<float>(1 / disk);
+    to.add(record, disk * mean(light.irradiance));
+  }
+  if (scene.constant_radiance) {
+    to.table.constant = static_cast<int>(to.table.records.size());
+    LightRecord record = record_of(LIGHT_CONSTANT, *scene.constant_radiance);
+    record.area = static_cast<float>(disk);
+    record.emission_density = static_cast<float>(1 / (4 * pi * disk));
+    to.add(record, 4 * pi * disk * mean(*scene.constant_radiance));
+  }
+}
+
+// Vose's construction of Walker's alias table.
+void make_alias_table(std::vector<LightRecord>& records, const std::vector<double>& chances) {
+  const auto count = records.size();
+  std::vector<double> scaled(count);
+  std::vector<std::size_t> small, large;
+  for (std::size_t i = 0; i < count; ++i) {
+    records[i].probability = static_cast<float>(chances[i]);
+    records[i].emission_density *= records[i].probability;
+    scaled[i] = chances[i] * static_cast<double>(count);
+    (scaled[i] < 1 ? small : large).push_back(i);
+    records[i].alias_threshold = 1;
+    records[i].alias = static_cast<int>(i);
+  }
+  while (!small.empty() && !large.empty()) {
+    const std::size_t less = small.back(), more = large.back();
+    small.pop_back();
+    records[less].alias_threshold = static_cast<float>(scaled[less]);
+    records[less].alias = static_cast<int>(more);
+    scaled[more] -= 1 - scaled[less];
+    if (scaled[more] < 1) {
+      large.pop_back();
+      small.push_back(more);
+    }
+  }
+}
+
+// A power of two near the most that a light sends along one ray to a surface `radius` away; 1 where that is
+// ordinary, so that ordinary images keep their bits.
+double unit_of(const std::vector<LightRecord>& records, double radius) {
+  constexpr int ordinary_exponent = 32;
+  double most = 0;
+  for (const LightRecord& record : records) {
+    const double power = std::max({record.radiance[0], record.radiance[1], record.radiance[2]});
+    const bool spreads = record.kind == LIGHT_POINT || record.kind == LIGHT_SPOT;
+    most = std::max(most, spreads ? power / (radius * radius) : power);
+  }
+  const int exponent = most > 0 && std::isfinite(most) ? std::ilogb(most) : 0;
+  return std::abs(exponent) <= ordinary_exponent ? 1 : std::ldexp(1.0, exponent);
+}
+
+void use_unit(LightTable& table, double unit) {
+  table.unit = unit;
+  for (LightRecord& record : table.records)
+    for (float& power : record.radiance) power = static_cast<float>(power / unit);
+}
+
+} // namespace
+
+bool LightTable::has(LightKinds kind) const {
+  return std::any_of(records.begin(), records.end(), [&](const LightRecord& r) { return r.kind == kind; });
+}
+
+bool LightTable::shines() const {
+  return std::any_of(records.begin(), records.end(), [](const LightRecord& r) { return r.probability > 0; });
+}
+
+LightTable light_table(const scene::Scene& scene, accel::Geometry& geometry, bool with_tree) {
+  Collector collector;
+  add_surfaces(collector, scene, geometry);
+  add_points(collector, scene, geometry.origin);
+  add_distant(collector, scene, geometry.radius);
+  const std::vector<double> chances = probabilities(collector);
+  if (!chances.empty()) make_alias_table(collector.table.records, chances);
+  if (with_tree) collector.table.nodes = light_tree(collector.placed, collector.table.records);
+  for (const PlacedLight& light : collector.placed)
+    collector.table.tree_probability += chances[static_cast<std::size_t>(light.light)];
+  use_unit(collector.table, unit_of(collector.table.records, geometry.radius));
+  return std::move(collector.table);
+}
+
+} // namespace phlux::tables

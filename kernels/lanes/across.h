@@ -1,0 +1,149 @@
+// Across lanes: questions about a mask, reductions, and moving lanes together.
+#ifndef PHLUX_LANES_ACROSS_H
+#define PHLUX_LANES_ACROSS_H
+
+#include "lanes/avx512.h"
+#include "lanes/memory.h"
+
+// ---- Questions about a mask
+
+#ifdef LANES_AVX512
+static inline uint lane_bits(Mask m) {
+  return (ushort)__builtin_ia32_cmpd512_mask(LANE_NATIVE_INTS(m), LANE_NATIVE_INTS((Int)(0)), 4, (ushort)0xffff);
+}
+static inline int any_lane(Mask m) { return lane_bits(m) != 0; }
+static inline int all_lanes(Mask m) { return lane_bits(m) == 0xffff; }
+#elif WIDTH == 1
+static inline int any_lane(Mask m) { return m != 0; }
+static inline int all_lanes(Mask m) { return m != 0; }
+#else
+static inline int any_lane(Mask m) { return any(m); }
+static inline int all_lanes(Mask m) { return all(m); }
+#endif
+
+// The smallest of all lanes.
+static inline Scalar min_of_lanes(Real v) {
+#if WIDTH == 16
+  const float8 v8 = fmin(v.lo, v.hi);
+  const float4 v4 = fmin(v8.lo, v8.hi);
+#elif WIDTH == 8
+  const float4 v4 = fmin(v.lo, v.hi);
+#elif WIDTH == 4
+  const float4 v4 = v;
+#endif
+#if WIDTH == 1
+  return v;
+#else
+  const float2 v2 = fmin(v4.lo, v4.hi);
+  return fmin(v2.x, v2.y);
+#endif
+}
+
+static inline uint sum_of_lanes(Uint v) {
+#if WIDTH == 1
+  return v;
+#elif WIDTH == 4
+  return v.s0 + v.s1 + v.s2 + v.s3;
+#elif WIDTH == 8
+  return v.s0 + v.s1 + v.s2 + v.s3 + v.s4 + v.s5 + v.s6 + v.s7;
+#else
+  return v.s0 + v.s1 + v.s2 + v.s3 + v.s4 + v.s5 + v.s6 + v.s7 + v.s8 + v.s9 + v.sa + v.sb + v.sc + v.sd + v.se + v.sf;
+#endif
+}
+
+// The number of the first lane in m; some lane must be in it.
+static inline int first_lane(Mask m) {
+#if WIDTH == 1
+  return 0;
+#elif defined(LANES_AVX512)
+  return (int)(31 - clz(lane_bits(m) & (0u - lane_bits(m))));
+#else
+  int array[WIDTH];
+  int_lanes_to_array(m, array);
+  int lane = 0;
+  while (array[lane] == 0) ++lane;
+  return lane;
+#endif
+}
+
+static inline int count_lanes(Mask m) {
+#ifdef LANES_AVX512
+  return popcount((int)lane_bits(m));
+#else
+  return (int)sum_of_lanes(m ? (Uint)(1u) : (Uint)(0u));
+#endif
+}
+
+// How many lanes of m stand before each lane of it; without meaning in other lanes.
+static inline Int rank_lanes(Mask m) {
+#ifdef LANES_AVX512
+  return LANE_INTS(__builtin_ia32_expandsi512_mask(LANE_NATIVE_INTS(LANE_NUMBERS), LANE_NATIVE_INTS((Int)(0)),
+                                                   (ushort)lane_bits(m)));
+#elif WIDTH == 1
+  return 0;
+#else
+  int chosen[WIDTH], rank[WIDTH];
+  int_lanes_to_array(m, chosen);
+  for (int lane = 0, count = 0; lane < WIDTH; ++lane) {
+    rank[lane] = count;
+    count += chosen[lane] != 0;
+  }
+  return int_lanes_from_array(rank);
+#endif
+}
+
+// Moves the lanes of m to the front, in lane order; the others may hold anything.
+static inline Real pack_lanes(Mask m, Real v) {
+#ifdef LANES_AVX512
+  return LANE_REALS(
+      __builtin_ia32_compresssf512_mask(LANE_NATIVE_FLOATS(v), LANE_NATIVE_FLOATS((Real)(0.0f)), (ushort)lane_bits(m)));
+#elif WIDTH == 1
+  return v;
+#else
+  float from[WIDTH], to[WIDTH];
+  int chosen[WIDTH];
+  lanes_to_array(v, from);
+  lanes_to_array((Real)(0.0f), to);
+  int_lanes_to_array(m, chosen);
+  for (int lane = 0, count = 0; lane < WIDTH; ++lane) {
+    to[count] = from[lane];
+    count += chosen[lane] != 0;
+  }
+  return lanes_from_array(to);
+#endif
+}
+static inline Int pack_int_lanes(Mask m, Int v) { return carried_int(pack_lanes(m, carry_int(v))); }
+
+// The other way round: the lanes of m take the first values of v, in lane order; the others keep `old`.
+static inline Real unpack_lanes(Mask m, Real v, Real old) {
+#ifdef LANES_AVX512
+  return LANE_REALS(
+      __builtin_ia32_expandsf512_mask(LANE_NATIVE_FLOATS(v), LANE_NATIVE_FLOATS(old), (ushort)lane_bits(m)));
+#elif WIDTH == 1
+  return m ? v : old;
+#else
+  float from[WIDTH], to[WIDTH];
+  int chosen[WIDTH];
+  lanes_to_array(v, from);
+  lanes_to_array(old, to);
+  int_lanes_to_array(m, chosen);
+  for (int lane = 0, count = 0; lane < WIDTH; ++lane) {
+    to[lane] = chosen[lane] ? from[count] : to[lane];
+    count += chosen[lane] != 0;
+  }
+  return lanes_from_array(to);
+#endif
+}
+static inline Int unpack_int_lanes(Mask m, Int v, Int old) {
+  return carried_int(unpack_lanes(m, carry_int(v), carry_int(old)));
+}
+
+// Appends the keys and values of the lanes in m to two arrays, in lane order; the arrays have room for WIDTH more.
+// Returns how many.
+static inline int append_lanes(Mask m, Real key, Int value, Scalar* keys, int* values) {
+  lanes_to_array(pack_lanes(m, key), keys);
+  int_lanes_to_array(pack_int_lanes(m, value), values);
+  return count_lanes(m);
+}
+
+#endif

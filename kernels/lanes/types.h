@@ -1,0 +1,109 @@
+// The types of a lane and of all lanes of a work-item, and conversions between them (lanes.h says what they are for).
+#ifndef PHLUX_LANES_TYPES_H
+#define PHLUX_LANES_TYPES_H
+
+// One lane of a Real, a constant of that precision, and what follows from it.
+#ifdef PHLUX_DOUBLE
+#if WIDTH != 1
+#error "PHLUX_DOUBLE needs WIDTH 1"
+#endif
+typedef double Scalar;
+#define REAL(literal) literal
+#define REAL_HALF_ULP 1.1102230246251565e-16 // of 1: 2^-53
+#define REAL_LARGE 1e200                     // with room for products with ordinary numbers
+#else
+typedef float Scalar;
+#define REAL(literal) literal##f
+#define REAL_HALF_ULP 5.9604645e-8f // 2^-24
+#define REAL_LARGE 1e30f
+#endif
+
+#if WIDTH == 1
+typedef Scalar Real;
+typedef int Int;
+typedef uint Uint;
+typedef int Mask;
+#define LANE_NUMBERS 0
+#define ALL_LANES 1
+#define LANE_CONVERT(type) convert_##type
+#define LANE_AS(type) as_##type
+#elif WIDTH == 4 || WIDTH == 8 || WIDTH == 16
+#define LANE_JOIN_(a, b) a##b
+#define LANE_JOIN(a, b) LANE_JOIN_(a, b)
+typedef LANE_JOIN(float, WIDTH) Real;
+typedef LANE_JOIN(int, WIDTH) Int;
+typedef LANE_JOIN(uint, WIDTH) Uint;
+typedef LANE_JOIN(int, WIDTH) Mask;
+#define ALL_LANES ((Mask)(-1))
+#define LANE_CONVERT(type) LANE_JOIN(convert_##type, WIDTH)
+#define LANE_AS(type) LANE_JOIN(as_##type, WIDTH)
+#if WIDTH == 4
+#define LANE_NUMBERS ((Int)(0, 1, 2, 3))
+#elif WIDTH == 8
+#define LANE_NUMBERS ((Int)(0, 1, 2, 3, 4, 5, 6, 7))
+#else
+#define LANE_NUMBERS ((Int)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
+#endif
+#else
+#error "WIDTH must be 1, 4, 8 or 16"
+#endif
+
+#define LANES WIDTH
+#define NO_LANES ((Mask)(0))
+
+static inline Int to_int(Real x) { return LANE_CONVERT(int)(x); }
+static inline Int uint_to_int(Uint x) { return LANE_AS(int)(x); }
+static inline Uint int_to_uint(Int x) { return LANE_AS(uint)(x); }
+#if WIDTH == 1
+static inline Real to_real(Int x) { return (Real)x; }
+static inline Real uint_to_real(Uint x) { return (Real)x; }
+#else
+static inline Real to_real(Int x) { return LANE_CONVERT(float)(x); }
+static inline Real uint_to_real(Uint x) { return LANE_CONVERT(float)(x); }
+#endif
+
+// An Int that travels as a Real, and is the same when it is taken out again.
+#ifdef PHLUX_DOUBLE
+static inline Real carry_int(Int x) { return to_real(x); }
+static inline Int carried_int(Real x) { return to_int(x); }
+#else
+static inline Int real_bits(Real x) { return LANE_AS(int)(x); }
+static inline Real bits_real(Int x) { return LANE_AS(float)(x); }
+static inline Real carry_int(Int x) { return bits_real(x); }
+static inline Int carried_int(Real x) { return real_bits(x); }
+#endif
+
+// As fmax and fmin but for NaN, which costs them two more instructions.
+static inline Real larger(Real a, Real b) { return a > b ? a : b; }
+static inline Real smaller(Real a, Real b) { return a < b ? a : b; }
+
+// x with the sign of `sign` multiplied in: two bit operations.
+static inline Real times_sign(Real x, Real sign) {
+#ifdef PHLUX_DOUBLE
+  return as_double(as_ulong(x) ^ (as_ulong(sign) & 0x8000000000000000UL));
+#else
+  return bits_real(real_bits(x) ^ (real_bits(sign) & (Int)(int)0x80000000u));
+#endif
+}
+
+// Both halves of the 64-bit product of each lane with a constant. Compilers make mul_hi from 16-bit pieces; the two
+// products of even and odd lanes are one instruction each.
+static inline void multiply_wide(Uint a, uint factor, Uint* high, Uint* low) {
+#if WIDTH == 1 || !defined(__ENDIAN_LITTLE__)
+  *high = mul_hi(a, (Uint)(factor));
+  *low = a * factor;
+#else
+#if WIDTH == 4
+#define LANE_PAIRS(x) as_ulong2(x)
+#elif WIDTH == 8
+#define LANE_PAIRS(x) as_ulong4(x)
+#else
+#define LANE_PAIRS(x) as_ulong8(x)
+#endif
+  const ulong low_half = 0xffffffffUL;
+  *high = LANE_AS(uint)((((LANE_PAIRS(a) & low_half) * factor) >> 32) | (((LANE_PAIRS(a) >> 32) * factor) & ~low_half));
+  *low = LANE_AS(uint)((((LANE_PAIRS(a) & low_half) * factor) & low_half) | (((LANE_PAIRS(a) >> 32) * factor) << 32));
+#endif
+}
+
+#endif

@@ -1,0 +1,133 @@
+// The material of a surface: which of the scene's reflectance models it has, which sides reflect, and roulette.
+//
+// The host writes lobes/models.cl (host/lobes): it includes the files of the models that the scene has and lists them,
+//   #define MODELS(MODEL) MODEL(0, phong, Phong, PHONG) MODEL(1, conductor, Conductor, CONDUCTOR)
+#ifndef PHLUX_MATERIAL_CL
+#define PHLUX_MATERIAL_CL
+
+#include "lobes/models.cl"
+#include "scene/scene.cl"
+
+// So that roulette ends every path, in a lossless room too.
+#define LARGEST_SURVIVAL 0.999f
+
+#define MATERIAL_MEMBER(number, model, Model, MODEL) Model model;
+typedef struct {
+  Int model_number; // in MODELS
+  MODELS(MATERIAL_MEMBER)
+} Material;
+
+// Lanes whose material has this model.
+static inline Mask has_model(Material m, int number) {
+  return MODEL_COUNT > 1 ? (Mask)(m.model_number == number) : ALL_LANES;
+}
+
+// ---- Loading a material: a record has a header, then the words of its model's parameters.
+
+#define WORD_OF(record, member)                                                                                        \
+  (MATERIAL_HEADER + (int)((const __global float*)&(record)->member - (const __global float*)(record)))
+#define LOAD_COLOUR(name, otherwise, lowest, highest, meaning)                                                         \
+  m.name = vec3(material_real(scene, index, WORD_OF(record, name[0])),                                                 \
+                material_real(scene, index, WORD_OF(record, name[1])),                                                 \
+                material_real(scene, index, WORD_OF(record, name[2])));
+#define LOAD_NUMBER(name, otherwise, lowest, highest, meaning) LOAD_DERIVED(name)
+#define LOAD_DERIVED(name) m.name = material_real(scene, index, WORD_OF(record, name));
+// An index into a table must be valid in the lanes of other models too.
+#define LOAD_INDEX(name) m.name = of_model ? material_int(scene, index, WORD_OF(record, name)) : (Int)(0);
+#define LOAD_MODEL(number, model, Model, MODEL)                                                                        \
+  static inline Model load_##model(const Scene* scene, Int index, Mask of_model) {                                     \
+    const __global Model##Record* record = (const __global Model##Record*)(scene->materials + MATERIAL_HEADER);        \
+    Model m;                                                                                                           \
+    MODEL##_PARAMETERS(LOAD_COLOUR, LOAD_NUMBER) /**/                                                                  \
+        MODEL##_DERIVED(LOAD_DERIVED, LOAD_INDEX) m.tables = scene->lobe_tables;                                       \
+    return m;                                                                                                          \
+  }
+MODELS(LOAD_MODEL)
+
+static inline Material material_at(const Scene* scene, Int index) {
+  Material m;
+  m.model_number = MODEL_COUNT > 1 ? material_int(scene, index, MATERIAL_MODEL) : (Int)(0);
+#define LOAD_MATERIAL(number, model, Model, MODEL) m.model = load_##model(scene, index, has_model(m, number));
+  MODELS(LOAD_MATERIAL)
+  return m;
+}
+
+// Lanes whose surface reflects anything on the side that was hit.
+static inline Mask reflects(const Scene* scene, Int material, Mask front) {
+  if (!(HAS_TWO_SIDED | HAS_BLACK)) return front;
+  const Int side = front ? (Int)(MATERIAL_FRONT) : (Int)(MATERIAL_BACK);
+  return (material_int(scene, material, MATERIAL_FLAGS) & side) != 0;
+}
+
+// ---- The functions of lobe.h for whichever model a lane has
+
+static inline LobeValue material_evaluate(Material m, Vec3 fixed, Vec3 generated) {
+  LobeValue v;
+  v.value = vec_all((Real)(0.0f));
+  v.density = v.reverse = (Real)(0.0f);
+#define EVALUATE(number, model, Model, MODEL)                                                                          \
+  {                                                                                                                    \
+    const LobeValue of_model = model##_evaluate(m.model, fixed, generated);                                            \
+    const Mask chosen = has_model(m, number);                                                                          \
+    v.value = vec_select(chosen, of_model.value, v.value);                                                             \
+    v.density = chosen ? of_model.density : v.density;                                                                 \
+    v.reverse = chosen ? of_model.reverse : v.reverse;                                                                 \
+  }
+  MODELS(EVALUATE)
+  v.value = vec_select((fixed.z > 0.0f) & (generated.z > 0.0f), v.value, vec_all((Real)(0.0f)));
+  return v;
+}
+
+static inline Vec3 material_reflectivity(Material m, Vec3 fixed) {
+  Vec3 reflectivity = vec_all((Real)(0.0f));
+#define REFLECTIVITY(number, model, Model, MODEL)                                                                      \
+  reflectivity = vec_select(has_model(m, number), model##_reflectivity(m.model, fixed), reflectivity);
+  MODELS(REFLECTIVITY)
+  return reflectivity;
+}
+
+// The probability with which the paths of `roulette` survive; all others do.
+static inline Real material_survival(Material m, Vec3 fixed, RandomDraws random, Mask roulette) {
+  Real survival = (Real)(LARGEST_SURVIVAL);
+#define SURVIVAL(number, model, Model, MODEL)                                                                          \
+  survival = has_model(m, number) ? MODEL##_SURVIVAL(m.model, fixed, random) : survival;
+  MODELS(SURVIVAL)
+  return roulette ? smaller(survival, (Real)(LARGEST_SURVIVAL)) : (Real)(1.0f);
+}
+
+typedef struct {
+  Vec3 direction; // a sample below the surface has weight 0
+  Vec3 weight;    // f_r cos / (density x survival probability), per channel
+  Real density;   // of `direction`, given that the path survives
+  Mask survives;  // roulette: all lanes in which it was not asked for
+  Mask delta;     // `direction` was sampled from a delta distribution
+  Int draws;      // directions that were drawn to find this one
+} MaterialSample;
+
+// Roulette for the paths of `roulette`, then a sample of the model for those of `active` that survive it.
+static inline MaterialSample material_sample(Material m, Vec3 fixed, RandomDraws random, Mask roulette, Mask active) {
+  const Real u = uniform_real(random.words.x), survival = material_survival(m, fixed, random, roulette);
+  const Real choice = u / survival; // uniform again, of the paths that survive
+  MaterialSample s;
+  s.survives = u < survival;
+  s.direction = fixed;
+  s.weight = vec_all((Real)(0.0f));
+  s.density = (Real)(0.0f);
+  s.delta = NO_LANES;
+  s.draws = (Int)(1);
+#define SAMPLE(number, model, Model, MODEL)                                                                            \
+  {                                                                                                                    \
+    const Mask chosen = has_model(m, number);                                                                          \
+    const LobeSample of_model = model##_sample(m.model, fixed, choice, random, active & s.survives & chosen);          \
+    s.direction = vec_select(chosen, of_model.direction, s.direction);                                                 \
+    s.weight = vec_select(chosen, of_model.weight, s.weight);                                                          \
+    s.density = chosen ? of_model.density : s.density;                                                                 \
+    s.delta = s.delta | (chosen & of_model.delta);                                                                     \
+    s.draws = chosen ? of_model.draws : s.draws;                                                                       \
+  }
+  MODELS(SAMPLE)
+  s.weight = vec_select(s.direction.z > 0.0f, vec_scale(1.0f / survival, s.weight), vec_all((Real)(0.0f)));
+  return s;
+}
+
+#endif

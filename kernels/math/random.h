@@ -1,0 +1,87 @@
+// Random numbers by counting: Philox 4x32 (Salmon, Moraes, Dror, Shaw 2011) turns (pixel, sample, dimension, draw) into
+// four random words under a key, the seed. Nothing is stored between calls, so an image depends on the seed alone and
+// not on how the work was cut into launches and threads.
+#ifndef PHLUX_RANDOM_H
+#define PHLUX_RANDOM_H
+
+#include "lanes/lanes.h"
+
+// The paper's safety margin is 10 rounds; 7 is the fewest that passes BigCrush (its table 2).
+#ifndef PHILOX_ROUNDS
+#define PHILOX_ROUNDS 7
+#endif
+
+typedef struct {
+  Uint x, y, z, w;
+} RandomWords;
+
+static inline RandomWords philox(RandomWords counter, uint2 key) {
+  RandomWords c = counter;
+  uint2 k = key;
+  for (int round = 0; round < PHILOX_ROUNDS; ++round) {
+    Uint high0, low0, high1, low1;
+    multiply_wide(c.x, 0xD2511F53u, &high0, &low0);
+    multiply_wide(c.z, 0xCD9E8D57u, &high1, &low1);
+    RandomWords next;
+    next.x = high1 ^ c.y ^ k.x;
+    next.y = low1;
+    next.z = high0 ^ c.w ^ k.y;
+    next.w = low0;
+    c = next;
+    k += (uint2)(0x9E3779B9u, 0xBB67AE85u);
+  }
+  return c;
+}
+
+// A path's place in the sequence: the pixel (or light path) and the sample.
+typedef struct {
+  Uint pixel, sample;
+  uint2 seed;
+} RandomSequence;
+
+// Four random words for one purpose on one path. `dimension` numbers the purpose (say, 2 bounce + 1), `draw` the
+// repetition of a sampler that draws until it accepts.
+static inline RandomWords random_words(RandomSequence sequence, Uint dimension, uint draw) {
+  RandomWords counter;
+  counter.x = sequence.pixel;
+  counter.y = sequence.sample;
+  counter.z = dimension;
+  counter.w = (Uint)(draw);
+  return philox(counter, sequence.seed);
+}
+
+// Random numbers for one sampling decision: the words of its first draw, and the place of further draws.
+typedef struct {
+  RandomWords words;
+  RandomSequence sequence;
+  Uint dimension;
+} RandomDraws;
+
+static inline RandomDraws random_draws(RandomSequence sequence, Uint dimension) {
+  RandomDraws random;
+  random.words = random_words(sequence, dimension, 0);
+  random.sequence = sequence;
+  random.dimension = dimension;
+  return random;
+}
+
+// The words of draw 1, 2, ...
+static inline RandomWords draw_again(RandomDraws random, uint draw) {
+  return random_words(random.sequence, random.dimension, draw);
+}
+
+// Further words from two of random_words, one for each number above 0: for many choices of small weight each. The
+// finishing steps of MurmurHash3 over a Weyl sequence.
+static inline Uint further_word(Uint first, Uint step, Uint number) {
+  Uint h = first + (step | 1u) * number;
+  h = (h ^ (h >> 16)) * 0x85ebca6bu;
+  h = (h ^ (h >> 13)) * 0xc2b2ae35u;
+  return h ^ (h >> 16);
+}
+
+// Uniform in the open interval (0, 1): 2^23 equidistant values, the outer ones 2^-24 from the ends.
+static inline Real uniform_real(Uint word) {
+  return fma(uint_to_real(word >> 9), (Real)(1.1920928955078125e-07f), (Real)(5.9604644775390625e-08f));
+}
+
+#endif

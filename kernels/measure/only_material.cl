@@ -1,0 +1,14 @@
+// A table of one material, for kernels that measure a reflectance model without a scene.
+#ifndef PHLUX_ONLY_MATERIAL_CL
+#define PHLUX_ONLY_MATERIAL_CL
+
+#include "lobes/material.cl"
+
+static inline Material only_material(const __global float* materials, const __global float* lobe_tables) {
+  Scene scene;
+  scene.materials = materials;
+  scene.lobe_tables = lobe_tables;
+  return material_at(&scene, (Int)(0));
+}
+
+#endif

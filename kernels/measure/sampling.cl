@@ -1,0 +1,79 @@
+// The sampler of a reflectance model alone, for measuring it: one material, one angle of incidence, one kind of light.
+#include "measure/only_material.cl"
+#include "measure/sampling_radiance.h"
+
+// One of FIXED_DIRECTIONS directions that differ in their longitude alone, in each lane: three times LANES floats each.
+// That they are read for every sample keeps what depends on them in the loop, as in a render.
+static inline Vec3 fixed_direction(const __global float* directions, int number) {
+  const __global float* at = directions + (number & (FIXED_DIRECTIONS - 1)) * 3 * LANES;
+  return vec3(load_reals(at), load_reals(at + LANES), load_reals(at + 2 * LANES));
+}
+
+// What arrives from `direction`, which lies above the surface.
+static inline Real radiance_from(int kind, Vec3 fixed, Vec3 direction) {
+  if (kind == RADIANCE_MIRROR_DISK) {
+    const Real dx = direction.x + fixed.x, dy = direction.y + fixed.y, dz = direction.z - fixed.z;
+    const Mask inside = fma(dx, dx, fma(dy, dy, dz * dz)) < MIRROR_DISK_CHORD2;
+    return inside ? (Real)(MIRROR_DISK_RADIANCE) : (Real)(0.0f);
+  }
+  if (kind == RADIANCE_HORIZON_SKY) return HORIZON_SKY_SCALE / (direction.z + HORIZON_SKY_HEIGHT);
+  return (Real)(1.0f);
+}
+
+// Sums over the samples of one block in one lane of d = weight x radiance - centre, where weight is 0 for a path that
+// does not survive or goes below the surface and centre is near the mean, so that little is lost to rounding.
+typedef struct {
+  Real d, d2, d3, d4;
+} PowerSums;
+
+static inline void add_powers(PowerSums* sums, Real d) {
+  const Real d2 = d * d;
+  sums->d += d;
+  sums->d2 += d2;
+  sums->d3 = fma(d2, d, sums->d3);
+  sums->d4 = fma(d2, d2, sums->d4);
+}
+
+// sums: four floats for every block and lane, at [((item * blocks + block) * 4 + power - 1) * LANES + lane].
+// counts, three for each work-item: rays that go on, directions that were drawn, and samples that are wrong by
+// themselves: not a unit vector, no density, no finite weight.
+__kernel void sample_moments(const __global float* materials, const __global float* lobe_tables,
+                             const __global float* directions, uint2 seed, uint first_sample, int blocks,
+                             int block_samples, int roulette, int light, float centre, __global float* sums,
+                             __global uint* counts) {
+  const Material m = only_material(materials, lobe_tables);
+  const int item = (int)get_global_id(0);
+  RandomSequence sequence;
+  sequence.pixel = int_to_uint((Int)(item * LANES) + LANE_NUMBERS);
+  sequence.seed = seed;
+  const Mask absorbing = roulette != 0 ? (Mask)(ALL_LANES) : (Mask)(NO_LANES);
+  Uint rays = (Uint)(0u), defects = (Uint)(0u);
+  Int draws = (Int)(0);
+  for (int block = 0; block < blocks; ++block) {
+    PowerSums block_sums;
+    block_sums.d = block_sums.d2 = block_sums.d3 = block_sums.d4 = (Real)(0.0f);
+    for (int i = 0; i < block_samples; ++i) {
+      sequence.sample = (Uint)(first_sample + (uint)(block * block_samples + i));
+      const Vec3 fixed = fixed_direction(directions, i);
+      const MaterialSample s = material_sample(m, fixed, random_draws(sequence, (Uint)(2u)), absorbing, ALL_LANES);
+      const Mask goes_on = s.survives & (s.direction.z > 0.0f);
+      const Real weight = vec_mean(s.weight);
+      const Real value = weight * radiance_from(light, fixed, s.direction);
+      const Real length2 = vec_dot(s.direction, s.direction);
+      const Mask fine = (fabs(length2 - 1.0f) < 1e-5f) & (s.density > 0.0f) & (weight - weight == 0.0f);
+      add_powers(&block_sums, (goes_on ? value : (Real)(0.0f)) - centre);
+      rays += goes_on ? (Uint)(1u) : (Uint)(0u);
+      defects += (goes_on & !fine) ? (Uint)(1u) : (Uint)(0u);
+      draws += s.draws;
+    }
+    const int at = (item * blocks + block) * 4 * LANES;
+    const Int lane = at + LANE_NUMBERS;
+    scatter_real(sums, lane, block_sums.d, ALL_LANES);
+    scatter_real(sums, lane + LANES, block_sums.d2, ALL_LANES);
+    scatter_real(sums, lane + 2 * LANES, block_sums.d3, ALL_LANES);
+    scatter_real(sums, lane + 3 * LANES, block_sums.d4, ALL_LANES);
+  }
+  counts[item * 3] = sum_of_lanes(rays);
+  counts[item * 3 + 1] = sum_of_lanes(int_to_uint(draws));
+  counts[item * 3 + 2] = sum_of_lanes(defects);
+}

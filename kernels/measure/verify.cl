@@ -1,0 +1,79 @@
+// What `phlux verify` asks of a reflectance model: the functions of lobes/material.cl for one material.
+//
+// Arrays of lanes hold one plane per value: value k of all elements, then value k + 1 of all elements.
+#include "measure/only_material.cl"
+
+#define PLANE(k) ((k)*get_global_size(0) + get_global_id(0))
+
+#define VERIFY_PARAMETERS __global const float *materials, __global const float *table, int material
+#define VERIFY_MATERIAL only_material(materials + material * MATERIAL_WORDS, table)
+
+static inline Vec3 vec_from_planes(__global const Real* from, int first) {
+  return vec3(from[PLANE(first)], from[PLANE(first + 1)], from[PLANE(first + 2)]);
+}
+
+static inline void vec_to_planes(__global Real* to, int first, Vec3 v) {
+  to[PLANE(first)] = v.x;
+  to[PLANE(first + 1)] = v.y;
+  to[PLANE(first + 2)] = v.z;
+}
+
+// Ten planes: direction, weight, density, 1 where the path survives, draws, 1 for a delta event.
+static inline void sample_to_planes(__global Real* to, MaterialSample s) {
+  vec_to_planes(to, 0, s.direction);
+  vec_to_planes(to, 3, s.weight);
+  to[PLANE(6)] = s.density;
+  to[PLANE(7)] = s.survives ? (Real)(1.0f) : (Real)(0.0f);
+  to[PLANE(8)] = to_real(s.draws);
+  to[PLANE(9)] = s.delta ? (Real)(1.0f) : (Real)(0.0f);
+}
+
+// Paths first, first + 1, ... of the sequence that a render with this seed would use.
+__kernel void sample_model(VERIFY_PARAMETERS, float fixed_x, float fixed_y, float fixed_z, uint2 seed, uint first,
+                           int roulette, __global Real* samples) {
+  RandomSequence sequence;
+  sequence.pixel = first + (uint)get_global_id(0) * LANES + int_to_uint((Int)(LANE_NUMBERS));
+  sequence.sample = (Uint)(0u);
+  sequence.seed = seed;
+  const Vec3 fixed = vec3((Real)(fixed_x), (Real)(fixed_y), (Real)(fixed_z));
+  sample_to_planes(samples, material_sample(VERIFY_MATERIAL, fixed, random_draws(sequence, (Uint)(0u)),
+                                            roulette ? ALL_LANES : NO_LANES, ALL_LANES));
+}
+
+// The same for chosen first random words, four planes of them.
+__kernel void drive_model(VERIFY_PARAMETERS, float fixed_x, float fixed_y, float fixed_z, __global const Uint* words,
+                          int roulette, __global Real* samples) {
+  RandomDraws random;
+  random.sequence.pixel = (Uint)((uint)get_global_id(0));
+  random.sequence.sample = int_to_uint((Int)(LANE_NUMBERS));
+  random.sequence.seed = (uint2)(0u, 0u);
+  random.dimension = (Uint)(0u);
+  random.words.x = words[PLANE(0)];
+  random.words.y = words[PLANE(1)];
+  random.words.z = words[PLANE(2)];
+  random.words.w = words[PLANE(3)];
+  const Vec3 fixed = vec3((Real)(fixed_x), (Real)(fixed_y), (Real)(fixed_z));
+  sample_to_planes(
+      samples, material_sample(VERIFY_MATERIAL, fixed, random, roulette ? ALL_LANES : NO_LANES, ALL_LANES));
+}
+
+// For pairs of directions (a, b), six planes. Ten planes: f_r with a fixed, f_r with b fixed, the density of b for a fixed
+// and of a for b fixed as two calls give them, then the reverse densities of the same two calls.
+__kernel void evaluate_model(VERIFY_PARAMETERS, __global const Real* pairs, __global Real* values) {
+  const Material m = VERIFY_MATERIAL;
+  const Vec3 a = vec_from_planes(pairs, 0), b = vec_from_planes(pairs, 3);
+  const LobeValue from_a = material_evaluate(m, a, b), from_b = material_evaluate(m, b, a);
+  vec_to_planes(values, 0, from_a.value);
+  vec_to_planes(values, 3, from_b.value);
+  values[PLANE(6)] = from_a.density;
+  values[PLANE(7)] = from_b.density;
+  values[PLANE(8)] = from_a.reverse;
+  values[PLANE(9)] = from_b.reverse;
+}
+
+// Three planes of reflectivities, for cosines of directions in the plane of x and z.
+__kernel void integrate_model(VERIFY_PARAMETERS, __global const Real* cosines, __global Real* reflectivities) {
+  const Real z = cosines[PLANE(0)];
+  const Vec3 fixed = vec3(sqrt((1.0f - z) * (1.0f + z)), (Real)(0.0f), z);
+  vec_to_planes(reflectivities, 0, material_reflectivity(VERIFY_MATERIAL, fixed));
+}

@@ -1,0 +1,92 @@
+// Emission: the first edge of a light path. Its density, the choice of the light included, is the light's
+// emission_density (per projected solid angle where the light has a surface), so that the edge carries the emitted
+// radiance over that density.
+#ifndef PHLUX_EMISSION_CL
+#define PHLUX_EMISSION_CL
+
+#include "scene/lights.cl"
+
+typedef struct {
+  Ray ray;       // from the light
+  Vec3 radiance; // emitted along it: radiance, intensity or irradiance
+  Real density;  // emission_density
+  SurfacePosition origin; // of lights with a surface
+  Int light;
+  Mask surface; // the light has one
+  Mask sky;     // the light is constant: a point at infinity
+} Emission;
+
+// Emits from a point of a surface in the direction `upward` of its frame.
+static inline void emit_from_surface(Emission* e, SurfacePosition from, Vec3 upward, Mask m) {
+  const Vec3 direction = from_frame(frame_about(from.normal), upward);
+  e->origin.position = vec_select(m, from.position, e->origin.position);
+  e->origin.normal = vec_select(m, from.normal, e->origin.normal);
+  e->origin.error = m ? from.error : e->origin.error;
+  e->ray.origin = vec_select(m, offset_origin(from.position, from.normal, from.error, direction), e->ray.origin);
+  e->ray.direction = vec_select(m, direction, e->ray.direction);
+  e->surface = e->surface | m;
+}
+
+// Emits from outside the scene through a point, uniform over the disk that the scene's bounding sphere fills as seen
+// along `direction`.
+static inline void emit_from_infinity(const Scene* scene, Emission* e, Vec3 direction, Real u1, Real u2, Mask m) {
+  Real cos_phi, sin_phi;
+  cos_sin_turns(u2, &cos_phi, &sin_phi);
+  const Real disk_radius = sqrt(LIGHT_REAL(scene, e->light, area) * INV_PI);
+  const Real radius = disk_radius * sqrt(u1);
+  const Frame frame = frame_about(direction);
+  const Vec3 across = from_frame(frame, vec3(radius * cos_phi, radius * sin_phi, -disk_radius));
+  e->ray.origin = vec_select(m, across, e->ray.origin);
+  e->ray.direction = vec_select(m, direction, e->ray.direction);
+}
+
+// Samples a light, a point of it (choice) and a direction (aim). All lanes.
+static inline Emission emission_sample(const Scene* scene, RandomWords choice, RandomWords aim) {
+  Emission e;
+  e.light = choose_light(scene, choice.x, choice.y);
+  e.radiance = LIGHT_VEC3(scene, e.light, radiance);
+  e.density = LIGHT_REAL(scene, e.light, emission_density);
+  e.surface = e.sky = NO_LANES;
+  e.origin.position = e.origin.normal = e.ray.origin = e.ray.direction = vec_all((Real)(0.0f));
+  e.origin.error = (Real)(0.0f);
+  const Int kind = light_kind(scene, e.light);
+  const Real u1 = uniform_real(choice.z), u2 = uniform_real(choice.w);
+  const Real v1 = uniform_real(aim.x), v2 = uniform_real(aim.y);
+  if (HAS_PLANAR_LIGHTS) {
+    const Mask m = LIGHT_IS(kind, LIGHT_PLANAR);
+    emit_from_surface(&e, planar_light_point(scene, e.light, m, u1, u2), cosine_direction(v1, v2), m);
+  }
+  if (HAS_SPHERE_LIGHTS) {
+    const Mask m = LIGHT_IS(kind, LIGHT_SPHERE);
+    const Int primitive = sphere_primitive(scene, e.light, m);
+    const Mask front_inside = PRIMITIVE_INT(scene, primitive, region) != 0;
+    const SurfacePosition from =
+        sphere_light_point(sphere_of_light(scene, primitive), sphere_direction(u1, u2), front_inside);
+    emit_from_surface(&e, from, cosine_direction(v1, v2), m);
+  }
+  if (HAS_POINTLIKE_LIGHTS) {
+    const Mask m = is_pointlike(kind);
+    Vec3 direction = sphere_direction(v1, v2);
+    if (HAS_SPOT_LIGHTS) {
+      const Mask spot = LIGHT_IS(kind, LIGHT_SPOT);
+      const Real cap = (0.5f * INV_PI) * light_probability(scene, e.light) / e.density; // 1 - cos(cutoff)
+      const Real drop = v1 * cap;
+      const Real sine = sqrt(drop * (2.0f - drop));
+      const Frame about_axis = frame_about(LIGHT_VEC3(scene, e.light, direction));
+      direction = vec_select(spot, from_frame(about_axis, polar_direction(sine, 1.0f - drop, v2)), direction);
+      const Real falloff = spot ? spot_falloff(scene, e.light, 1.0f - drop) : (Real)(1.0f);
+      e.radiance = vec_scale(falloff, e.radiance);
+    }
+    e.ray.origin = vec_select(m, LIGHT_VEC3(scene, e.light, position), e.ray.origin);
+    e.ray.direction = vec_select(m, direction, e.ray.direction);
+  }
+  if (HAS_DIRECTIONAL_LIGHTS)
+    emit_from_infinity(scene, &e, LIGHT_VEC3(scene, e.light, direction), u1, u2, LIGHT_IS(kind, LIGHT_DIRECTIONAL));
+  if (HAS_CONSTANT_LIGHT) {
+    e.sky = LIGHT_IS(kind, LIGHT_CONSTANT);
+    emit_from_infinity(scene, &e, sphere_direction(v1, v2), u1, u2, e.sky);
+  }
+  return e;
+}
+
+#endif

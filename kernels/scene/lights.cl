@@ -1,0 +1,265 @@
+// Lights: choosing one, choosing a direction towards it, and the density with which that direction is chosen.
+// Densities are per solid angle at the lit point and include the probability of choosing the light. Emission, the other
+// way round, is in emission.cl.
+#ifndef PHLUX_LIGHTS_CL
+#define PHLUX_LIGHTS_CL
+
+#include "math/constants.h"
+#include "math/directions.h"
+#include "scene/light_tree.cl"
+#include "math/random.h"
+#include "scene/surface.cl"
+
+// Lanes whose light is of this kind; all of them in a scene with one kind.
+#define LIGHT_IS(kind, which) (LIGHT_KINDS > 1 ? (Mask)((kind) == (which)) : ALL_LANES)
+
+// ---- Choosing a light
+
+// A light in proportion to its power, by the alias method (Walker 1974; Vose 1991): light paths start from it.
+static inline Int choose_light(const Scene* scene, Uint cell_word, Uint alias_word) {
+  if (!HAS_LIGHT_CHOICE) return (Int)(0);
+  const Int cell = uint_to_int(mul_hi(cell_word, (Uint)((uint)scene->light_count)));
+  const Mask keep = uniform_real(alias_word) < LIGHT_REAL(scene, cell, alias_threshold);
+  return keep ? cell : LIGHT_INT(scene, cell, alias);
+}
+
+static inline Int light_kind(const Scene* scene, Int light) {
+  return LIGHT_KINDS > 1 ? LIGHT_INT(scene, light, kind) : (Int)(scene->lights[0].kind);
+}
+
+// Lanes whose light a ray can find.
+static inline Mask is_hittable(Int kind) {
+  return (kind != LIGHT_POINT) & (kind != LIGHT_SPOT) & (kind != LIGHT_DIRECTIONAL);
+}
+static inline Mask is_pointlike(Int kind) { return LIGHT_IS(kind, LIGHT_POINT) | LIGHT_IS(kind, LIGHT_SPOT); }
+
+// The probability of choose_light.
+static inline Real light_probability(const Scene* scene, Int light) {
+  return HAS_LIGHT_CHOICE ? LIGHT_REAL(scene, light, probability) : (Real)(1.0f);
+}
+
+// The probability with which light_sample chooses `light` for a point with that normal, in the lanes of m.
+static inline Real probability_for(const Scene* scene, Vec3 lit, Vec3 normal, Int light, Mask m) {
+  const Real by_power = light_probability(scene, light);
+  if (!HAS_LIGHT_TREE) return by_power;
+  const Int leaf = LIGHT_INT(scene, light, node);
+  const Mask placed = leaf >= 0;
+  const Real in_tree = scene->light_tree_probability * tree_probability(scene, lit, normal, leaf, m & placed);
+  return placed ? POWER_SHARE * by_power + (1.0f - POWER_SHARE) * in_tree : by_power;
+}
+
+// The light that light_sample chooses for a point with that normal. A light of the tree, chosen by power, gives way to
+// one that the tree chooses with probability 1 - POWER_SHARE.
+static inline Int choose_light_for(const Scene* scene, Vec3 lit, Vec3 normal, Uint word, Uint other_word) {
+  const Int light = choose_light(scene, word, other_word);
+  if (!HAS_LIGHT_TREE) return light;
+  const Mask by_tree = uniform_real(further_word(word, other_word, (Uint)(1u))) >= POWER_SHARE;
+  return choose_from_tree(scene, lit, normal, word, other_word, by_tree & (LIGHT_INT(scene, light, node) >= 0), light);
+}
+
+// ---- Points of lights
+
+// A point of a flat light, uniform over its area; its normal is on the side that emits. The lanes of m are on one.
+static inline SurfacePosition planar_light_point(const Scene* scene, Int light, Mask m, Real u1, Real u2) {
+  const Int primitive = m ? LIGHT_INT(scene, light, primitive) : (Int)(0);
+  const Int words = planar_words(primitive);
+  const Int region = PRIMITIVE_INT(scene, primitive, region);
+  const Real area = LIGHT_REAL(scene, light, area);
+  // |edge_u x edge_v| from the area of the region that it spans; the parallelogram's is 4 of them.
+  Real u = 2.0f * u1 - 1.0f, v = 2.0f * u2 - 1.0f, cross_length = 0.25f * area;
+  if (HAS_TRIANGLES) {
+    const Mask triangle = region == REGION_TRIANGLE;
+    const Real root = sqrt(u1);
+    u = triangle ? 1.0f - root : u;
+    v = triangle ? root * u2 : v;
+    cross_length = triangle ? 2.0f * area : cross_length;
+  }
+  if (HAS_ELLIPSES) {
+    const Mask ellipse = region == REGION_ELLIPSE;
+    Real cos_phi, sin_phi;
+    cos_sin_turns(u2, &cos_phi, &sin_phi);
+    const Real radius = sqrt(u1);
+    u = ellipse ? radius * cos_phi : u;
+    v = ellipse ? radius * sin_phi : v;
+    cross_length = ellipse ? area * INV_PI : cross_length;
+  }
+  const Vec3 origin = gather_planar(scene, words, PLANAR_ORIGIN);
+  const Vec3 edge_part = vec_along(vec_scale(-u, gather_planar(scene, words, PLANAR_MINUS_U)), v,
+                                   gather_planar(scene, words, PLANAR_EDGE_V));
+  const Vec3 from_origin = vec_scale(cross_length, edge_part);
+  SurfacePosition point;
+  point.position = vec_add(origin, from_origin);
+  point.normal = gather_planar(scene, words, PLANAR_NORMAL);
+  point.error = ERROR_UNITS * (vec_largest(point.position) + vec_largest(from_origin));
+  return point;
+}
+
+// The primitive of a spherical light in the lanes of m; the first sphere in the others.
+static inline Int sphere_primitive(const Scene* scene, Int light, Mask m) {
+  return m ? LIGHT_INT(scene, light, primitive) : (Int)(HAS_PLANARS ? scene->first_sphere : 0);
+}
+
+static inline SphereShape sphere_of_light(const Scene* scene, Int primitive) {
+  return gather_sphere(scene, HAS_PLANARS ? primitive - scene->first_sphere : primitive);
+}
+
+// The point of a spherical light in the direction `unit` from its centre; its normal is on the side that emits.
+static inline SurfacePosition sphere_light_point(SphereShape sphere, Vec3 unit, Mask front_inside) {
+  SurfacePosition point;
+  point.position = vec_along(sphere.center, sphere.radius, unit);
+  point.normal = vec_select(front_inside, vec_scale((Real)(-1.0f), unit), unit);
+  point.error = ERROR_UNITS * (vec_largest(sphere.center) + sphere.radius);
+  return point;
+}
+
+// The fraction of its intensity that a spot light sends at an angle of this cosine to its axis.
+static inline Real spot_falloff(const Scene* scene, Int light, Real cosine) {
+  const Real angle = acos(clamp(cosine, (Real)(-1.0f), (Real)(1.0f)));
+  return clamp((LIGHT_REAL(scene, light, cutoff) - angle) * LIGHT_REAL(scene, light, inv_transition), (Real)(0.0f),
+               (Real)(1.0f));
+}
+// ---- Light samples
+
+typedef struct {
+  Ray ray;       // from the lit point, offset from its surface, to the light
+  Real distance; // before which the ray must be free
+  Vec3 radiance; // radiance / density arrives along it; intensity or irradiance of a light without a surface
+  Real density;  // of a light without a surface: choice x distance^2 (point, spot) or choice (directional)
+  Int light;
+  Real choice;   // the probability of choosing the light
+  Mask hittable; // a ray along a sampled direction of the surface could find this light as well
+  Mask valid;    // something arrives: the light faces the point
+} LightSample;
+
+// The cone that a sphere fills as seen from outside: 1 - cos of its half angle, without cancellation.
+static inline Real one_minus_cone_cosine(SphereShape sphere, Real distance2) {
+  const Real sine2 = sphere.radius * sphere.radius / distance2;
+  return sine2 / (1.0f + sqrt(larger(1.0f - sine2, (Real)(0.0f))));
+}
+
+// Density with which light_sample at `lit`, where `light` is chosen with probability `choice`, would have found the
+// point of it that lies `distance` away, where the light's normal makes an angle of `cosine` with the way back; without
+// meaning in lanes whose light has no surface.
+static inline Real light_density(const Scene* scene, Vec3 lit, Int light, Real choice, Real distance, Real cosine) {
+  Real density = choice * distance * distance / (cosine * LIGHT_REAL(scene, light, area));
+  if (HAS_SPHERE_LIGHTS) {
+    const Mask is_sphere = LIGHT_IS(light_kind(scene, light), LIGHT_SPHERE);
+    const Int primitive = sphere_primitive(scene, light, is_sphere);
+    const SphereShape sphere = sphere_of_light(scene, primitive);
+    const Vec3 to_center = vec_sub(sphere.center, lit);
+    const Real distance2 = vec_dot(to_center, to_center);
+    const Mask outside = (distance2 > sphere.radius * sphere.radius) & (PRIMITIVE_INT(scene, primitive, region) == 0);
+    const Real cone = choice * (0.5f * INV_PI) / one_minus_cone_cosine(sphere, distance2);
+    density = (is_sphere & outside) ? cone : density;
+  }
+  return density;
+}
+
+// Takes a ray to a light's surface into *s in the lanes of m.
+static inline void keep_surface_sample(LightSample* s, Ray ray, Real distance, Real cosine, Real density, Mask m) {
+  s->ray.origin = vec_select(m, ray.origin, s->ray.origin);
+  s->ray.direction = vec_select(m, ray.direction, s->ray.direction);
+  s->distance = m ? distance : s->distance;
+  s->density = m ? density : s->density;
+  s->hittable = s->hittable | m;
+  s->valid = s->valid | (m & (cosine > 0.0f));
+}
+
+static inline void sample_planar_light(const Scene* scene, LightSample* s, SurfacePosition lit, Mask m, Real u1, Real u2) {
+  const SurfacePosition place = planar_light_point(scene, s->light, m, u1, u2);
+  Real distance;
+  const Ray ray = ray_between(lit, place, &distance);
+  const Real cosine = -vec_dot(place.normal, ray.direction);
+  const Real by_area = distance * distance / (cosine * LIGHT_REAL(scene, s->light, area));
+  keep_surface_sample(s, ray, distance, cosine, s->choice * by_area, m);
+}
+
+// A point of a sphere: uniform in the cone that it fills from outside, else uniform over its area.
+static inline void sample_sphere_light(const Scene* scene, LightSample* s, SurfacePosition lit, Mask m, Real u1, Real u2) {
+  const Int primitive = sphere_primitive(scene, s->light, m);
+  const SphereShape sphere = sphere_of_light(scene, primitive);
+  const Mask front_inside = PRIMITIVE_INT(scene, primitive, region) != 0;
+  const Vec3 to_center = vec_sub(sphere.center, lit.position);
+  const Real distance2 = vec_dot(to_center, to_center);
+  const Real center_distance = sqrt(distance2);
+  const Mask in_cone = (distance2 > sphere.radius * sphere.radius) & !front_inside;
+  Real cos_phi, sin_phi;
+  cos_sin_turns(u2, &cos_phi, &sin_phi);
+  // In the cone: the sphere's near point at angle theta from the centre's direction; its direction from the centre has
+  // cosine (center_distance sin^2(theta) + cos(theta) sqrt(r^2 - center_distance^2 sin^2(theta))) / r to the lit point.
+  const Real cone = one_minus_cone_cosine(sphere, distance2);
+  const Real drop = u1 * cone; // 1 - cos(theta)
+  const Real sine2 = drop * (2.0f - drop);
+  const Real half_chord = sqrt(larger(fma(sphere.radius, sphere.radius, -distance2 * sine2), (Real)(0.0f)));
+  const Real cosine_at_center =
+      smaller((center_distance * sine2 + (1.0f - drop) * half_chord) / sphere.radius, (Real)(1.0f));
+  const Real z = in_cone ? cosine_at_center : 1.0f - 2.0f * u1;
+  const Real r = sqrt(larger(1.0f - z * z, (Real)(0.0f)));
+  const Frame towards_lit = frame_about(vec_scale(-1.0f / center_distance, to_center));
+  const Vec3 unit = from_frame(towards_lit, vec3(r * cos_phi, r * sin_phi, z));
+  const SurfacePosition place = sphere_light_point(sphere, unit, front_inside);
+  Real distance;
+  const Ray ray = ray_between(lit, place, &distance);
+  const Real cosine = -vec_dot(place.normal, ray.direction);
+  const Real by_area = distance * distance / (cosine * LIGHT_REAL(scene, s->light, area));
+  const Real density = in_cone ? (0.5f * INV_PI) / cone : by_area;
+  keep_surface_sample(s, ray, distance, cosine, s->choice * density, m);
+}
+
+static inline void sample_point_light(const Scene* scene, LightSample* s, SurfacePosition lit, Int kind, Mask m) {
+  Real distance;
+  const Ray ray = ray_to_point(lit, LIGHT_VEC3(scene, s->light, position), &distance);
+  const Real density = distance * distance * s->choice;
+  if (HAS_SPOT_LIGHTS) {
+    const Real cosine = -vec_dot(LIGHT_VEC3(scene, s->light, direction), ray.direction);
+    const Real falloff = kind == LIGHT_SPOT ? spot_falloff(scene, s->light, cosine) : (Real)(1.0f);
+    s->radiance = vec_select(m, vec_scale(falloff, s->radiance), s->radiance);
+  }
+  s->ray.origin = vec_select(m, ray.origin, s->ray.origin);
+  s->ray.direction = vec_select(m, ray.direction, s->ray.direction);
+  s->distance = m ? distance : s->distance;
+  s->density = m ? density : s->density;
+  s->valid = s->valid | (m & (density > 0.0f));
+}
+
+static inline void aim_to_infinity(LightSample* s, SurfacePosition lit, Vec3 direction, Real density, Mask m) {
+  const Vec3 origin = offset_origin(lit.position, lit.normal, lit.error, direction);
+  s->ray.origin = vec_select(m, origin, s->ray.origin);
+  s->ray.direction = vec_select(m, direction, s->ray.direction);
+  s->distance = m ? (Real)(INFINITY) : s->distance;
+  s->density = m ? density : s->density;
+  s->valid = s->valid | m;
+}
+
+// Chooses a light for each point and a direction towards it. All lanes.
+static inline LightSample light_sample(const Scene* scene, SurfacePoint point, RandomWords words) {
+  const SurfacePosition lit = surface_position(point);
+  LightSample s;
+  s.light = choose_light_for(scene, lit.position, lit.normal, words.x, words.y);
+  s.choice = probability_for(scene, lit.position, lit.normal, s.light, ALL_LANES);
+  s.ray.origin = lit.position;
+  s.ray.direction = lit.normal;
+  s.distance = (Real)(0.0f);
+  s.radiance = LIGHT_VEC3(scene, s.light, radiance);
+  s.density = (Real)(1.0f);
+  s.hittable = NO_LANES;
+  s.valid = NO_LANES;
+  const Int kind = light_kind(scene, s.light);
+  const Real u1 = uniform_real(words.z), u2 = uniform_real(words.w);
+  if (HAS_PLANAR_LIGHTS) sample_planar_light(scene, &s, lit, LIGHT_IS(kind, LIGHT_PLANAR), u1, u2);
+  if (HAS_SPHERE_LIGHTS) sample_sphere_light(scene, &s, lit, LIGHT_IS(kind, LIGHT_SPHERE), u1, u2);
+  if (HAS_POINTLIKE_LIGHTS) sample_point_light(scene, &s, lit, kind, is_pointlike(kind));
+  if (HAS_DIRECTIONAL_LIGHTS) {
+    const Vec3 to_light = vec_scale((Real)(-1.0f), LIGHT_VEC3(scene, s.light, direction));
+    aim_to_infinity(&s, lit, to_light, s.choice, LIGHT_IS(kind, LIGHT_DIRECTIONAL));
+  }
+  if (HAS_CONSTANT_LIGHT) {
+    const Mask m = LIGHT_IS(kind, LIGHT_CONSTANT);
+    const Vec3 upward = cosine_direction(u1, u2);
+    aim_to_infinity(&s, lit, from_frame(point.frame, upward), s.choice * upward.z * INV_PI, m);
+    s.hittable = s.hittable | m;
+  }
+  return s;
+}
+
+#endif

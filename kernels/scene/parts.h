@@ -1,0 +1,23 @@
+// What a scene's program holds code for. The host defines each part as 0 or 1 (render::Parts); kernels say
+// `if (HAS_SPHERES)`, and the compiler drops what is constant and unused. The parts below follow from those.
+#ifndef PHLUX_PARTS_H
+#define PHLUX_PARTS_H
+
+#include "lanes/lanes.h"
+
+#define HAS_PLANARS (HAS_TRIANGLES | HAS_PARALLELOGRAMS | HAS_ELLIPSES)
+#define HAS_MIXED_REGIONS (HAS_TRIANGLES + HAS_PARALLELOGRAMS + HAS_ELLIPSES > 1)
+
+#define HAS_AREA_LIGHTS (HAS_PLANAR_LIGHTS | HAS_SPHERE_LIGHTS)
+#define HAS_HITTABLE_LIGHTS (HAS_AREA_LIGHTS | HAS_CONSTANT_LIGHT) // a ray can find them
+#define HAS_POINTLIKE_LIGHTS (HAS_POINT_LIGHTS | HAS_SPOT_LIGHTS)
+#define LIGHT_KINDS                                                                                                    \
+  (HAS_PLANAR_LIGHTS + HAS_SPHERE_LIGHTS + HAS_POINT_LIGHTS + HAS_SPOT_LIGHTS + HAS_DIRECTIONAL_LIGHTS +               \
+   HAS_CONSTANT_LIGHT)
+
+// A table with few entries is kept in registers where the device can permute them (lanes/memory.h).
+#define MATERIALS_IN_REGISTERS (LANES_PERMUTE & FEW_MATERIALS)
+#define PRIMITIVES_IN_REGISTERS (LANES_PERMUTE & FEW_PRIMITIVES)
+#define LIGHTS_IN_REGISTERS (LANES_PERMUTE & FEW_LIGHTS)
+
+#endif

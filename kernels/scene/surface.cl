@@ -1,0 +1,172 @@
+// The surface point that a ray hits: position, shading frame and sides; and rays that start or end at surfaces.
+#ifndef PHLUX_SURFACE_CL
+#define PHLUX_SURFACE_CL
+
+#include "math/frames.h"
+#include "scene/intersect.cl"
+#include "scene/scene.cl"
+#include "scene/traverse.cl"
+
+typedef struct {
+  Vec3 position; // on the primitive, to a few ulp
+  Vec3 normal;   // geometric, unit, on the side that the ray came from
+  Frame frame;   // shading frame on that side; its z is the interpolated normal where the mesh has normals
+  Real error;    // bounds the rounding error of `position` and of a ray's intersection near it
+  Mask front;    // that side is the front
+  Int material, light;
+} SurfacePoint;
+
+// The rounding error of a position, and of the intersection test that could find the same surface again, is a few half
+// units in the last place of the largest number involved; an offset of 16 such units prevents self-intersection.
+#define ERROR_UNITS (16.0f * REAL_HALF_ULP)
+
+// Primitives stand one after another for brute force, in blocks of LANES for the hierarchy.
+#define SCENE_BLOCK (HAS_BVH ? LANES : 1)
+
+// Where value 0 of a flat primitive is, and value k from there (scene_data.h).
+static inline Int planar_words(Int primitive) {
+  if (PRIMITIVES_IN_REGISTERS) return primitive;
+  return primitive * PLANAR_FLOATS - (primitive & (SCENE_BLOCK - 1)) * (PLANAR_FLOATS - 1);
+}
+static inline Real planar_value(const Scene* scene, Int words, int value) {
+  if (PRIMITIVES_IN_REGISTERS) return permute_real(scene->planar_members[value], words);
+  return gather_scalar(scene->planars, words + value * SCENE_BLOCK);
+}
+static inline Vec3 gather_planar(const Scene* scene, Int words, int value) {
+  return vec3(planar_value(scene, words, value), planar_value(scene, words, value + 1),
+              planar_value(scene, words, value + 2));
+}
+
+static inline Real sphere_value(const Scene* scene, Int sphere, int value) {
+  if (PRIMITIVES_IN_REGISTERS) return permute_real(scene->sphere_members[value], sphere);
+  const Int words = sphere * SPHERE_FLOATS - (sphere & (SCENE_BLOCK - 1)) * (SPHERE_FLOATS - 1);
+  return gather_scalar(scene->spheres, words + value * SCENE_BLOCK);
+}
+static inline SphereShape gather_sphere(const Scene* scene, Int sphere) {
+  SphereShape s;
+  s.center = vec3(sphere_value(scene, sphere, 0), sphere_value(scene, sphere, 1), sphere_value(scene, sphere, 2));
+  s.radius = sphere_value(scene, sphere, SPHERE_RADIUS);
+  return s;
+}
+
+// The normal interpolated from a triangle's corners; `flat` where it has none or where they cancel.
+static inline Vec3 interpolated_normal(const Scene* scene, Int primitive, Real u, Real v, Vec3 flat) {
+  const Int a = gather_int(scene->corners, primitive * 3);
+  const Int b = gather_int(scene->corners, primitive * 3 + 1), c = gather_int(scene->corners, primitive * 3 + 2);
+  const Mask smooth = a >= 0;
+  Vec3 sum = vec_all((Real)(0.0f));
+  const Int corner[3] = {max(a, (Int)(0)), max(b, (Int)(0)), max(c, (Int)(0))};
+  const Real weight[3] = {1.0f - u - v, u, v};
+  for (int i = 0; i < 3; ++i)
+    sum = vec_along(sum, weight[i],
+                    vec3(gather_real(scene->vertex_normals, corner[i] * 3),
+                         gather_real(scene->vertex_normals, corner[i] * 3 + 1),
+                         gather_real(scene->vertex_normals, corner[i] * 3 + 2)));
+  return vec_select(smooth & (vec_dot(sum, sum) > 0.0f), vec_normalize(sum), flat);
+}
+
+// What a primitive says of the point `seen` on it; normals are on its front.
+typedef struct {
+  Vec3 position, normal, shading_normal, tangent;
+  Real error;
+} PrimitivePoint;
+
+static inline PrimitivePoint planar_point(const Scene* scene, Int primitive, Vec3 seen) {
+  PrimitivePoint p;
+  const Int words = planar_words(primitive);
+  p.normal = gather_planar(scene, words, PLANAR_NORMAL);
+  const Vec3 from_origin = vec_sub(seen, gather_planar(scene, words, PLANAR_ORIGIN));
+  p.position = vec_along(seen, -vec_dot(p.normal, from_origin), p.normal);
+  p.error = ERROR_UNITS * (vec_largest(p.position) + vec_largest(from_origin));
+  p.shading_normal = p.normal;
+  if (HAS_SMOOTH_NORMALS) {
+    const Real u = vec_dot(p.normal, vec_cross(from_origin, gather_planar(scene, words, PLANAR_EDGE_V)));
+    const Real v = vec_dot(p.normal, vec_cross(from_origin, gather_planar(scene, words, PLANAR_MINUS_U)));
+    p.shading_normal = interpolated_normal(scene, primitive, u, v, p.normal);
+  }
+  p.tangent = HAS_TANGENTS ? vec_scale((Real)(-1.0f), gather_planar(scene, words, PLANAR_MINUS_U)) : p.normal;
+  return p;
+}
+
+static inline PrimitivePoint sphere_point(const Scene* scene, Int primitive, Vec3 seen) {
+  PrimitivePoint p;
+  const SphereShape sphere = gather_sphere(scene, max(primitive - scene->first_sphere, (Int)(0)));
+  const Vec3 unit = vec_normalize(vec_sub(seen, sphere.center));
+  const Mask front_inside = PRIMITIVE_INT(scene, primitive, region) != 0;
+  p.normal = vec_select(front_inside, vec_scale((Real)(-1.0f), unit), unit);
+  p.shading_normal = p.normal;
+  p.position = vec_along(sphere.center, sphere.radius, unit);
+  p.error = ERROR_UNITS * (vec_largest(sphere.center) + sphere.radius);
+  p.tangent = vec3(-unit.y, unit.x, (Real)(0.0f)); // d position / d phi about the z axis
+  return p;
+}
+
+static inline PrimitivePoint primitive_point(const Scene* scene, Int primitive, Vec3 seen) {
+  if (!HAS_PLANARS) return sphere_point(scene, primitive, seen);
+  if (!HAS_SPHERES) return planar_point(scene, primitive, seen);
+  const Mask is_sphere = primitive >= scene->first_sphere;
+  const PrimitivePoint flat = planar_point(scene, min(primitive, (Int)(max(scene->first_sphere - 1, 0))), seen);
+  const PrimitivePoint round = sphere_point(scene, primitive, seen);
+  PrimitivePoint p;
+  p.position = vec_select(is_sphere, round.position, flat.position);
+  p.normal = vec_select(is_sphere, round.normal, flat.normal);
+  p.shading_normal = vec_select(is_sphere, round.shading_normal, flat.shading_normal);
+  p.tangent = vec_select(is_sphere, round.tangent, flat.tangent);
+  p.error = is_sphere ? round.error : flat.error;
+  return p;
+}
+
+// The point that `hit` found along `ray`; lanes without a hit hold a valid but meaningless point.
+static inline SurfacePoint surface_point(const Scene* scene, Ray ray, Hit hit) {
+  const Int primitive = max(hit.primitive, (Int)(0));
+  const PrimitivePoint p = primitive_point(scene, primitive, vec_along(ray.origin, hit.distance, ray.direction));
+  SurfacePoint s;
+  s.position = p.position;
+  s.error = p.error;
+  s.front = vec_dot(p.normal, ray.direction) < 0.0f;
+  s.normal = vec_select(s.front, p.normal, vec_scale((Real)(-1.0f), p.normal));
+  const Vec3 shading = vec_select(s.front, p.shading_normal, vec_scale((Real)(-1.0f), p.shading_normal));
+  s.frame = HAS_TANGENTS ? frame_along(shading, p.tangent) : frame_about(shading);
+  s.material = PRIMITIVE_INT(scene, primitive, material);
+  s.light = PRIMITIVE_INT(scene, primitive, light);
+  return s;
+}
+
+// A position on a surface from which a ray can start or at which it can end. SurfacePoint, a sampled point of a light
+// and a stored vertex share it.
+typedef struct {
+  Vec3 position, normal; // as SurfacePoint's
+  Real error;
+} SurfacePosition;
+
+static inline SurfacePosition surface_position(SurfacePoint point) {
+  SurfacePosition p;
+  p.position = point.position;
+  p.normal = point.normal;
+  p.error = point.error;
+  return p;
+}
+
+// The origin of a ray along `direction`, offset by the rounding error to the side to which it leaves.
+static inline Vec3 offset_origin(Vec3 position, Vec3 normal, Real error, Vec3 direction) {
+  return vec_along(position, times_sign(error, vec_dot(normal, direction)), normal);
+}
+
+// The ray from a surface to a point in space, and the distance before which it must be free.
+static inline Ray ray_to_point(SurfacePosition from, Vec3 to, Real* distance) {
+  Ray ray;
+  ray.origin = offset_origin(from.position, from.normal, from.error, vec_sub(to, from.position));
+  const Vec3 way = vec_sub(to, ray.origin);
+  *distance = sqrt(vec_dot(way, way));
+  ray.direction = vec_scale((Real)(1.0f) / *distance, way);
+  return ray;
+}
+
+// The same to a point of a surface whose normal faces the start: it ends short by what the surface's crossing may be
+// wrong as seen from there.
+static inline Ray ray_between(SurfacePosition from, SurfacePosition to, Real* distance) {
+  const Real reach = vec_largest(vec_sub(to.position, from.position));
+  return ray_to_point(from, vec_along(to.position, to.error + ERROR_UNITS * reach, to.normal), distance);
+}
+
+#endif

@@ -1,0 +1,214 @@
+// Traversal of a bounding volume hierarchy, one ray after another: the lanes hold a node's children or a leaf's
+// primitives (at one lane it is a plain binary hierarchy). Meshes are fastest so on CPUs, where rays soon part ways.
+#ifndef PHLUX_TRAVERSE_BVH_CL
+#define PHLUX_TRAVERSE_BVH_CL
+
+#include "scene/intersect.cl"
+#include "scene/scene.cl"
+
+#if LANES == 1
+#define CHILDREN 2
+#define STACK_SIZE 66 // BVH_MAX_DEPTH_BINARY of the builder, and the two children being pushed
+#else
+#define CHILDREN LANES
+#define STACK_SIZE (24 * (LANES - 1) + LANES) // BVH_MAX_DEPTH_WIDE of the builder
+#endif
+
+// One ray, the same in every lane, ready for box tests.
+typedef struct {
+  Ray ray;
+  Vec3 inverse;               // of the direction, finite
+  int near_x, near_y, near_z; // enum NodeValues of the planes that the ray meets first
+  int far_x, far_y, far_z;
+} BoxRay;
+
+// 1 / d, with d kept away from 0: a ray within 1e-20 of an axis plane may as well be that far from it.
+static inline Scalar finite_inverse(Scalar d) { return 1.0f / (fabs(d) < 1e-20f ? copysign((Scalar)(1e-20f), d) : d); }
+
+static inline BoxRay box_ray(const Scalar* r) {
+  BoxRay b;
+  b.ray.origin = vec3((Real)(r[0]), (Real)(r[1]), (Real)(r[2]));
+  b.ray.direction = vec3((Real)(r[3]), (Real)(r[4]), (Real)(r[5]));
+  b.inverse = vec3((Real)(finite_inverse(r[3])), (Real)(finite_inverse(r[4])), (Real)(finite_inverse(r[5])));
+  b.near_x = signbit(r[3]) ? NODE_HIGH_X : NODE_LOW_X;
+  b.near_y = signbit(r[4]) ? NODE_HIGH_Y : NODE_LOW_Y;
+  b.near_z = signbit(r[5]) ? NODE_HIGH_Z : NODE_LOW_Z;
+  b.far_x = NODE_LOW_X + NODE_HIGH_X - b.near_x;
+  b.far_y = NODE_LOW_Y + NODE_HIGH_Y - b.near_y;
+  b.far_z = NODE_LOW_Z + NODE_HIGH_Z - b.near_z;
+  return b;
+}
+
+// Pushes the children of a node that the ray meets before `limit`, the nearest last. Distances are rounded to within
+// 2 ulp; the far one is taken 3 ulp further so that no box is missed (Ize 2013).
+static inline int push_children(const __global float* node, const BoxRay* b, Scalar limit, Scalar* nears, int* children,
+                                int top) {
+  const int first = top;
+  for (int group = 0; group < CHILDREN; group += LANES) {
+    const __global float* boxes = node + group;
+    const Real near_x = (load_reals(boxes + b->near_x * CHILDREN) - b->ray.origin.x) * b->inverse.x;
+    const Real near_y = (load_reals(boxes + b->near_y * CHILDREN) - b->ray.origin.y) * b->inverse.y;
+    const Real near_z = (load_reals(boxes + b->near_z * CHILDREN) - b->ray.origin.z) * b->inverse.z;
+    const Real far_x = (load_reals(boxes + b->far_x * CHILDREN) - b->ray.origin.x) * b->inverse.x;
+    const Real far_y = (load_reals(boxes + b->far_y * CHILDREN) - b->ray.origin.y) * b->inverse.y;
+    const Real far_z = (load_reals(boxes + b->far_z * CHILDREN) - b->ray.origin.z) * b->inverse.z;
+    const Real enter = larger(larger(near_x, near_y), larger(near_z, (Real)(0.0f)));
+    const Real leave = smaller(smaller(far_x, far_y), far_z) * 1.0000004f;
+    const Mask met = (enter <= leave) & (enter < limit);
+    top += append_lanes(met, enter, load_ints((const __global int*)boxes + NODE_CHILD * CHILDREN), nears + top,
+                        children + top);
+  }
+  for (int i = first; i + 1 < top; ++i) {
+    const int last = top - 1;
+    if (nears[i] < nears[last]) {
+      const Scalar near = nears[i];
+      const int child = children[i];
+      nears[i] = nears[last];
+      children[i] = children[last];
+      nears[last] = near;
+      children[last] = child;
+    }
+  }
+  return top;
+}
+
+// The primitives of one block that the ray meets before `limit`, and how far along.
+static inline Vec3 load_planar(const __global Scalar* block, int value) {
+  return vec3(load_scalars(block + value * LANES), load_scalars(block + (value + 1) * LANES),
+              load_scalars(block + (value + 2) * LANES));
+}
+
+static inline Mask meet_planars(const Scene* scene, int block, Ray ray, Scalar limit, Real* distance) {
+  const __global Scalar* values = scene->planars + block * (PLANAR_FLOATS * LANES);
+  Planar p;
+  p.origin = load_planar(values, PLANAR_ORIGIN);
+  p.edge_v = load_planar(values, PLANAR_EDGE_V);
+  p.minus_u = load_planar(values, PLANAR_MINUS_U);
+  p.normal = load_planar(values, PLANAR_NORMAL);
+  const PlaneCrossing c = cross_plane(ray, p);
+  Mask inside = HAS_TRIANGLES ? in_triangle(c) : HAS_PARALLELOGRAMS ? in_parallelogram(c) : in_ellipse(c);
+  if (HAS_MIXED_REGIONS) {
+    const Int region = GATHER_INT(scene->primitives, block * LANES + LANE_NUMBERS, region);
+    inside = (in_triangle(c) & (region == REGION_TRIANGLE)) |
+             (in_parallelogram(c) & (region == REGION_PARALLELOGRAM)) | (in_ellipse(c) & (region == REGION_ELLIPSE));
+  }
+  const Mask met = inside & (c.distance > 0.0f) & (c.distance < limit * c.facing);
+  *distance = c.distance / c.facing;
+  return met;
+}
+
+static inline Mask meet_spheres(const Scene* scene, int block, Ray ray, Scalar limit, Real* distance) {
+  const __global Scalar* values = scene->spheres + block * (SPHERE_FLOATS * LANES);
+  SphereShape s;
+  s.center = vec3(load_scalars(values), load_scalars(values + LANES), load_scalars(values + 2 * LANES));
+  s.radius = load_scalars(values + 3 * LANES);
+  *distance = cross_sphere(ray, s);
+  return (*distance > 0.0f) & (*distance < limit);
+}
+
+// The primitives of block `block` of a leaf; *first is the primitive index of its lane 0.
+static inline Mask meet_block(const Scene* scene, int block, int spheres, Ray ray, Scalar limit, Real* distance,
+                              int* first) {
+  if (HAS_SPHERES & (!HAS_PLANARS | (spheres != 0))) {
+    *first = scene->first_sphere + block * LANES;
+    return meet_spheres(scene, block, ray, limit, distance);
+  }
+  *first = block * LANES;
+  return meet_planars(scene, block, ray, limit, distance);
+}
+
+// The closest primitive before *distance; returns its index, or -1 and leaves *distance.
+static inline int closest_along(const Scene* scene, const Scalar* ray, Scalar* distance) {
+  Scalar nears[STACK_SIZE];
+  int children[STACK_SIZE];
+  const BoxRay b = box_ray(ray);
+  int found = -1, top = 1;
+  nears[0] = 0.0f;
+  children[0] = scene->root;
+  while (top > 0) {
+    --top;
+    if (nears[top] >= *distance) continue;
+    const int child = children[top];
+    if (child >= 0) {
+      top = push_children(scene->nodes + child * (NODE_WORDS * CHILDREN), &b, *distance, nears, children, top);
+      continue;
+    }
+    const int leaf = ~child, end = (leaf >> 5) + ((leaf >> 1) & 15) + 1;
+    for (int block = leaf >> 5; block < end; ++block) {
+      Real at;
+      int first;
+      const Mask met = meet_block(scene, block, leaf & 1, b.ray, *distance, &at, &first);
+      if (any_lane(met)) {
+        at = met ? at : (Real)(INFINITY);
+        *distance = min_of_lanes(at);
+        found = first + first_lane(at == *distance);
+      }
+    }
+  }
+  return found;
+}
+
+static inline int blocked_along(const Scene* scene, const Scalar* ray, Scalar distance) {
+  Scalar nears[STACK_SIZE];
+  int children[STACK_SIZE];
+  const BoxRay b = box_ray(ray);
+  int top = 1;
+  nears[0] = 0.0f;
+  children[0] = scene->root;
+  while (top > 0) {
+    --top;
+    const int child = children[top];
+    if (child >= 0) {
+      top = push_children(scene->nodes + child * (NODE_WORDS * CHILDREN), &b, distance, nears, children, top);
+      continue;
+    }
+    const int leaf = ~child, end = (leaf >> 5) + ((leaf >> 1) & 15) + 1;
+    for (int block = leaf >> 5; block < end; ++block) {
+      Real at;
+      int first;
+      if (any_lane(meet_block(scene, block, leaf & 1, b.ray, distance, &at, &first))) return 1;
+    }
+  }
+  return 0;
+}
+
+// Rays as an array of six floats per lane: origin, direction.
+static inline void rays_to_array(Ray ray, Scalar (*array)[LANES]) {
+  lanes_to_array(ray.origin.x, array[0]);
+  lanes_to_array(ray.origin.y, array[1]);
+  lanes_to_array(ray.origin.z, array[2]);
+  lanes_to_array(ray.direction.x, array[3]);
+  lanes_to_array(ray.direction.y, array[4]);
+  lanes_to_array(ray.direction.z, array[5]);
+}
+
+static inline Hit bvh_intersect(const Scene* scene, Ray ray, Mask alive) {
+  Scalar rays[6][LANES], distance[LANES];
+  int asking[LANES], primitive[LANES];
+  rays_to_array(ray, rays);
+  int_lanes_to_array(alive, asking);
+  for (int lane = 0; lane < LANES; ++lane) {
+    const Scalar one[6] = {rays[0][lane], rays[1][lane], rays[2][lane], rays[3][lane], rays[4][lane], rays[5][lane]};
+    distance[lane] = INFINITY;
+    primitive[lane] = asking[lane] ? closest_along(scene, one, &distance[lane]) : -1;
+  }
+  Hit hit;
+  hit.distance = lanes_from_array(distance);
+  hit.primitive = int_lanes_from_array(primitive);
+  return hit;
+}
+
+static inline Mask bvh_occluded(const Scene* scene, Ray ray, Real distance, Mask asking) {
+  Scalar rays[6][LANES], limit[LANES];
+  int asks[LANES], blocked[LANES];
+  rays_to_array(ray, rays);
+  lanes_to_array(distance, limit);
+  int_lanes_to_array(asking, asks);
+  for (int lane = 0; lane < LANES; ++lane) {
+    const Scalar one[6] = {rays[0][lane], rays[1][lane], rays[2][lane], rays[3][lane], rays[4][lane], rays[5][lane]};
+    blocked[lane] = asks[lane] ? blocked_along(scene, one, limit[lane]) : 0;
+  }
+  return int_lanes_from_array(blocked) != 0;
+}
+
+#endif

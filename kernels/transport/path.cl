@@ -1,0 +1,79 @@
+// Path tracing (CW 197, 3.3.2): from the camera, scattered at every surface, until roulette, the depth or the dark ends
+// the path. CONNECT says how it reaches the lights: by hits alone, by light samples, or by both with weights.
+#include "transport/eye_subpath.cl"
+#include "transport/film.cl"
+
+static inline Vec3 add_found(Vec3 radiance, FoundLight light, Mask m) {
+  return vec_select(m, vec_add(radiance, vec_scale(light.weight, light.value)), radiance);
+}
+
+// Starts the lanes of `starting` on their jobs' next samples.
+static inline void start_paths(const Scene* scene, Subpath* path, Vec3* radiance, JobList list, Job job, Mask starting) {
+  Subpath first = *path;
+  first.sequence.pixel = int_to_uint(job.pixel);
+  first.sequence.sample = int_to_uint(sample_number(list, job));
+  start_at_camera(scene, &first);
+  path->ray.origin = vec_select(starting, first.ray.origin, path->ray.origin);
+  path->ray.direction = vec_select(starting, first.ray.direction, path->ray.direction);
+  path->throughput = vec_select(starting, first.throughput, path->throughput);
+  path->edges = starting ? (Int)(0) : path->edges;
+  path->delta = path->delta & !starting;
+  path->sequence.pixel = starting ? first.sequence.pixel : path->sequence.pixel;
+  path->sequence.sample = starting ? first.sequence.sample : path->sequence.sample;
+  *radiance = vec_select(starting, vec_all((Real)(0.0f)), *radiance);
+}
+
+// The control variate of --ambient: radiance `ambient` from everywhere, its exact reflection less the sampled one. Its
+// mean is 0.
+static inline Vec3 ambient_variate(Vertex v, MaterialSample sample, Vec3 throughput, float ambient) {
+  const Vec3 sampled = vec_select(sample.survives, sample.weight, vec_all((Real)(0.0f)));
+  const Vec3 difference = vec_sub(material_reflectivity(v.material, v.fixed), sampled);
+  return vec_scale((Real)(ambient), vec_mul(throughput, difference));
+}
+
+__kernel void trace_paths(SCENE_PARAMETERS, int pixel_count, int first_pixel, int job_count, int first_sample,
+                          int block_samples, uint2 seed, int max_edges, int roulette_edges, __global uint* counters,
+                          int sky_light, float ambient, __global float* sums) {
+  SCENE_FROM_PARAMETERS
+  const JobList list = {pixel_count, first_pixel, job_count, first_sample, block_samples};
+  const PathLimits limits = {max_edges, roulette_edges};
+  Job job = first_job(list);
+  Subpath path = no_subpath(seed);
+  Vec3 radiance = vec_all((Real)(0.0f));
+  Uint rays = (Uint)(0u), shadow_rays = (Uint)(0u);
+  Mask alive = NO_LANES;
+
+  for (Mask working = jobs_left(list, job); any_lane(working); working = jobs_left(list, job)) {
+    const Mask starting = working & !alive;
+    if (any_lane(starting)) start_paths(&scene, &path, &radiance, list, job, starting);
+
+    const Arrival arrival = next_vertex(&scene, &path, limits, working);
+    rays += working ? (Uint)(1u) : (Uint)(0u);
+    if (HAS_CONSTANT_LIGHT) {
+      const FoundLight sky = hit_sky(&scene, &path, sky_light, working & !arrival.hits);
+      radiance = add_found(radiance, sky, sky.found);
+    }
+    const FoundLight hit = hit_light(&scene, &path, arrival.vertex.point, arrival.distance, arrival.hits);
+    if (HAS_AREA_LIGHTS) radiance = add_found(radiance, hit, hit.found);
+
+    if (CONNECT != CONNECT_NONE) {
+      LightSample light;
+      const FoundLight sampled = sample_light(&scene, &path, arrival.vertex, &light, arrival.scattered);
+      const Mask occluded = scene_occluded(&scene, light.ray, light.distance, sampled.found);
+      radiance = add_found(radiance, sampled, sampled.found & !occluded);
+      shadow_rays += sampled.found ? (Uint)(1u) : (Uint)(0u);
+    }
+    MaterialSample sample;
+    const Vec3 throughput = path.throughput;
+    alive = scatter(&path, arrival.vertex, 0, DIMENSION_SCATTERING(path.edges), limits, &sample, arrival.scattered);
+    if (HAS_AMBIENT) {
+      const Vec3 variate = ambient_variate(arrival.vertex, sample, throughput, ambient);
+      radiance = vec_select(arrival.scattered, vec_add(radiance, variate), radiance);
+    }
+    const Mask ended = working & !alive;
+    if (any_lane(ended)) add_sample(list, &job, radiance, sums, ended);
+  }
+  const int item = (int)get_global_id(0) * 2;
+  counters[item] = sum_of_lanes(rays);
+  counters[item + 1] = sum_of_lanes(shadow_rays);
+}

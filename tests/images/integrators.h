@@ -1,0 +1,49 @@
+// Path tracing, light tracing and bidirectional path tracing side by side.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "images/scenes.h"
+#include "images/welch.h"
+
+namespace phlux::test {
+
+struct Method {
+  std::string integrator = "path";
+  render::Weights weights = render::Weights::balance; ///< bidir
+  render::Connect connect = render::Connect::mis;     ///< path
+  bool operator==(const Method&) const = default;
+};
+
+[[nodiscard]] std::string name_of(const Method& method);
+
+inline const Method path{"path"}, light{"light"}, bidir{"bidir"},
+    bidir_power{"bidir", render::Weights::power}, bidir_uniform{"bidir", render::Weights::uniform},
+    path_hits{"path", render::Weights::balance, render::Connect::none},
+    path_light_samples{"path", render::Weights::balance, render::Connect::light};
+
+/// The same settings for that method.
+[[nodiscard]] render::Settings by(const Method& method, render::Settings settings);
+
+/// Means of independent renders. One path may reach several pixels, so that pixels are not independent: the
+/// variance of the image's mean is therefore measured between the renders.
+struct Repeated {
+  Estimate image; ///< variances as the films say
+  Estimate mean;  ///< of the whole image, as one pixel; variance from `renders` of them
+  int renders = 0;
+};
+
+[[nodiscard]] Repeated repeated(const scene::Scene& scene, const Method& method, render::Settings with,
+                                int renders = 16);
+
+/// The z-tests of agreement() for tiles of `side` x `side` pixels and, instead of its test of the image's
+/// mean, Welch's t-test of the means of the renders. A false alarm of either has the chance false_alarm_rate.
+void check_methods(const Repeated& image, const Repeated& reference, int side = 1,
+                   double tolerance = rounding);
+
+/// Renders by all of `methods` with their own seeds and compares them with path tracing.
+void check_against_path(const scene::Scene& scene, const std::vector<Method>& methods,
+                        const render::Settings& with, int side = 1);
+
+} // namespace phlux::test

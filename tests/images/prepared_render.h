@@ -1,0 +1,36 @@
+// Many renders of one scene by one method, whose kernels are built once.
+#pragma once
+
+#include <cstdint>
+
+#include "device/program.h"
+#include "film/film.h"
+#include "render/device_scene.h"
+#include "render/launcher.h"
+
+namespace phlux::test {
+
+/// What render::render() does on one device, made ready once: of small images, PoCL takes longer to find in
+/// its cache what it has built than to render.
+class PreparedRender {
+public:
+  /// @throws what render::render() throws
+  PreparedRender(const scene::Scene& scene, const render::Settings& settings);
+
+  struct Image {
+    film::Film film;
+    std::uint64_t nonfinite = 0;
+  };
+  [[nodiscard]] Image image(std::uint64_t seed, int samples_per_pixel) const;
+
+private:
+  const scene::Scene& scene_;
+  render::Settings settings_;
+  device::Device device_;
+  int lanes_;
+  render::HostScene host_;
+  render::Parts parts_;
+  device::BuiltProgram program_;
+};
+
+} // namespace phlux::test

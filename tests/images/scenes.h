@@ -1,0 +1,54 @@
+// Scenes for the tests of rendering, shipped and built here, and their renders.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "images/agreement.h"
+#include "lobes/models.h"
+#include "render/render.h"
+#include "scene/scene.h"
+
+namespace phlux::test {
+
+/// Names of the scenes in scenes/, without ".xml".
+[[nodiscard]] const std::vector<std::string>& shipped_names();
+[[nodiscard]] scene::Scene shipped(const std::string& name, int width, int height);
+/// A scene of Mitsuba's XML.
+[[nodiscard]] scene::Scene from_xml(const std::string& text);
+
+[[nodiscard]] scene::Camera look_at(const scene::Vec3& origin, const scene::Vec3& target, double fov_degrees,
+                                    int width, int height);
+/// Unit direction through (x, y) in pixels from the image's upper left corner.
+[[nodiscard]] scene::Vec3 direction_through(const scene::Camera& camera, double x, double y);
+/// Means over the pixels' areas of the radiance in a direction from the camera, by the midpoint rule with
+/// `points` x `points` points a pixel.
+[[nodiscard]] Estimate expected(const scene::Camera& camera,
+                                const std::function<Channels(const scene::Vec3& direction)>& radiance,
+                                int points = 32);
+
+using lobes::diffuse;
+using lobes::phong;
+
+/// A square of half side `half` about `center`; edge_u and edge_v (unit) span it, their cross product is its
+/// front.
+[[nodiscard]] scene::Patch square(const scene::Vec3& center, const scene::Vec3& edge_u,
+                                  const scene::Vec3& edge_v, double half, scene::Surface surface);
+
+/// Scales everything about the world's origin and then moves it; lights keep what they do to surfaces.
+[[nodiscard]] scene::Scene placed(scene::Scene scene, double scale, const scene::Vec3& offset);
+
+struct Render {
+  film::Film film;
+  render::Statistics statistics;
+};
+
+/// `samples` samples a pixel of the tested kernels (tested_kernels.h); the path's depth as given (-1:
+/// unbounded).
+[[nodiscard]] render::Settings settings_for(int samples, int max_depth = -1);
+[[nodiscard]] Render render_of(const scene::Scene& scene, const render::Settings& settings);
+
+} // namespace phlux::test

@@ -1,0 +1,104 @@
+// Lights without extent over a plane: what arrives is known at every point.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
+
+#include "images/scenes.h"
+#include "materials.h"
+
+using namespace phlux;
+using namespace phlux::test;
+using scene::Rgb;
+using scene::Vec3;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+const Vec3 eye(0.1, -0.3, 1);
+
+// The plane z = 0 as far as the camera sees, and further.
+scene::Scene plane(const scene::Material& material) {
+  scene::Scene scene;
+  scene.materials = {material};
+  scene.patches = {square({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 5, {})};
+  scene.camera = look_at(eye, {0.1, -0.29, 0}, 60, 12, 12);
+  return scene;
+}
+
+// Modified Phong at the plane, from the formula (MATH.md 2): f_r for directions to the light and to the eye.
+Rgb reflectance(const scene::Material& m, const Vec3& wi, const Vec3& wo) {
+  const Vec3 mirrored(-wi.x, -wi.y, wi.z);
+  const double cosine = std::max(0.0, glm::dot(mirrored, wo));
+  return phlux::test::diffuse_of(m) / pi + phlux::test::specular_of(m) * (phlux::test::exponent_of(m) + 2) /
+                                               (2 * pi) * std::pow(cosine, phlux::test::exponent_of(m));
+}
+
+// What the camera sees of the plane when light of intensity(direction away from the light) comes from
+// `light`.
+template<class Intensity>
+Estimate lit_from(const scene::Scene& scene, const Vec3& light, Intensity intensity, int points = 32) {
+  return expected(
+      scene.camera,
+      [&](const Vec3& direction) {
+        const Vec3 point = eye - eye.z / direction.z * direction;
+        const Vec3 way = light - point;
+        const double distance2 = glm::dot(way, way);
+        const Vec3 wi = way / std::sqrt(distance2);
+        const Rgb radiance =
+            reflectance(scene.materials[0], wi, -direction) * intensity(-wi) * wi.z / distance2;
+        return Channels{radiance.r, radiance.g, radiance.b};
+      },
+      points);
+}
+
+const scene::Material glossy = phong({0.5, 0.3, 0.1}, {0.3, 0.1, 0.6}, 20);
+
+} // namespace
+
+TEST_CASE("a point light on a glossy plane") {
+  scene::Scene scene = plane(glossy);
+  scene.point_lights = {{{0.3, -0.2, 1.5}, {3, 2, 1}}};
+  const Estimate image = estimate_of(render_of(scene, settings_for(512, 2)).film);
+  check_agreement(image, lit_from(scene, {0.3, -0.2, 1.5}, [](const Vec3&) { return Rgb(3, 2, 1); }));
+}
+
+TEST_CASE("a spot light: full in its beam, fading to its cutoff, nothing outside") {
+  const Vec3 position(0.1, -0.3, 0.9), axis = glm::normalize(Vec3(0.1, 0.2, -1));
+  const double cutoff = 28 * pi / 180;
+  for (const double beam : {12 * pi / 180, cutoff}) {
+    CAPTURE(beam);
+    scene::Scene scene = plane(diffuse({0.8, 0.5, 0.2}));
+    scene.spot_lights = {{position, axis, {3, 2, 1}, cutoff, beam}};
+    const auto intensity = [&](const Vec3& away) {
+      const double angle = std::acos(std::min(1.0, glm::dot(axis, away)));
+      if (angle <= beam) return Rgb(3, 2, 1);
+      return angle >= cutoff ? Rgb(0.0) : Rgb(3, 2, 1) * ((cutoff - angle) / (cutoff - beam));
+    };
+    const Estimate image = estimate_of(render_of(scene, settings_for(512, 2)).film);
+    // Pixels on the sharp rim of a beam as wide as its cone: the midpoint rule is right to 1 / points there.
+    const bool sharp = beam == cutoff;
+    check_agreement(image, lit_from(scene, position, intensity, sharp ? 256 : 64), sharp ? 2e-3 : 2e-4);
+    CHECK(image.mean.front() == Channels{});
+    CHECK(image.mean[6 * 12 + 6][0] > 0);
+  }
+}
+
+TEST_CASE("a directional light on a plane that it meets at an angle") {
+  scene::Scene scene = plane(diffuse({0.8, 0.5, 0.2}));
+  scene.directional_lights = {{glm::normalize(Vec3(1, 2, -2)), {3, 2, 1}}};
+  const Render lit = render_of(scene, settings_for(32, 2));
+  const double cosine = 2.0 / 3.0;
+  check_agreement(estimate_of(lit.film),
+                  uniform(lit.film, {0.8 * 3 * cosine / pi, 0.5 * 2 * cosine / pi, 0.2 * cosine / pi}));
+}
+
+TEST_CASE("lights without extent behind the plane do not shine through it") {
+  scene::Scene scene = plane(glossy);
+  scene.point_lights = {{{0.3, -0.2, -1.5}, {3, 2, 1}}};
+  scene.directional_lights = {{{0, 0, 1}, {3, 2, 1}}};
+  const Render dark = render_of(scene, settings_for(16));
+  for (const film::Pixel& pixel : dark.film.pixels()) CHECK(pixel.sum == Channels{});
+}

@@ -1,0 +1,190 @@
+// Scenes whose radiance is known in closed form: nothing may be gained or lost over any number of
+// reflections.
+#include <cmath>
+
+#include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
+
+#include "images/scenes.h"
+#include "materials.h"
+#include "phong/reflectivity.h"
+
+using namespace phlux;
+using namespace phlux::test;
+using render::Connect;
+using scene::Vec3;
+
+namespace {
+
+// rho_s / ks of one exponent over the cosine, finely tabulated: linear between 2^14 values errs by less than
+// 1e-6.
+class LobeReflectivity {
+public:
+  explicit LobeReflectivity(double exponent) {
+    for (int i = 0; i <= intervals; ++i)
+      values_.push_back(phong::lobe_reflectivity(exponent, static_cast<double>(i) / intervals));
+  }
+  double operator()(double cosine) const {
+    const double position = std::min(cosine, 1.0) * intervals;
+    const auto below = static_cast<std::size_t>(std::min(position, intervals - 1.0));
+    return std::lerp(values_[below], values_[below + 1], position - static_cast<double>(below));
+  }
+
+private:
+  static constexpr int intervals = 1 << 14;
+  std::vector<double> values_;
+};
+
+// Cosine of the angle under which a direction from (0, 0, 4) meets the unit sphere about the origin;
+// negative: it does not.
+double cosine_on_sphere(const Vec3& direction) {
+  const double along = 4 * direction.z;
+  const double discriminant = along * along - 15;
+  return discriminant < 0 ? -1 : std::sqrt(discriminant);
+}
+
+constexpr Channels sky = {1.0, 0.5, 2.0};
+
+// furnace-sphere.xml with a colour for everything. A field of view of 18 degrees holds nothing but the
+// sphere.
+scene::Scene sphere_furnace(double fov, int size, const scene::Material& material) {
+  scene::Scene scene = shipped("furnace-sphere", size, size);
+  scene.camera = look_at({0, 0, 4}, {0, 0, 0}, fov, size, size);
+  scene.materials.assign(scene.materials.size(), material);
+  scene.constant_radiance = scene::Rgb(sky[0], sky[1], sky[2]);
+  return scene;
+}
+
+Estimate sphere_reference(const scene::Scene& scene, const scene::Material& material) {
+  const LobeReflectivity lobe(phlux::test::exponent_of(material));
+  return expected(scene.camera, [&](const Vec3& direction) {
+    const double cosine = cosine_on_sphere(direction);
+    Channels result = sky;
+    for (int c = 0; c < 3 && cosine >= 0; ++c)
+      result[static_cast<std::size_t>(c)] *=
+          phlux::test::diffuse_of(material)[c] + phlux::test::specular_of(material)[c] * lobe(cosine);
+    return result;
+  });
+}
+
+const scene::Rgb kd(0.3, 0.1, 0.0), ks(0.6, 0.2, 0.9);
+
+} // namespace
+
+TEST_CASE("furnace box: 2 at every pixel") {
+  const scene::Scene scene = shipped("furnace-box", 16, 16);
+  // Light samples alone are left out: near an edge of the box their 1 / distance^2 has infinite variance.
+  for (const Connect connect : {Connect::none, Connect::mis}) {
+    render::Settings with = settings_for(512);
+    with.connect = connect;
+    CAPTURE(static_cast<int>(connect));
+    const Render box = render_of(scene, with);
+    check_agreement(estimate_of(box.film), uniform(box.film, {2, 2, 2}));
+  }
+}
+
+TEST_CASE("furnace box: every depth cuts the series 1 + 1/2 + 1/4 + ... where it says") {
+  const scene::Scene scene = shipped("furnace-box", 8, 8);
+  for (int depth = 1; depth <= 6; ++depth) {
+    const double sum = 2 - std::pow(0.5, depth - 1);
+    // Roulette from the depth of 5 on, and from the first reflection.
+    for (const int rr_depth : {5, 1}) {
+      render::Settings with = settings_for(256, depth);
+      with.rr_depth = rr_depth;
+      CAPTURE(depth, rr_depth);
+      const Render box = render_of(scene, with);
+      check_agreement(estimate_of(box.film), uniform(box.film, {sum, sum, sum}));
+    }
+  }
+}
+
+TEST_CASE("furnace sphere: the reflectivity in every pixel, the sky around it") {
+  const scene::Material material = test::phong(kd, ks, 50);
+  scene::Scene scene = sphere_furnace(40, 16, material);
+  const Render sphere = render_of(scene, settings_for(1024));
+  Estimate reference = sphere_reference(scene, material), image = estimate_of(sphere.film);
+  int on_sphere = 0, beside = 0;
+  for (int i = 0; i < 256; ++i) {
+    int corners =
+        0; // of the pixel that see the sphere; pixels wholly on it, or off it, are those of one kind
+    for (const int corner : {0, 1, 2, 3})
+      corners +=
+          cosine_on_sphere(direction_through(scene.camera, i % 16 + corner % 2, i / 16 + corner / 2)) > 0;
+    const auto pixel = static_cast<std::size_t>(i);
+    on_sphere += corners == 4;
+    beside += corners == 0;
+    if (corners == 0) CHECK(image.mean[pixel] == sky);
+    if (corners != 0 && corners != 4) image.mean[pixel] = reference.mean[pixel] = {}; // on the outline
+  }
+  CHECK(on_sphere > 60);
+  CHECK(beside > 100);
+  check_agreement(image, reference);
+}
+
+namespace {
+
+// Where nothing follows the lobe, one sample in (n + 2) / 2 finds it: too few for a normal mean at large n,
+// and as many proposals for the strategy that rejects.
+double largest_exponent(const std::string& strategy) {
+  for (const char* plain : {"uniform", "theta-phi", "cosine", "disk", "rejection"})
+    if (strategy == plain) return 50;
+  return 1e5;
+}
+
+void check_sphere(double exponent, const std::string& strategy, Connect connect) {
+  CAPTURE(exponent, strategy, static_cast<int>(connect));
+  const scene::Material material = test::phong(kd, ks, exponent);
+  const scene::Scene scene = sphere_furnace(18, 6, material);
+  render::Settings with = settings_for(2048);
+  with.strategy = strategy;
+  with.connect = connect;
+  const Agreement result =
+      agreement(estimate_of(render_of(scene, with).film), sphere_reference(scene, material));
+  INFO(result.message);
+  // CW 197's estimate as printed loses energy (MATH.md 2.4), most of it where the lobe is widest.
+  if (strategy != "lobe-estimate-printed")
+    CHECK(result.agrees);
+  else if (exponent < 1)
+    CHECK_FALSE(result.agrees);
+}
+
+} // namespace
+
+// Weights, densities and the light's densities all enter with `mis`.
+TEST_CASE("furnace sphere: every strategy, for exponents from 0 to 100,000") {
+  for (const std::string& strategy : render::strategy_names())
+    for (const double exponent : {0.0, 10.0, 50.0, 1000.0, 1e5})
+      if (exponent <= largest_exponent(strategy)) check_sphere(exponent, strategy, Connect::mis);
+}
+
+TEST_CASE("furnace sphere: hits alone and light samples alone") {
+  for (const double exponent : {0.0, 10.0, 50.0, 1000.0, 1e5})
+    check_sphere(exponent, render::Settings().strategy, Connect::none);
+  // Light samples follow the cosine, whatever the strategy.
+  for (const double exponent : {0.0, 10.0})
+    check_sphere(exponent, render::Settings().strategy, Connect::light);
+}
+
+TEST_CASE("a million samples a pixel: the mean does not stall") {
+  SECTION("without noise") {
+    // 0.505 added a million times in float32 would count as 0.5.
+    const scene::Scene scene = sphere_furnace(18, 2, diffuse({0.505, 0.3, 0.7}));
+    render::Settings with = settings_for(1'000'000);
+    with.connect = Connect::none;
+    const Render sphere = render_of(scene, with);
+    CHECK(sphere.statistics.paths == 4'000'000);
+    for (const film::Pixel& pixel : sphere.film.pixels()) {
+      CHECK(pixel.samples == 1'000'000);
+      CHECK(pixel.sum[0] / 1e6 == Approx(0.505).epsilon(2e-6));
+      CHECK(pixel.sum[1] / 1e6 == Approx(0.15).epsilon(2e-6));
+      CHECK(pixel.sum[2] / 1e6 == Approx(1.4).epsilon(2e-6));
+    }
+  }
+  SECTION("with noise, to its standard error of a thousandth") {
+    const scene::Material material = test::phong(kd, ks, 50);
+    const scene::Scene scene = sphere_furnace(18, 2, material);
+    const Render sphere = render_of(scene, settings_for(1'000'000));
+    CHECK(sphere.film.relative_standard_error() < 1e-3);
+    check_agreement(estimate_of(sphere.film), sphere_reference(scene, material));
+  }
+}

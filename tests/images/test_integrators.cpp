@@ -1,0 +1,133 @@
+// Light tracing and bidirectional path tracing give the image that path tracing gives.
+#include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
+
+#include "images/integrators.h"
+#include "images/room.h"
+
+using namespace phlux;
+using namespace phlux::test;
+using scene::Rgb;
+using scene::Vec3;
+
+namespace {
+
+const std::vector<Method> all_methods = {light, bidir, bidir_power, bidir_uniform};
+const std::vector<Method> weighted = {light, bidir};
+
+// Pixels on a side, of which light tracing has enough hits for a normal mean; a pixel by itself may have ten,
+// where the sky is one of six lights.
+constexpr int tile = 4;
+
+} // namespace
+
+// In one room, so that one kernel serves all of them; shipped scenes have the kernels of single kinds.
+TEST_CASE("every kind of emitter by itself: light and bidir agree with path") {
+  for (const std::string& kind : emitter_kinds()) {
+    CAPTURE(kind);
+    check_against_path(room({kind}), weighted, settings_for(64), tile);
+  }
+}
+
+// What tests/mutations/run.py runs.
+TEST_CASE("a surface, a point and the sky together: light and bidir agree with path", "[mutations]") {
+  check_against_path(room({"rectangle", "point", "constant"}), weighted, settings_for(64), tile);
+}
+
+TEST_CASE("several emitters together, by every way to weigh") {
+  check_against_path(room({"rectangle", "mesh", "sphere", "spot", "constant"}), all_methods, settings_for(64),
+                     tile);
+  check_against_path(room({"disk", "point", "directional", "flipped", "inside"}), all_methods,
+                     settings_for(64), tile);
+}
+
+TEST_CASE("each path length by itself agrees") {
+  const scene::Scene scene = room({"mesh", "disk", "sphere", "point", "directional", "constant"});
+  for (int depth = 1; depth <= 4; ++depth) {
+    CAPTURE(depth);
+    check_against_path(scene, all_methods, settings_for(32, depth), tile);
+  }
+}
+
+TEST_CASE("roulette changes no expectation of light and bidir") {
+  const scene::Scene scene = room({"rectangle", "constant"});
+  render::Settings with = settings_for(32);
+  with.rr_depth = -1;
+  with.max_depth = 30; // what is beyond that is less than what can be seen
+  const Repeated reference = repeated(scene, path, with);
+  with.max_depth = -1;
+  for (const int rr_depth : {1, 3}) {
+    with.rr_depth = rr_depth;
+    for (const Method& method : weighted) {
+      CAPTURE(rr_depth, name_of(method));
+      with.seed += 1000;
+      check_methods(repeated(scene, method, with), reference, tile);
+    }
+  }
+}
+
+TEST_CASE("films of any shape, and a principal point off the centre") {
+  scene::Scene scene = room({"rectangle", "sphere", "constant"});
+  for (const auto& [width, height] : {std::pair(24, 8), std::pair(5, 31)}) {
+    CAPTURE(width, height);
+    scene.camera = look_at({0.3, 2, 5}, {0, 1, 0}, width > height ? 60 : 20, width, height);
+    check_against_path(scene, weighted, settings_for(64));
+  }
+  scene.camera = look_at({0.3, 2, 5}, {0, 1, 0}, 40, 12, 18);
+  scene.camera.principal_x = 0.2;
+  scene.camera.principal_y = -0.15;
+  check_against_path(scene, weighted, settings_for(64));
+  scene.camera.left = -scene.camera.left; // mirrored
+  check_against_path(scene, weighted, settings_for(64));
+}
+
+TEST_CASE("a light behind a blocker") {
+  scene::Scene scene = room({"rectangle"});
+  scene.patches.push_back(square({0.5, 2.3, 0.3}, {1, 0, 0}, {0, 0, 1}, 0.5, {3, -1})); // below it
+  check_against_path(scene, weighted, settings_for(64), tile);
+}
+
+TEST_CASE("scenes of any size and in any place") {
+  const scene::Scene scene = room({"mesh", "sphere", "point", "directional", "constant"});
+  for (const auto& [scale, offset] :
+       {std::pair(1e-3, Vec3(0.0)), std::pair(1e3, Vec3(0.0)), std::pair(1.0, Vec3(1e4, -1e4, 1e4)),
+        std::pair(1e-3, Vec3(10, -20, 5))}) {
+    CAPTURE(scale, offset.x);
+    check_against_path(placed(scene, scale, offset), weighted, settings_for(32), tile);
+  }
+}
+
+TEST_CASE("lights and spheres a thousand times smaller or larger than the rest") {
+  scene::Scene tiny = room({"sphere", "rectangle"});
+  tiny.spheres[1].radius *= 1e-3;
+  tiny.spheres[1].center = {-0.3, 3.6,
+                            1.2}; // out of view: what a path hits by chance once in a million is not normal
+  tiny.area_emitters[3].radiance *= 1e6;
+  tiny.spheres[0].radius *= 1e-3;
+  check_against_path(tiny, weighted, settings_for(64), tile);
+  scene::Scene huge = room({"sphere", "rectangle"});
+  huge.spheres[1] = {{0, 600, 100}, 300, false, huge.spheres[1].surface};
+  huge.spheres[0] = {{0, -1000, 0}, 999, false, huge.spheres[0].surface};
+  // One in a hundred thousand of its light paths meets the room: too few for a normal mean by light tracing.
+  check_against_path(huge, {bidir}, settings_for(64), tile);
+}
+
+TEST_CASE("every shipped scene: light and bidir agree with path") {
+  for (const std::string& name : shipped_names()) {
+    if (name == "caustic") continue; // see below
+    CAPTURE(name);
+    check_against_path(shipped(name, 16, 16), weighted, settings_for(64), tile);
+  }
+}
+
+// Path tracing finds the caustic once in tens of thousands of paths: its means are not normal. Light tracing
+// and bidirectional path tracing reach it by different ways; the reflector itself is out of view, as light
+// tracing's connections of its lobe to the eye are as rare.
+TEST_CASE("the caustic: light and bidir agree with each other") {
+  scene::Scene scene = shipped("caustic", 16, 16);
+  scene.camera = look_at({0, 1, 3.9}, {-0.45, 0.7, 0}, 20, 16, 16);
+  render::Settings with = settings_for(256);
+  const Repeated reference = repeated(scene, light, with);
+  with.seed = 1000;
+  check_methods(repeated(scene, bidir, with), reference, tile);
+}

@@ -1,0 +1,124 @@
+// The furnaces of test_furnaces.cpp for light tracing and bidirectional path tracing.
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "images/integrators.h"
+#include "materials.h"
+#include "phong/reflectivity.h"
+
+using namespace phlux;
+using namespace phlux::test;
+using scene::Rgb;
+using scene::Vec3;
+
+namespace {
+
+const Rgb kd(0.3, 0.1, 0.0), ks(0.6, 0.2, 0.9), sky(1.0, 0.5, 2.0);
+
+render::Settings with(const Method& method, int samples, int max_depth = -1) {
+  return by(method, settings_for(samples, max_depth));
+}
+
+scene::Scene sphere_furnace(const scene::Material& material) {
+  scene::Scene scene = shipped("furnace-sphere", 6, 6);
+  scene.camera = look_at({0, 0, 4}, {0, 0, 0}, 18, 6, 6); // nothing but the sphere
+  scene.materials.assign(scene.materials.size(), material);
+  scene.constant_radiance = sky;
+  return scene;
+}
+
+Estimate sphere_reference(const scene::Scene& scene, const scene::Material& material) {
+  return expected(
+      scene.camera,
+      [&](const Vec3& direction) {
+        const double along = 4 * direction.z, cosine = std::sqrt(along * along - 15);
+        const Rgb rho = sky * (phlux::test::diffuse_of(material) +
+                               phlux::test::specular_of(material) *
+                                   phong::lobe_reflectivity(phlux::test::exponent_of(material), cosine));
+        return Channels{rho.r, rho.g, rho.b};
+      },
+      8);
+}
+
+void check_sphere(const Method& method, double exponent, const std::string& strategy, int samples) {
+  CAPTURE(name_of(method), exponent, strategy);
+  const scene::Material material = test::phong(kd, ks, exponent);
+  const scene::Scene scene = sphere_furnace(material);
+  render::Settings settings = with(method, samples);
+  settings.strategy = strategy;
+  const Render sphere = render_of(scene, settings);
+  CHECK(sphere.statistics.nonfinite == 0);
+  // 8 x 8 points a pixel are within 1e-4 of the mean of a lobe's reflectivity.
+  check_agreement(estimate_of(sphere.film), sphere_reference(scene, material), 1e-4);
+}
+
+} // namespace
+
+TEST_CASE("furnace box by light and bidir: 2 at every pixel") {
+  const scene::Scene scene = shipped("furnace-box", 8, 8);
+  for (const Method& method : {light, bidir, bidir_power}) {
+    CAPTURE(name_of(method));
+    const Render box = render_of(scene, with(method, 2048));
+    check_agreement(estimate_of(box.film), uniform(box.film, {2, 2, 2}));
+  }
+}
+
+TEST_CASE("furnace box by light and bidir: every depth cuts the series where it says") {
+  const scene::Scene scene = shipped("furnace-box", 8, 8);
+  for (int depth = 1; depth <= 5; ++depth) {
+    const double sum = 2 - std::pow(0.5, depth - 1);
+    for (const int rr_depth : {5, 1})
+      for (const Method& method : {light, bidir}) {
+        CAPTURE(depth, rr_depth, name_of(method));
+        render::Settings settings = with(method, 512, depth);
+        settings.rr_depth = rr_depth;
+        const Render box = render_of(scene, settings);
+        check_agreement(estimate_of(box.film), uniform(box.film, {sum, sum, sum}));
+      }
+  }
+}
+
+TEST_CASE("furnace sphere by light and bidir, for exponents as far as each converges") {
+  // A light path's connection to the eye finds a lobe of exponent n one time in n.
+  for (const double exponent : {0.0, 10.0, 50.0}) check_sphere(light, exponent, "exact", 8192);
+  for (const double exponent : {0.0, 10.0, 50.0, 1000.0, 1e5}) check_sphere(bidir, exponent, "exact", 2048);
+  for (const double exponent : {0.0, 10.0, 50.0}) check_sphere(bidir_power, exponent, "exact", 2048);
+}
+
+// Densities of both directions enter bidir's weights: those of the exact sampler differ, those of others may
+// not.
+TEST_CASE("furnace sphere by bidir: strategies of every family") {
+  for (const char* strategy : {"cosine", "lobe-ks", "lobe-estimate", "mixture", "fold"})
+    check_sphere(bidir, 20, strategy, 2048);
+}
+
+TEST_CASE("furnace sphere by light and bidir: every strategy", "[.long]") {
+  for (const std::string& strategy : render::strategy_names())
+    for (const double exponent : {0.0, 10.0, 50.0})
+      if (strategy != "lobe-estimate-printed")
+        for (const Method& method : {light, bidir, bidir_power, bidir_uniform})
+          check_sphere(method, exponent, strategy, 8192);
+}
+
+TEST_CASE("inside a sphere that is turned inwards, and emits, light and bidir find a furnace") {
+  scene::Scene scene;
+  scene.materials = {diffuse({0.2, 0.4, 0})};
+  scene.area_emitters = {{Rgb(1.0)}};
+  scene.spheres = {{{1, 2, 3}, 2, true, {0, 0}}};
+  scene.camera = look_at({1.5, 2.5, 2}, {0, 2, 3}, 90, 8, 8);
+  for (const Method& method : {light, bidir, bidir_power, bidir_uniform}) {
+    CAPTURE(name_of(method));
+    const Render inside = render_of(scene, with(method, 2048));
+    check_agreement(estimate_of(inside.film), uniform(inside.film, {1 / 0.8, 1 / 0.6, 1}));
+  }
+}
+
+TEST_CASE("a ground that is a sphere of radius 10,000 has no spots by light and bidir") {
+  scene::Scene scene;
+  scene.materials = {diffuse({0.8, 0.5, 0.2})};
+  scene.spheres = {{{3, 7, -1e4}, 1e4, false, {}}};
+  scene.point_lights = {{{3, 7, 1.5}, Rgb(10, 20, 30)}};
+  scene.camera = look_at({3, 7, 2}, {3.1, 7.2, 0}, 60, 8, 8);
+  check_against_path(scene, {light, bidir}, settings_for(128));
+}
