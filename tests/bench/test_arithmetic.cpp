@@ -78,7 +78,7 @@ TEST_CASE("Our own polynomials have the errors of their fits") {
 }
 
 TEST_CASE("A formula with a wrong coefficient has larger errors") {
-  const KernelCopy copy("arithmetic.cl", "(Real)(-7.21347332e-01f)", "(Real)(-7.21447332e-01f)");
+  const KernelCopy copy("measure/arithmetic.cl", "(Real)(-7.21347332e-01f)", "(Real)(-7.21447332e-01f)");
   const ArithmeticKernels worse(test_device(), sources::KernelFiles(copy.folder()), test_device().info.lanes);
   CHECK(errors_of(worse, "function_own_log").largest_relative >
         50 * errors_of("function_own_log").largest_relative);

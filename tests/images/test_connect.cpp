@@ -37,8 +37,8 @@ TEST_CASE("every shipped scene: hits alone, light samples alone and both agree; 
   REQUIRE(shipped_names().size() >= 8);
   for (const std::string& name : shipped_names()) {
     CAPTURE(name);
-    // The lamp of the caustic scene is found by one path in hundreds: only large tiles hold enough of them.
-    const int side = name == "caustic" ? 16 : 4;
+    // Caustics are found by one path in hundreds: only large tiles hold enough of them.
+    const int side = name == "caustic" || name == "mirror-ball" ? 16 : 4;
     const Estimate both = image_of(name, {Connect::mis, 128}, 1, side);
     // Light samples alone have infinite variance along the edges of a box whose walls are the light.
     if (name != "furnace-box") {
