@@ -85,7 +85,7 @@ TEST_CASE("A model's own sampling, cosine and uniform have the mean that quadrat
 }
 
 TEST_CASE("The tables of a model have its name, and no kd, ks or n") {
-  const test::TemporaryFolder folder;
+  const TemporaryFolder folder;
   SamplingOptions options;
   options.folder = folder.path();
   options.samples = 1 << 14;

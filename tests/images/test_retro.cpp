@@ -97,7 +97,7 @@ TEST_CASE("retro.cl in a furnace: the reflectivity in every pixel") {
       });
       for (const Method& method : {path, path_hits, bidir}) {
         CAPTURE(exponent, share, name_of(method));
-        const Render image = render_of(scene, by(method, settings(1024)));
+        const Render image = render_of(scene, by(method, settings_for(1024)));
         CHECK(image.statistics.nonfinite == 0);
         check_agreement(estimate_of(image.film), reference, 5e-5);
       }
@@ -119,5 +119,5 @@ TEST_CASE("retro.cl in a room: path, light and bidirectional tracing agree") {
       <emitter type="area"><rgb name="radiance" value="9, 7, 5"/></emitter></shape>
   </scene>)");
   scene.materials[1] = retro({0.9, 0.7, 0.5}, 0.7, 15);
-  check_against_path(scene, {light, bidir, bidir_power, path_hits}, settings(64, 5), 2);
+  check_against_path(scene, {light, bidir, bidir_power, path_hits}, settings_for(64, 5), 2);
 }
