@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <span>
 
 #include "accel/geometry.h"
@@ -47,8 +48,12 @@ public:
       : geometry_(geometry), writer_(scene, geometry),
         children_(static_cast<std::size_t>(std::max(lanes, 2))) {}
 
-  int write(const Tree::Node& node) {
-    return node.children.empty() ? write_leaf(node.primitives) : write_inner(node);
+  /// The child that refers to the tree: a node, even of nothing but primitives without area.
+  int write(const Tree::Node& root) {
+    if (const auto child = write_node(root)) return *child;
+    const std::size_t index = reserve_node();
+    fill_node(index, {});
+    return static_cast<int>(index);
   }
   void finish() { writer_.finish(); }
 
@@ -58,26 +63,32 @@ private:
     RTCBounds box;
   };
 
+  // Nothing for a leaf of primitives without area.
+  std::optional<int> write_node(const Tree::Node& node) {
+    return node.children.empty() ? write_leaf(node.primitives) : write_inner(node);
+  }
   int write_inner(const Tree::Node& node) {
     const std::size_t index = reserve_node();
     std::vector<Child> written;
     for (std::size_t i = 0; i < node.children.size(); ++i)
-      written.push_back({write(*node.children[i]), node.boxes[i]});
+      if (const auto child = write_node(*node.children[i])) written.push_back({*child, node.boxes[i]});
     fill_node(index, written);
     return static_cast<int>(index);
   }
 
   // A leaf holds either flat primitives or spheres; where Embree put both together, a node stands above two
   // leaves.
-  int write_leaf(std::span<const RTCBuildPrimitive> all) {
+  std::optional<int> write_leaf(std::span<const RTCBuildPrimitive> all) {
     const auto first_sphere =
         std::find_if(all.begin(), all.end(), [](const auto& p) { return p.geomID == sphere_geometry; });
     const std::span flats(all.begin(), first_sphere), spheres(first_sphere, all.end());
     if (spheres.empty()) return write_blocks(flats, false);
     if (flats.empty()) return write_blocks(spheres, true);
     const std::size_t index = reserve_node();
-    fill_node(index,
-              {{write_blocks(flats, false), box_of(flats)}, {write_blocks(spheres, true), box_of(spheres)}});
+    std::vector<Child> written;
+    if (const auto child = write_blocks(flats, false)) written.push_back({*child, box_of(flats)});
+    if (const auto child = write_blocks(spheres, true)) written.push_back({*child, box_of(spheres)});
+    fill_node(index, written);
     return static_cast<int>(index);
   }
 
@@ -93,7 +104,7 @@ private:
     return b;
   }
 
-  int write_blocks(std::span<const RTCBuildPrimitive> primitives, bool spheres) {
+  std::optional<int> write_blocks(std::span<const RTCBuildPrimitive> primitives, bool spheres) {
     const int block = geometry_.block;
     const int first = (spheres ? writer_.finish_sphere_block() : writer_.finish_planar_block()) / block;
     for (const RTCBuildPrimitive& p : primitives) {
@@ -103,8 +114,8 @@ private:
         writer_.add_planar(reference_of(p));
     }
     const int end = (spheres ? writer_.finish_sphere_block() : writer_.finish_planar_block()) / block;
-    const int blocks =
-        std::max(end - first, 1); // primitives without area leave an empty leaf: any block will do
+    const int blocks = end - first;
+    if (blocks == 0) return std::nullopt; // no primitive has an area
     if (blocks > 16 || first >= 1 << 26)
       throw SceneError("the scene has more primitives than a hierarchy can index");
     return ~(first << 5 | (blocks - 1) << 1 | (spheres ? 1 : 0));
@@ -154,7 +165,6 @@ Geometry hierarchy(const scene::Scene& scene, int lanes, bool in_double) {
   geometry.block = lanes;
   geometry.origin = middle(scene);
   std::vector<RTCBuildPrimitive> primitives = build_primitives(scene, geometry.origin);
-  if (primitives.empty()) throw SceneError("a hierarchy needs at least one shape");
   geometry.radius = radius_of(primitives);
 
   // One level is left for a node above a leaf of both kinds.

@@ -71,6 +71,7 @@ struct Tree::Builder {
 
 Tree::Tree(std::vector<RTCBuildPrimitive> primitives, const Shape& shape)
     : builder_(std::make_unique<Builder>()) {
+  if (primitives.empty()) throw SceneError("a hierarchy needs at least one shape");
   if (!builder_->device) throw SceneError("Embree cannot start to build a hierarchy");
   builder_->bvh.reset(rtcNewBVH(builder_->device.get()));
   builder_->leaf_primitives.resize(primitives.size());

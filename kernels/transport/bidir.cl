@@ -24,7 +24,7 @@ static inline Contribution found_by(const Subpath* s, FoundLight light, int ligh
 
 // Traces the batch's eye subpaths, adding the lights that they hit and sample. Returns whether there was room for their
 // vertices.
-static inline int trace_eye_subpaths(Work* work, Batch batch) {
+static inline int trace_eye_subpaths(WorkItem* work, Batch batch) {
   const Scene* scene = work->scene;
   Subpath s = no_subpath(work->seed), next = no_subpath(work->seed);
   WaitingSubpaths waiting;
@@ -95,12 +95,12 @@ static inline Mask is_connected(const Pair* pair) {
   return uniform_real(further_word(pair->word, pair->step, number)) < connection_probability(pair);
 }
 
-static inline Int connectable(const Work* work, const Pair* pair) {
+static inline Int connectable(const WorkItem* work, const Pair* pair) {
   return min(pair->light.length, work->limits.longest - 2 - pair->eye_index);
 }
 
 // Gives paths that have pairs to the lanes that are not `pairing`; returns the lanes that are then.
-static inline Mask take_pairs(const Work* work, Batch* batch, Pair* pair, Mask pairing) {
+static inline Mask take_pairs(const WorkItem* work, Batch* batch, Pair* pair, Mask pairing) {
   while (!all_lanes(pairing)) {
     const Mask starting = take_paths(batch, &pair->path, !pairing);
     if (!any_lane(starting)) break;
@@ -127,7 +127,7 @@ static inline Mask take_pairs(const Work* work, Batch* batch, Pair* pair, Mask p
 }
 
 // Moves the lanes of m to their next pairs that are connected; returns those that have one.
-static inline Mask next_pair(const Work* work, Pair* pair, Mask m) {
+static inline Mask next_pair(const WorkItem* work, Pair* pair, Mask m) {
   Mask pairing = m;
   for (Mask moving = m; any_lane(moving); moving &= pairing & !is_connected(pair)) {
     pair->light_index += moving ? (Int)(1) : (Int)(0);
@@ -141,7 +141,7 @@ static inline Mask next_pair(const Work* work, Pair* pair, Mask m) {
 }
 
 // Connects an eye vertex and a light vertex in the lanes of m.
-static inline void connect(Work* work, const Pair* pair, StoredVertex eye, StoredVertex light, Mask m) {
+static inline void connect(WorkItem* work, const Pair* pair, StoredVertex eye, StoredVertex light, Mask m) {
   Real distance;
   const Ray ray = ray_between(surface_position(eye.vertex.point), surface_position(light.vertex.point), &distance);
   const Vec3 back = vec_scale((Real)(-1.0f), ray.direction);
@@ -166,7 +166,7 @@ static inline void connect(Work* work, const Pair* pair, StoredVertex eye, Store
               faces & brings_light(value));
 }
 
-static inline void connect_subpaths(Work* work, Batch batch) {
+static inline void connect_subpaths(WorkItem* work, Batch batch) {
   Pair pair;
   pair.path = (Int)(0);
   pair.pixel = pair.word = pair.step = (Uint)(0u);
@@ -187,7 +187,7 @@ static inline void connect_subpaths(Work* work, Batch batch) {
 // ---- Batches
 
 // A work-item's share of `scratch`, in words: light vertices, eye vertices, then a few words per path.
-static inline void divide_scratch(Work* work, __global Scalar* scratch, int rows, int paths) {
+static inline void divide_scratch(WorkItem* work, __global Scalar* scratch, int rows, int paths) {
   const size_t vertices = (size_t)rows * ROW_WORDS, share = 2 * vertices + SCRATCH_WORDS_PER_PATH * (size_t)paths;
   __global Scalar* mine = scratch + get_global_id(0) * share;
   work->light.words = mine;
@@ -207,7 +207,7 @@ __kernel void trace_bidir(SCENE_PARAMETERS, int pixel_count, int first_pixel, in
                           __global int* record_counts, int sky_light, int rows, __global Scalar* scratch,
                           __global float* sums) {
   SCENE_FROM_PARAMETERS
-  Work work;
+  WorkItem work;
   const JobList list = {pixel_count, first_pixel, job_count, first_sample, block_samples};
   const PathLimits limits = {max_edges, roulette_edges};
   work.scene = &scene;

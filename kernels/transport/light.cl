@@ -7,7 +7,7 @@ __kernel void trace_light(SCENE_PARAMETERS, int pixel_count, int first_pixel, in
                           int batch_jobs, int record_words, int record_capacity, __global float* records,
                           __global int* record_counts) {
   SCENE_FROM_PARAMETERS
-  Work work;
+  WorkItem work;
   const JobList list = {pixel_count, first_pixel, job_count, first_sample, block_samples};
   const PathLimits limits = {max_edges, roulette_edges};
   work.scene = &scene;

@@ -22,7 +22,7 @@ typedef struct {
   Output output;
   VertexStore light, eye; // bidir
   uint rays;
-} Work;
+} WorkItem;
 
 // A contribution to the pixel that sees it.
 static inline Contribution splat(const Subpath* s, Int pixel, Vec3 value, Real weight, Int technique) {
@@ -53,7 +53,7 @@ static inline View view_of(const Scene* scene, Vec3 position) {
 }
 
 // Connects the camera to the light's own point (s = 1, t = 1) in the lanes of m.
-static inline void connect_light_to_camera(Work* work, const Subpath* s, Emission e, Mask m) {
+static inline void connect_light_to_camera(WorkItem* work, const Subpath* s, Emission e, Mask m) {
   if (!HAS_HITTABLE_LIGHTS) return;
   const Scene* scene = work->scene;
   const Vec3 camera = broadcast_vec(scene->camera->position);
@@ -81,7 +81,7 @@ static inline void connect_light_to_camera(Work* work, const Subpath* s, Emissio
 }
 
 // Connects the camera to the vertices of m (t = 1; Dutre, Lafortune and Willems 1993).
-static inline void connect_to_camera(Work* work, const Subpath* s, Vertex v, Mask m) {
+static inline void connect_to_camera(WorkItem* work, const Subpath* s, Vertex v, Mask m) {
   const Scene* scene = work->scene;
   const View view = view_of(scene, v.point.position);
   const Vec3 to_camera = vec_scale((Real)(-1.0f), view.from_camera);
@@ -102,7 +102,7 @@ static inline void connect_to_camera(Work* work, const Subpath* s, Vertex v, Mas
 
 // Samples the emission of the batch's next paths, one for each lane as long as there are any. Returns the lanes that
 // have an edge to trace; *started: those that have a path.
-static inline Mask start_at_light(Work* work, Batch* batch, Subpath* s, Mask* started) {
+static inline Mask start_at_light(WorkItem* work, Batch* batch, Subpath* s, Mask* started) {
   const Scene* scene = work->scene;
   *started = take_paths(batch, &s->path, ALL_LANES);
   find_path(work->list, batch, s->path, &s->sequence);
@@ -150,7 +150,7 @@ static inline MisQuantities mis_arrived_from_light(const Scene* scene, const Sub
 
 // Traces the batch's light subpaths and connects them to the camera. Returns whether there was room for the vertices
 // that bidirectional path tracing stores.
-static inline int trace_light_subpaths(Work* work, Batch batch) {
+static inline int trace_light_subpaths(WorkItem* work, Batch batch) {
   const Scene* scene = work->scene;
   Subpath s = no_subpath(work->seed), next = no_subpath(work->seed);
   WaitingSubpaths waiting;
