@@ -16,7 +16,7 @@ namespace phlux::bench {
 struct Case {
   double diffuse = 0, specular = 0, exponent = 0; ///< kd, ks, n
   double degrees = 0;                             ///< between the fixed direction and the normal; below 90
-  std::shared_ptr<const scene::Material> given{}; ///< of another model; null: the Phong material
+  std::shared_ptr<const scene::Material> given = nullptr; ///< of another model; null: the Phong material
   bool operator==(const Case&) const = default;
 };
 

@@ -13,7 +13,7 @@ static inline Phong phong_from(Vec3 kd, Vec3 ks, Real n, const __global float* t
   m.exponent = n;
   m.diffuse_max = vec_max(kd);
   m.specular_max = vec_max(ks);
-  m.table_scale = PHONG_TABLE_INTERVALS / smaller((Real)(1.0f), 6.0f / sqrt(n + 1.0f));
+  m.table_scale = (float)PHONG_TABLE_INTERVALS / smaller((Real)(1.0f), 6.0f / sqrt(n + 1.0f));
   m.grazing_reflectivity = gather_real(table, row); // at cosine 0
   m.table_row = row;
   m.tables = table;

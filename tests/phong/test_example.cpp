@@ -136,8 +136,9 @@ __kernel void evaluate(const __global float* exponents, const __global float* co
   std::vector<float> values(exponents.size());
   const cl::Buffer result(test_device().context, CL_MEM_WRITE_ONLY, values.size() * sizeof(float));
   device::Kernel kernel(program, "evaluate");
-  kernel.set(0, upload(exponents));
-  kernel.set(1, upload(cosines));
+  const cl::Buffer of_exponents = upload(exponents), of_cosines = upload(cosines);
+  kernel.set(0, of_exponents);
+  kernel.set(1, of_cosines);
   kernel.set(2, result);
   test_device().queue.enqueueNDRangeKernel(kernel.ready(), cl::NullRange, cl::NDRange(values.size()),
                                            cl::NullRange);
