@@ -21,14 +21,17 @@ Reference reference_of(const RTCBuildPrimitive& p) {
   return {Reference::Kind::mesh, p.geomID, p.primID};
 }
 
-std::vector<RTCBuildPrimitive> build_primitives(const scene::Scene& scene, const scene::Vec3& origin) {
+std::vector<RTCBuildPrimitive> build_primitives(const scene::Scene& scene, const scene::Vec3& origin,
+                                                bool in_double) {
   std::vector<RTCBuildPrimitive> primitives;
   primitives.reserve(count_primitives(scene));
   const auto add = [&](unsigned geometry, std::uint32_t element) {
     RTCBuildPrimitive p{};
     p.geomID = geometry;
     p.primID = element;
-    const Box box = bounds(scene, origin, reference_of(p));
+    const Reference reference = reference_of(p);
+    if (!has_area(scene, origin, reference, in_double)) return;
+    const Box box = bounds(scene, origin, reference);
     p.lower_x = box.low[0], p.lower_y = box.low[1], p.lower_z = box.low[2];
     p.upper_x = box.high[0], p.upper_y = box.high[1], p.upper_z = box.high[2];
     primitives.push_back(p);
@@ -103,8 +106,7 @@ private:
         writer_.add_planar(reference_of(p));
     }
     const int end = (spheres ? writer_.finish_sphere_block() : writer_.finish_planar_block()) / block;
-    const int blocks =
-        std::max(end - first, 1); // primitives without area leave an empty leaf: any block will do
+    const int blocks = end - first;
     if (blocks > 16 || first >= 1 << 26)
       throw SceneError("the scene has more primitives than a hierarchy can index");
     return ~(first << 5 | (blocks - 1) << 1 | (spheres ? 1 : 0));
@@ -153,8 +155,8 @@ Geometry hierarchy(const scene::Scene& scene, int lanes, bool in_double) {
   geometry.in_double = in_double;
   geometry.block = lanes;
   geometry.origin = middle(scene);
-  std::vector<RTCBuildPrimitive> primitives = build_primitives(scene, geometry.origin);
-  if (primitives.empty()) throw SceneError("a hierarchy needs at least one shape");
+  std::vector<RTCBuildPrimitive> primitives = build_primitives(scene, geometry.origin, in_double);
+  if (primitives.empty()) return geometry;
   geometry.radius = radius_of(primitives);
 
   // One level is left for a node above a leaf of both kinds.
