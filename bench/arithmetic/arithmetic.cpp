@@ -9,9 +9,8 @@
 #include <spdlog/spdlog.h>
 
 #include "bench/common/moments.h"
-#include "bench/common/phong_program.h"
+#include "bench/common/material_program.h"
 #include "bench/common/report/draw.h"
-#include "bench/common/report/scripts.h"
 #include "bench/common/status_line.h"
 #include "bench/common/tables/csv.h"
 #include "bench/common/tables/provenance.h"
@@ -21,7 +20,8 @@ namespace phlux::bench {
 namespace {
 
 constexpr int rounds = 25;
-constexpr std::size_t elements_of_lane = 8; // of a work item, when timed: they stay in the nearest cache
+// Inputs per lane of a work item in timings: few enough for the first-level cache.
+constexpr std::size_t elements_of_lane = 8;
 
 cl::Program build(const device::Device& device, const sources::KernelFiles& files, int lanes, bool native) {
   std::map<std::string, std::string> defines = {{"WIDTH", std::to_string(lanes)}};
@@ -37,12 +37,12 @@ std::size_t work_items(const device::Device& device) {
   return device.info.compute_units * (device.info.type == "cpu" ? 4 : 1024);
 }
 
-// What the loop costs without a formula.
+// The kernel with the same loop and no formula.
 std::string empty_kernel(const FormulaGroup& group) {
   return fmt::format("empty_{}_{}", group.inputs, group.outputs);
 }
 
-// Elements' inputs as kernels read them, plane by plane, and as they were drawn.
+// Inputs of the elements as the kernels read them, one plane per input, and in the order of drawing.
 struct Elements {
   std::vector<float> planes;
   std::vector<double> drawn;
@@ -71,7 +71,7 @@ ArithmeticKernels::ArithmeticKernels(const device::Device& device, const sources
   try {
     program_ = build(device, files, lanes, true);
   } catch (const DeviceError& error) {
-    spdlog::info("without native_ functions: {}", error.what());
+    spdlog::info("native_ functions are left out: {}", error.what());
     native_ = false;
     program_ = build(device, files, lanes, false);
   }
@@ -154,10 +154,10 @@ namespace {
 
 struct Timings {
   std::vector<double> loop;                  // of each round, nanoseconds
-  std::vector<std::vector<double>> formulas; // less the loop in the same round
+  std::vector<std::vector<double>> formulas; // minus the loop in the same round
 };
 
-// Launches of the same length, whatever a formula costs: what else the machine does cuts into long ones more.
+// All launches take about the same time, so that other load on the machine affects all formulas alike.
 Timings time_in_turns(const ArithmeticKernels& kernels, const FormulaGroup& group,
                       const std::vector<const Formula*>& formulas, double exponent, bool quick) {
   const double launch = quick ? 2e5 : 1e6; // nanoseconds
@@ -217,9 +217,9 @@ void measure_arithmetic(const ArithmeticOptions& options) {
   write_provenance(options.folder, "arithmetic",
                    {fmt::format("phlux bench arithmetic{} --width {} --seed {}",
                                 options.quick ? " --quick" : "", lanes, options.seed),
-                    device.info, lanes, "each kernel runs once before it is timed",
+                    device.info, lanes, "each kernel is run once before it is timed",
                     std::to_string(options.seed)});
-  draw_charts(options.folder, arithmetic_script());
+  draw_charts(options.folder, "arithmetic");
 }
 
 } // namespace phlux::bench

@@ -1,4 +1,4 @@
-// Accuracy against speed of the formulas that the kernels use and of others that they could.
+// Measures error and speed of the formulas that the kernels use and of alternatives.
 #pragma once
 
 #include <cstdint>
@@ -16,22 +16,24 @@ struct ArithmeticOptions : CommonOptions {
   std::uint32_t seed = 1;
 };
 
-/// Errors of a formula over many elements; ulp: units in the last place of what they are relative to.
+/// Errors of a formula over many inputs. ulp: units in the last place of the value that the error is relative
+/// to.
 struct FormulaErrors {
   double largest_relative = 0, rms_relative = 0, largest_ulp = 0, rms_ulp = 0;
-  std::size_t failed = 0, values = 0; ///< not finite, or on the wrong side
+  std::size_t failed = 0, values = 0; ///< failed: not finite, or offsets that end on the wrong side
 };
 
 class ArithmeticKernels {
 public:
-  /// Builds kernels/arithmetic.cl, without the native_ functions where the device's compiler has none.
+  /// Builds kernels/arithmetic.cl, without the native_ functions if the device compiler does not have them.
   /// @throws DeviceError
   ArithmeticKernels(const device::Device& device, const sources::KernelFiles& files, int lanes);
 
   [[nodiscard]] bool has(const Formula& formula) const { return native_ || !formula.native; }
   [[nodiscard]] FormulaErrors errors(const FormulaGroup& group, const Formula& formula, double exponent,
                                      std::size_t values, std::uint32_t seed) const;
-  /// Of one value, by the device's clock: the loop of a kernel of arithmetic.cl, its own cost included.
+  /// Time per value of the loop in a kernel of arithmetic.cl, loop overhead included, by the clock of the
+  /// device.
   [[nodiscard]] double nanoseconds(const FormulaGroup& group, const std::string& kernel, double exponent,
                                    std::size_t values) const;
 
@@ -48,10 +50,10 @@ private:
 
 [[nodiscard]] const std::vector<std::string>& arithmetic_columns();
 
-/// Measures and writes arithmetic.csv as it goes. @throws DeviceError, WriteError
+/// Writes arithmetic.csv. @throws DeviceError, WriteError
 void write_arithmetic_table(const ArithmeticOptions& options);
 
-/// The table, then its charts and its section of the report. @throws as the above
+/// Writes the table, its charts and its section of the report. @throws as the above
 void measure_arithmetic(const ArithmeticOptions& options);
 
 } // namespace phlux::bench

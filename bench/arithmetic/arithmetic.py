@@ -1,4 +1,4 @@
-"""Draws what `phlux bench arithmetic` measured, accuracy against speed of formulas, and writes its section of the report.
+"""Draws the charts of `phlux bench arithmetic` (error against time of formulas); writes its section of the report.
 
     python3 arithmetic.py FOLDER
 """
@@ -10,14 +10,14 @@ import chart_style as style
 import matplotlib.pyplot as plt
 from matplotlib.ticker import NullFormatter
 
-LEAST_ERROR = 1e-9  # what is drawn of an error of 0
-LEAST_TIME = 0.02  # nanoseconds: below, a formula cannot be told from the loop that times it
+LEAST_ERROR = 1e-9  # smaller errors are drawn as this
+LEAST_TIME = 0.02  # nanoseconds; smaller times are not distinguishable from the timing loop
 WHAT = {
     "lobe": "cos$^n$ of the angle between two directions",
     "sine": "sin(α) of a lobe sample",
     "frame": "a frame about a direction: deviation from orthonormal",
-    "turns": "cosine and sine of turns: absolute error",
-    "offset": "a position moved off its surface: how far",
+    "turns": "cosine and sine of 2πu: absolute error",
+    "offset": "offset of a position from its surface: distance",
 }
 PLAIN = ("frame", "turns", "offset")
 FUNCTIONS = ("exp", "log", "log1p", "expm1", "sqrt", "rsqrt", "divide")
@@ -28,7 +28,7 @@ def time_of(row):
 
 
 def draw_points(axes, rows, names, theme):
-    """A point for each formula at its root mean square error, a line up to its largest."""
+    """A point for each formula at its root mean square error, and a line up to its largest error."""
     for row in rows:
         i = names.index(row.formula)
         look = {**theme.series(i), "linestyle": "none"}
@@ -45,7 +45,7 @@ def draw_points(axes, rows, names, theme):
     axes.grid(True)
     axes.margins(0.2, 0.15)
     low, high = (math.log10(limit) for limit in axes.get_xlim())
-    if high - low < 1.5:  # so that the labels have room
+    if high - low < 1.5:  # decades: fewer would not leave room for the labels
         middle = (low + high) / 2
         axes.set_xlim(10 ** (middle - 0.75), 10 ** (middle + 0.75))
     axes.xaxis.set_minor_formatter(NullFormatter())
@@ -93,7 +93,7 @@ def draw_functions(rows, theme):
         axes.text(time_of(row), y, f"  {row.largest_ulp:.2g} ulp", va="center", fontsize=8)
     axes.set_yticks(places, [row.formula for row in chosen])
     axes.set_ylim(max(places) + 0.7, min(places) - 0.7)
-    axes.set_xlabel("ns per value; the number is the largest error")
+    axes.set_xlabel("ns per value; the numbers are largest errors")
     axes.margins(x=0.15)
     axes.grid(True, axis="x")
     axes.tick_params(axis="y", length=0)
@@ -101,8 +101,8 @@ def draw_functions(rows, theme):
     return figure
 
 
-def verdicts(rows):
-    """For each question: what the kernels use, and the cheapest formula that errs no more than twice as much."""
+def comparison(rows):
+    """For each group and exponent: the formula in the kernels, and the fastest one with at most twice its error."""
     lines = []
     for group, n in dict.fromkeys((row.group, row.n) for row in rows):
         here = [row for row in rows if (row.group, row.n) == (group, n)]
@@ -124,23 +124,23 @@ def main():
                             ("arithmetic-sine", partial(draw_powers, rows, "sine")),
                             ("arithmetic-geometry", partial(draw_plain, rows)),
                             ("arithmetic-functions", partial(draw_functions, rows))])
-    how = ("A point is at the root mean square error, its line ends at the largest; left and down is better. Ringed: what "
-           "the kernels use.")
+    how = ("Points are root mean square errors; the lines end at the largest errors. Left and down is better. A ring marks the "
+           "formula that the kernels use.")
     style.section(
         folder, "arithmetic", title="Arithmetic", order=40,
-        text=["Formulas for the same value in float32, against float64 from the same float32 inputs. Times are those of the "
-              "whole device, by its clock, over a loop in registers and less the loop's own: medians of rounds in which the "
-              "formulas took turns. What takes next to nothing may be off by a tenth of a nanosecond."],
-        summary={"columns": ["for", "n", "the kernels use", "ns", "rms relative error", "largest error, ulp",
-                             "cheapest of at most twice that error", "times as fast"],
-                 "rows": verdicts(rows), "note": "ulp: units in the last place of what the error is relative to"},
-        charts=[{"svg": "arithmetic-lobe.svg", "title": "The lobe's power", "caption": how},
+        text=["Formulas for the same value in float32, compared with float64 from the same float32 inputs. Times are of the whole "
+              "device by its clock, in a loop over registers, minus the time of the empty loop: medians over rounds in which the "
+              "formulas alternate. They are accurate to about a tenth of a nanosecond."],
+        summary={"columns": ["value", "n", "formula in the kernels", "ns", "rms relative error", "largest error, ulp",
+                             "fastest with at most twice the error", "speedup"],
+                 "rows": comparison(rows), "note": "ulp: units in the last place of the value that the error is relative to"},
+        charts=[{"svg": "arithmetic-lobe.svg", "title": "Power of the lobe", "caption": how},
                 {"svg": "arithmetic-sine.svg", "title": "The sine of a lobe sample", "caption": how},
-                {"svg": "arithmetic-geometry.svg", "title": "Frames, turns, offsets",
-                 "caption": how + " An offset fails where the position is still on the wrong side of its surface; the more it "
-                 "moves a position, the more light leaks."},
-                {"svg": "arithmetic-functions.svg", "title": "Functions", "caption": "Blue: what the kernels use."}],
-        tables=[{"csv": "arithmetic.csv", "title": "All figures"}])
+                {"svg": "arithmetic-geometry.svg", "title": "Frames, cosine and sine, offsets",
+                 "caption": how + " An offset fails if the position is still on the wrong side of its surface. The larger an "
+                 "offset, the more light leaks through edges."},
+                {"svg": "arithmetic-functions.svg", "title": "Functions", "caption": "Blue: the function that the kernels use."}],
+        tables=[{"csv": "arithmetic.csv", "title": "All results"}])
 
 
 if __name__ == "__main__":

@@ -70,7 +70,7 @@ Error lobe_error(const double* inputs, double exponent, const float* outputs) {
 
 // ---- sin(alpha) for cos(alpha) = u^(1 / (n + 1))
 
-// As kernels draw it (random.h).
+// The values that random.h can draw.
 void draw_uniform(Random& random, double, double* inputs) {
   inputs[0] = (std::floor(uniform(random) * 0x1p23) + 0.5) * 0x1p-23;
 }
@@ -98,7 +98,7 @@ Error frame_error(const double* inputs, double, const float* outputs) {
           1};
 }
 
-// ---- Cosine and sine of turns
+// ---- Cosine and sine of 2 pi u
 
 Error turns_error(const double* inputs, double, const float* outputs) {
   const double angle = 2 * pi * inputs[0];
@@ -124,25 +124,25 @@ FormulaGroup function_group(const std::string& name, std::vector<Formula> formul
 
 // ---- Offsets
 
-// Where a ray met a plane, of coordinates between a hundredth and ten thousand, as float32 finds it; hidden:
-// where it did.
+// Hit point of a ray on a plane, computed in float32, with coordinates of size 0.01 to 10,000. Hidden values:
+// the exact hit point.
 void draw_hit(Random& random, double, double* inputs) {
   const double scale = log_uniform(random, 1e-2, 1e4);
   const Vec origin = rounded(scale * unit_vector(random)), direction = rounded(unit_vector(random));
   const double distance = as_float(scale * uniform(random, 0.1, 2));
-  const Vec way = distance * direction, there = origin + way;
+  const Vec way = distance * direction, hit = origin + way;
   for (int axis = 0; axis < 3; ++axis) inputs[axis] = as_float(as_float(way[axis]) + origin[axis]);
   put(unit_vector(random), inputs + 3);
   inputs[6] = std::max({std::abs(way.x), std::abs(way.y), std::abs(way.z)});
-  put(there, inputs + 7);
+  put(hit, inputs + 7);
 }
 
-// What the position is moved by beyond its plane, in units of the largest coordinate; failed: it is not
-// beyond.
+// Distance of the offset position from its plane, relative to the largest coordinate; failed if the position
+// is not in front of the plane.
 Error offset_error(const double* inputs, double, const float* outputs) {
-  const Vec there = vec_at(inputs + 7);
-  const double height = glm::dot(vec_at(outputs) - there, vec_at(inputs + 3));
-  return {std::abs(height), std::max({std::abs(there.x), std::abs(there.y), std::abs(there.z), inputs[6]}),
+  const Vec hit = vec_at(inputs + 7);
+  const double height = glm::dot(vec_at(outputs) - hit, vec_at(inputs + 3));
+  return {std::abs(height), std::max({std::abs(hit.x), std::abs(hit.y), std::abs(hit.z), inputs[6]}),
           height <= 0};
 }
 
@@ -194,7 +194,7 @@ const std::vector<FormulaGroup>& formula_groups() {
                     draw_direction,
                     frame_error});
     list.push_back({"turns",
-                    "cosine and sine of turns",
+                    "cosine and sine of 2 pi u",
                     1,
                     2,
                     {0},
@@ -206,7 +206,7 @@ const std::vector<FormulaGroup>& formula_groups() {
                     draw_uniform,
                     turns_error});
     list.push_back({"offset",
-                    "a position moved off its surface",
+                    "offset of a position from its surface",
                     7,
                     3,
                     {0},

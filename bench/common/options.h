@@ -1,4 +1,4 @@
-// What every measurement is told.
+// Options that all measurements share.
 #pragma once
 
 #include <filesystem>
@@ -10,9 +10,9 @@
 namespace phlux::bench {
 
 struct CommonOptions {
-  std::filesystem::path folder;     ///< of tables, charts and the report
-  std::vector<std::string> devices; ///< --device specifications; the first one is measured
-  int lanes = 0;                    ///< WIDTH; 0: what suits the device
+  std::filesystem::path folder;     ///< for tables, charts and the report
+  std::vector<std::string> devices; ///< device specifications; the first one is measured
+  int lanes = 0;                    ///< WIDTH; 0: the default of the device
   std::filesystem::path kernel_dir; ///< empty: the embedded kernels
 
   [[nodiscard]] int lanes_on(const device::DeviceInfo& device) const {

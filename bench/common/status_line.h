@@ -1,4 +1,4 @@
-// What a measurement that takes minutes shows while it runs.
+// Progress of a long measurement, on standard error.
 #pragma once
 
 #include <string>
@@ -7,10 +7,11 @@
 
 namespace phlux::bench {
 
-/// "4:05", "1:02:03".
+/// Minutes and seconds, or hours, minutes and seconds: "4:05", "1:02:03". Rounded up to whole seconds.
 [[nodiscard]] std::string clock_text(double seconds);
 
-/// One line of standard error that changes, on a terminal; elsewhere a plain line every ten seconds.
+/// On a terminal, one line that is updated ten times per second at most; elsewhere, a new line every ten
+/// seconds.
 class StatusLine {
 public:
   StatusLine();
@@ -19,7 +20,7 @@ public:
   StatusLine& operator=(const StatusLine&) = delete;
 
   void show(const std::string& text);
-  /// Takes the changing line away, for whatever comes next.
+  /// Erases the line. Needed before other output to the terminal.
   void clear();
 
 private:

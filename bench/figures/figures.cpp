@@ -7,9 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "bench/common/phong_program.h"
+#include "bench/common/material_program.h"
 #include "bench/common/report/draw.h"
-#include "bench/common/report/scripts.h"
 #include "bench/common/tables/csv.h"
 #include "bench/common/tables/provenance.h"
 
@@ -18,14 +17,14 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// Of all figures (their captions in CW 197).
+// Parameters of all figures, from their captions in CW 197.
 constexpr double diffuse = .4, specular = .05, exponent = 50, incoming_degrees = 30;
 constexpr int sampled_count = 100'000, samples_of_square = 10;
 
 constexpr double incoming_angles[] = {0, 15, 30, 45, 60, 75}; // degrees, figure 1
 constexpr int squares = 25;                                   // along x and along y, figures 6 and 7
 
-// The angle from the normal, at longitude 0: mirrored to the middle of [0, 2 pi].
+// Direction at this angle from the normal and longitude 0, so that its mirror direction is at longitude pi.
 cl_float4 direction_at(double degrees) {
   const double angle = degrees * pi / 180;
   return {{static_cast<float>(std::sin(angle)), 0, static_cast<float>(std::cos(angle)), 0}};
@@ -62,19 +61,19 @@ public:
   }
 
 private:
-  PhongProgram program_;
+  MaterialProgram program_;
   cl_uint2 seed_;
 };
 
 // ---- Figure 1: f_r in the plane of incidence
 
 void write_polar(FigureKernels& kernels, const std::filesystem::path& folder) {
-  constexpr int half = 360; // steps of a quarter of a degree to either side of the normal
+  constexpr int half = 360; // steps of 1/4 degree on each side of the normal
   std::vector<float> fixed, generated;
   std::vector<std::pair<double, double>> degrees;
   for (const double incoming : incoming_angles)
     for (int i = -half; i <= half; ++i) {
-      const double outgoing = 90.0 * i / half; // negative: on the side that the light comes from
+      const double outgoing = 90.0 * i / half; // negative on the side of the light
       const cl_float4 from = direction_at(-incoming), to = direction_at(outgoing);
       fixed.insert(fixed.end(), from.s, from.s + 3);
       generated.insert(generated.end(), to.s, to.s + 3);
@@ -90,14 +89,14 @@ void write_polar(FigureKernels& kernels, const std::filesystem::path& folder) {
 
 struct Space {
   int figure, number;         // number: SPACE_... of kernels/figures.cl
-  double first[2], second[2]; // ranges of the parameters as CW 197 measures them
-  bool unit;                  // the kernel takes them scaled to [0, 1]
+  double first[2], second[2]; // ranges of the parameters in CW 197
+  bool unit;                  // the kernel takes parameters scaled to [0, 1]
 };
 constexpr Space spaces[] = {{2, 0, {0, pi / 2}, {0, 2 * pi}, true},
                             {3, 1, {0, 1}, {0, 2 * pi}, true},
                             {4, 2, {0, 1}, {0, 1}, true},
                             {5, 3, {-1, 1}, {-1, 1}, false}};
-constexpr int first_steps = 48, second_steps = 96; // of the grid; those of (x, y) are equal
+constexpr int first_steps = 48, second_steps = 96; // of the grid; (x, y) has second_steps for both
 
 void write_space(FigureKernels& kernels, const std::filesystem::path& folder, const Space& space) {
   const int rows = space.unit ? first_steps : second_steps;
@@ -175,7 +174,7 @@ void make_figures(const FiguresOptions& options) {
   write_provenance(options.folder, "figures",
                    {"phlux bench figures", device, options.lanes_on(device), "nothing is timed",
                     std::to_string(options.seed)});
-  draw_charts(options.folder, figures_script());
+  draw_charts(options.folder, "figures");
   fmt::print("{}\n", (options.folder / "figure-{1..7}.{csv,svg,png}").string());
 }
 

@@ -1,5 +1,4 @@
-// The figures of CW 197 from the kernels' own output: computed on a device, written as tables, drawn by
-// matplotlib.
+// The figures of CW 197 (Lafortune and Willems 1994), computed by the kernels and drawn by matplotlib.
 #pragma once
 
 #include <cstdint>
@@ -12,16 +11,17 @@ struct FiguresOptions : CommonOptions {
   std::uint32_t seed = 1;
 };
 
-/// What must agree: figures 6 and 7 summed over their squares, and the reflectivity in closed form.
+/// The sums of figures 6 (sampled) and 7 (evaluated) over their squares, and the reflectivity in closed form.
+/// The three must agree up to noise.
 struct FigureSums {
   double sampled = 0, evaluated = 0, exact = 0;
 };
 
-/// Computes every figure's data and writes the tables. @throws DeviceError, WriteError
+/// Computes the data of all figures and writes the tables. @throws DeviceError, WriteError
 FigureSums write_figure_tables(const FiguresOptions& options);
 
-/// The tables, then SVG and PNG files beside them and the report. @throws DeviceError, WriteError, also when
-/// the drawings cannot be made: the tables are there then
+/// Writes the tables, the figures as SVG and PNG, and the report. @throws DeviceError; WriteError, also if
+/// the figures cannot be drawn, when the tables are complete
 void make_figures(const FiguresOptions& options);
 
 } // namespace phlux::bench

@@ -1,4 +1,4 @@
-"""Draws the figures of CW 197 from the tables that `phlux bench figures` writes, and writes their section of the report.
+"""Draws the figures of CW 197 from the tables of `phlux bench figures`; writes their section of the report.
 
     python3 figures.py FOLDER
 
@@ -14,7 +14,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import LightSource
 
-# None is one of chart_style.py's: in a page with its charts those change with the theme.
+# None of these is a colour of chart_style.py: in the report its colours change with the theme.
 INK = "#23272e"
 GRAY = "#9ba3ad"
 WHITE = "#fffffe"
@@ -61,17 +61,17 @@ def save(figure, folder, number):
 # ---- The section
 
 TEXT = [
-    "The figures of CW 197 (Lafortune and Willems 1994), from what the kernels evaluate and sample. They are on white in both "
-    "themes, as they were printed. Figures 6 and 7 must agree but for noise.",
+    "The figures of CW 197 (Lafortune and Willems 1994), computed by the kernels. They have a white background in both themes, as "
+    "in print. Figures 6 and 7 must agree up to noise.",
 ]
 CAPTIONS = {
     1: "f_r in the plane of incidence, for six directions of incidence.",
-    2: "The reflectivity's integrand over the angles: f_r cos θ sin θ.",
-    3: "Over c = 1 - cos θ and φ, which are even on the hemisphere: f_r (1 - c).",
-    4: "Over the unit square that is mapped in proportion to the cosine: π f_r.",
-    5: "Over the unit disk under the hemisphere: f_r.",
-    6: "Each square's share of the reflectivity, by sampling directions.",
-    7: "The same, by evaluating the model in each square.",
+    2: "Integrand of the reflectivity over the angles θ and φ: f_r cos θ sin θ.",
+    3: "Integrand over c = 1 - cos θ and φ, which is uniform in solid angle: f_r (1 - c).",
+    4: "Integrand over the unit square with the mapping in proportion to the cosine: π f_r.",
+    5: "Integrand over the unit disk, the projected hemisphere: f_r.",
+    6: "Partial reflectivity of each square, from sampled directions.",
+    7: "Partial reflectivity of each square, from evaluating f_r at random points in it.",
 }
 
 
@@ -84,7 +84,7 @@ def write_section(folder):
 
 
 def polar_panel(axes, incoming, outgoing, value, reach):
-    """f_r as the distance from the origin, in the plane of incidence; light comes from the left."""
+    """Polar diagram of f_r in the plane of incidence; light comes from the left."""
     half = np.radians(np.linspace(-90, 90, 181))
     for radius in np.arange(0.1, reach, 0.1):
         axes.plot(radius * np.sin(half), radius * np.cos(half), color=GRAY, lw=0.4)
@@ -141,7 +141,7 @@ SPACES = {
 
 
 def gridded(data):
-    """The table as arrays over (first, second); NaN where it has no row."""
+    """The columns as arrays over (first, second); NaN where the table has no row."""
     firsts, seconds = np.unique(data["first"]), np.unique(data["second"])
     i, j = np.searchsorted(firsts, data["first"]), np.searchsorted(seconds, data["second"])
     grids = {}
@@ -184,22 +184,22 @@ def parameter_panel(axes, firsts, seconds, grids, space):
 VIEW = {"elev": 32, "azim": -62}
 
 
-def towards_eye(x, y, z):
-    """Whether points of the unit sphere are on the side that the view shows."""
+def faces_viewer(x, y, z):
+    """Whether points of the unit sphere are on the side towards the viewer."""
     elevation, azimuth = math.radians(VIEW["elev"]), math.radians(VIEW["azim"])
-    eye = (math.cos(elevation) * math.cos(azimuth), math.cos(elevation) * math.sin(azimuth), math.sin(elevation))
-    return x * eye[0] + y * eye[1] + z * eye[2] > 0
+    viewer = (math.cos(elevation) * math.cos(azimuth), math.cos(elevation) * math.sin(azimuth), math.sin(elevation))
+    return x * viewer[0] + y * viewer[1] + z * viewer[2] > 0
 
 
 def hemisphere_line(axes, x, y, z, **style):
-    """A line on the hemisphere; the part on its far side is faint."""
-    near = towards_eye(x, y, z)
+    """A line on the hemisphere, faint on the far side."""
+    near = faces_viewer(x, y, z)
     for part, alpha in ((near, 1.0), (~near, 0.25)):
         axes.plot(np.where(part, x, np.nan), np.where(part, y, np.nan), np.where(part, z, np.nan), alpha=alpha, **style)
 
 
 def to_the_rim(line, along):
-    """A line of the (x, y) grid, extended along that coordinate to where it meets the horizon."""
+    """Extends a line of the (x, y) grid along this coordinate to the horizon."""
     line = line[:, ~np.isnan(line[2])]
     if line.shape[1] < 2 or line[2].min() < 1e-3:
         return line

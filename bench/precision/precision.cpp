@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -13,11 +12,11 @@
 #include "bench/common/methods/timed_render.h"
 #include "bench/common/moments.h"
 #include "bench/common/report/draw.h"
-#include "bench/common/report/scripts.h"
 #include "bench/common/status_line.h"
 #include "bench/common/tables/csv.h"
 #include "bench/common/tables/provenance.h"
-#include "bench/scenes/scenes.h"
+#include "bench/precision/precision_error.h"
+#include "bench/scenes/scene_files.h"
 #include "device/device.h"
 #include "errors.h"
 #include "render/parts.h"
@@ -31,10 +30,8 @@ constexpr int round_samples = 64, quick_round_samples = 32;
 constexpr int largest_side = 24;
 constexpr int timings = 5, quick_timings = 3;
 constexpr double timing_seconds = 0.25, quick_timing_seconds = 0.1;
-constexpr double darkness = 1e-2;    // below, an error counts as relative to this, as in files::compare
-constexpr double least_noise = 1e-6; // relative: below, a value is as good as without
 
-// What is rendered, in one of the precisions.
+// A scene and a method to render in both precisions.
 struct Setup {
   const PrecisionOptions& options;
   scene::Scene scene;
@@ -52,15 +49,15 @@ struct Setup {
 };
 
 struct Timing {
-  double single = 0, in_double = 0; ///< processor seconds of a sample: medians
+  double float32 = 0, float64 = 0; // processor seconds per sample, medians
   double ratio = 0, least = 0, most = 0;
 };
 
-// Triangles of a light stand in the order of the hierarchy, which WIDTH decides, and are chosen by it: in
-// another order a seed gives other samples. Without a hierarchy the order is the scene's.
+// Samples of a light choose its triangles by their order in the hierarchy, which depends on WIDTH. Without a
+// hierarchy the order is that of the scene, so that a seed gives the same samples for every WIDTH.
 constexpr std::uint64_t most_without_hierarchy = 1000;
 
-// An image for each seed.
+// One film per seed.
 std::vector<film::Film> render_rounds(const Setup& setup, int lanes, bool double_precision) {
   const bool quick = setup.options.quick;
   render::Settings settings = setup.settings(lanes, double_precision);
@@ -73,7 +70,7 @@ std::vector<film::Film> render_rounds(const Setup& setup, int lanes, bool double
   return films;
 }
 
-// In turns, as what else the machine does comes and goes.
+// Renders alternate, so that other load on the machine affects both alike.
 Timing time_in_turns(const Setup& setup, int lanes) {
   const bool quick = setup.options.quick;
   const auto seconds_of = [&](const render::Settings& settings) {
@@ -81,15 +78,15 @@ Timing time_in_turns(const Setup& setup, int lanes) {
                       setup.options.interrupted)
         .processor_seconds_per_sample;
   };
-  std::vector<double> single, in_double, ratios;
+  std::vector<double> float32, float64, ratios;
   for (int i = 0; i < (quick ? quick_timings : timings); ++i) {
-    single.push_back(seconds_of(setup.settings(lanes, false)));
-    in_double.push_back(seconds_of(setup.settings(1, true)));
-    if (single.back() > 0 && in_double.back() > 0) ratios.push_back(in_double.back() / single.back());
+    float32.push_back(seconds_of(setup.settings(lanes, false)));
+    float64.push_back(seconds_of(setup.settings(1, true)));
+    if (float32.back() > 0 && float64.back() > 0) ratios.push_back(float64.back() / float32.back());
   }
   if (ratios.empty()) return {};
   const auto [least, most] = std::ranges::minmax(ratios);
-  return {median(single), median(in_double), median(ratios), least, most};
+  return {median(float32), median(float64), median(ratios), least, most};
 }
 
 std::string number(double value) {
@@ -102,7 +99,7 @@ std::string row_of(const std::string& scene, const Setup& setup, int lanes, cons
   std::vector<std::string> row = {scene, setup.method.integrator, fmt::format("{}", lanes)};
   for (const double value : {error.variance, error.difference, error.systematic, error.systematic_most,
                              error.mean.value, error.mean.standard_error, error.largest, error.quiet_share,
-                             error.quiet_difference, 1e9 * time.single, 1e9 * time.in_double, time.ratio,
+                             error.quiet_difference, 1e9 * time.float32, 1e9 * time.float64, time.ratio,
                              time.least, time.most, break_even_samples(error.systematic, time.ratio)})
     row.push_back(number(value));
   const scene::Camera& camera = setup.scene.camera;
@@ -114,7 +111,7 @@ std::string row_of(const std::string& scene, const Setup& setup, int lanes, cons
   return fmt::format("{}", fmt::join(row, ","));
 }
 
-// A scene may want a file that a script beside it makes.
+// A scene may need a file that a script beside it generates.
 bool can_be_read(const std::filesystem::path& file) try {
   (void)scene_file::load(file);
   return true;
@@ -143,7 +140,7 @@ std::vector<Method> methods_of(const PrecisionOptions& options) {
   return {{"path", strategy, "mis"}, {"light", strategy, "-"}, {"bidir", strategy, "balance"}};
 }
 
-// The file's name, with its folder's where there are two of one name.
+// The name of the file, with its folder if two files have the same name.
 std::string name_of(const std::filesystem::path& file, const std::vector<std::filesystem::path>& files) {
   const auto count =
       std::ranges::count_if(files, [&](const auto& other) { return other.stem() == file.stem(); });
@@ -152,10 +149,9 @@ std::string name_of(const std::filesystem::path& file, const std::vector<std::fi
 
 void print(const std::string& scene, const Method& method, int lanes, const PrecisionError& error,
            const Timing& time) {
-  fmt::print("{:<20} {:<12} WIDTH {:<3} error of float32 {:.2g} of the noise of {:g} samples, systematic at "
-             "most {:.2g}"
-             "; {:.2f} times as fast\n",
-             scene, method.name(), lanes, error.difference, unit_samples, error.systematic_most, time.ratio);
+  fmt::print("{:<20} {:<12} WIDTH {:<3} error of float32 / noise of {:g} samples: {:.2g}, systematic part at "
+             "most {:.2g}; {:.2f} times as fast\n",
+             scene, method.name(), lanes, unit_samples, error.difference, error.systematic_most, time.ratio);
   std::fflush(stdout);
 }
 
@@ -167,82 +163,23 @@ void measure_scene(const PrecisionOptions& options, const std::filesystem::path&
   std::vector<int> widths = {1};
   if (native != 1) widths.push_back(native);
   try {
-    status.show(fmt::format("{}, {} in double", scene, method.name()));
-    const std::vector<film::Film> in_double = render_rounds(setup, 1, true);
+    status.show(fmt::format("{}, {} in float64", scene, method.name()));
+    const std::vector<film::Film> float64 = render_rounds(setup, 1, true);
     for (const int lanes : widths) {
       status.show(fmt::format("{}, {}, WIDTH {}", scene, method.name(), lanes));
-      const PrecisionError error = precision_error(pairs_of(render_rounds(setup, lanes, false), in_double));
+      const PrecisionError error = precision_error(pairs_of(render_rounds(setup, lanes, false), float64));
       const Timing time = time_in_turns(setup, lanes);
       status.clear();
       table.line(row_of(scene, setup, lanes, error, time, device));
       print(scene, method, lanes, error, time);
     }
-  } catch (const UsageError& refusal) { // the method is not for this scene
+  } catch (const UsageError& refusal) { // the method cannot render this scene
     status.clear();
     fmt::print("{}, {}: {}\n", scene, method.name(), refusal.what());
   }
 }
 
 } // namespace
-
-PrecisionPairs pairs_of(const std::vector<film::Film>& single, const std::vector<film::Film>& in_double) {
-  PrecisionPairs pairs;
-  for (const film::Film& film : single) pairs.single.push_back(estimate_of(film));
-  for (const film::Film& film : in_double) pairs.in_double.push_back(estimate_of(film));
-  const auto count = static_cast<double>(in_double.size());
-  for (std::size_t value = 0; value < 3 * in_double.front().pixels().size(); ++value) {
-    double sum = 0;
-    for (const film::Film& film : in_double) sum += film.variance_of_mean(value / 3)[value % 3];
-    pairs.variance.push_back(sum / (count * count));
-  }
-  return pairs;
-}
-
-PrecisionError precision_error(const PrecisionPairs& pairs) {
-  const ImageEstimate truth = pooled(pairs.in_double);
-  const Reference& reference = truth.radiance;
-  // What a pair differs by, on top of the truth: repeats of an image whose noise is that of samples that took
-  // another way, and whose bias is float32's.
-  std::vector<ImageEstimate> shifted = pairs.single;
-  for (std::size_t i = 0; i < shifted.size(); ++i)
-    for (std::size_t value = 0; value < reference.size(); ++value)
-      shifted[i].radiance[value] += reference[value] - pairs.in_double[i].radiance[value];
-
-  PrecisionError error;
-  error.variance = variance_per_sample(pairs.in_double, reference).value;
-  const double unit = error.variance / unit_samples;
-  const auto in_units = [&](double mse) { return unit > 0 ? std::sqrt(std::max(mse, 0.0) / unit) : 0.0; };
-  const Figure systematic = unexplained_mse(shifted, reference);
-  error.systematic = in_units(systematic.value);
-  error.systematic_most = in_units(systematic.value + 2 * systematic.standard_error);
-  error.difference = in_units(std::max(systematic.value, 0.0) +
-                              variance_per_sample(shifted, reference).value / unit_samples);
-  double mean = 0;
-  for (const double value : reference) mean += value / static_cast<double>(reference.size());
-  const Figure shifted_mean = image_mean(shifted);
-  if (mean > 0) error.mean = {shifted_mean.value / mean - 1, shifted_mean.standard_error / mean};
-
-  const ImageEstimate all = pooled(shifted);
-  double quiet = 0;
-  for (std::size_t value = 0; value < reference.size(); ++value) {
-    const double d = std::abs(all.radiance[value] - reference[value]);
-    const double scale = std::hypot(reference[value], darkness);
-    const double sigma = std::sqrt(pairs.variance[value] * truth.samples[value / 3] / unit_samples);
-    const bool noisy = sigma > least_noise * scale;
-    if (noisy) error.largest = std::max(error.largest, d / sigma);
-    if (!noisy) error.quiet_difference = std::max(error.quiet_difference, d / scale);
-    quiet += noisy ? 0 : 1;
-  }
-  error.quiet_share = quiet / static_cast<double>(reference.size());
-  return error;
-}
-
-// systematic^2 V / unit_samples + V / (times_as_fast n) = V / n, for the n at hand.
-double break_even_samples(double systematic, double times_as_fast) {
-  if (times_as_fast <= 1) return 0;
-  if (systematic <= 0) return std::numeric_limits<double>::infinity();
-  return unit_samples * (1 - 1 / times_as_fast) / (systematic * systematic);
-}
 
 const std::vector<std::string>& precision_columns() {
   static const std::vector<std::string> columns = {"scene",
@@ -272,13 +209,12 @@ const std::vector<std::string>& precision_columns() {
 
 bool measure_precision(const PrecisionOptions& options) try {
   const std::vector<std::filesystem::path> files = scenes_of(options);
-  for (const auto& file : files)
-    (void)scene_file::load(file); // bad ones are errors before minutes have passed
+  check_scenes(files);
   CsvFile table(options.folder, "precision.csv", fmt::format("{}", fmt::join(precision_columns(), ",")));
   const device::Device device = device::open_devices(options.devices).front();
-  render::Settings in_double;
-  in_double.double_precision = true;
-  (void)render::lanes_for(device.info, in_double); // or says that there are none
+  render::Settings float64;
+  float64.double_precision = true;
+  (void)render::lanes_for(device.info, float64); // throws if the device has no doubles
   StatusLine status;
   for (const Method& method : methods_of(options))
     for (const auto& file : files)
@@ -295,10 +231,10 @@ bool measure_precision(const PrecisionOptions& options) try {
       {command, device.info, lanes, "built before anything is timed",
        fmt::format("{} to {}", options.seed,
                    options.seed + static_cast<std::uint64_t>(options.quick ? quick_rounds : rounds) - 1)});
-  draw_charts(options.folder, precision_script());
+  draw_charts(options.folder, "precision");
   return true;
 } catch (const Interrupted&) {
-  fmt::print("interrupted: {} has what was measured\n", (options.folder / "precision.csv").string());
+  fmt::print("interrupted: {} contains the finished rows\n", (options.folder / "precision.csv").string());
   return false;
 }
 

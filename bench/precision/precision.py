@@ -1,4 +1,4 @@
-"""Draws what `phlux bench precision` measured, float32's error against its speed, and writes its section of the report.
+"""Draws the charts of `phlux bench precision` (error of float32 against its speed); writes its section of the report.
 
     python3 precision.py FOLDER
 """
@@ -10,9 +10,9 @@ import chart_style as style
 import matplotlib.pyplot as plt
 from matplotlib.lines import Line2D
 
-UNIT = 4096  # samples whose noise is the unit of errors
-LEAST = 1e-6  # what is drawn of an error of 0
-DARK = 1e-8  # a variance below is of an image that phlux compare takes for black
+UNIT = 4096  # samples per pixel whose standard error is the unit of errors
+LEAST = 1e-6  # smaller errors are drawn as this
+DARK = 1e-8  # images of a smaller variance are black in the measure of phlux compare
 INTEGRATORS = ("path", "light", "bidir")
 
 
@@ -44,8 +44,8 @@ def draw_tradeoff(rows, theme):
     axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
     axes.set_xticks([], minor=True)
     axes.grid(True)
-    axes.set_xlabel("times as many samples a second as float64")
-    axes.set_ylabel(f"error of float32, in noise of {UNIT:,} samples")
+    axes.set_xlabel("speed relative to float64")
+    axes.set_ylabel(f"error of float32 / noise of {UNIT:,} samples")
     present = [name for name in INTEGRATORS if any(row.integrator == name for row in rows)]
     handles = [Line2D([], [], ls="none", color=theme.color(INTEGRATORS.index(name)), label=name,
                       marker=style.MARKERS[INTEGRATORS.index(name)]) for name in present]
@@ -58,7 +58,7 @@ def draw_tradeoff(rows, theme):
 
 
 def draw_time(rows, theme):
-    """Error against time of one pixel, in either precision: noise falls, what is systematic stays."""
+    """Relative error against render time of one pixel, in both precisions."""
     chosen = [row for row in rows if row.integrator == "path" and row.width == max(r.width for r in rows)
               and row.variance_per_sample > DARK]
     columns = min(4, len(chosen))
@@ -76,7 +76,7 @@ def draw_time(rows, theme):
         axes.plot([n * single for n in samples], [math.hypot(noise / math.sqrt(n), floor) for n in samples],
                   color=theme.color(0), label="float32")
         axes.plot([n * single for n in samples], [math.hypot(noise / math.sqrt(n), most) for n in samples],
-                  color=theme.color(0), lw=0.8, ls=(0, (2, 2)), label="float32, at most")
+                  color=theme.color(0), lw=0.8, ls=(0, (2, 2)), label="float32, upper bound")
         axes.axvline(UNIT * single, color=theme.axis, lw=0.8)
         axes.set_xscale("log")
         axes.set_yscale("log")
@@ -86,7 +86,7 @@ def draw_time(rows, theme):
     for axes in panels[:, 0]:
         axes.set_ylabel("relative error")
     for axes in panels[-1]:
-        axes.set_xlabel("seconds for a pixel")
+        axes.set_xlabel("seconds per pixel")
     figure.subplots_adjust(0.07, 0.75 / figure.get_figheight(), 0.99, 1 - 0.3 / figure.get_figheight(), 0.08, 0.45)
     figure.legend(*panels[0][0].get_legend_handles_labels(), loc="lower center", ncol=3)
     return figure
@@ -97,34 +97,34 @@ def main():
     rows = [row for row in style.read(folder, "precision.csv") if row.times_as_fast > 0]
     drawings = [("precision-tradeoff", partial(draw_tradeoff, rows))]
     charts = [{"svg": "precision-tradeoff.svg", "title": "Error of float32 against its speed",
-               "caption": "A point for each scene, integrator and WIDTH: what two images of the same samples differ by, in "
-                          "noise of 4,096 samples; its line goes to two standard errors above the systematic part, where "
-                          "that is more. Below the line at 1 and to the right is good."}]
+               "caption": "A point for each scene, integrator and WIDTH: difference of two images of the same samples, divided by "
+                          "the noise of 4,096 samples. Lines end at the upper bound of the systematic part (two standard "
+                          "errors) where that is larger. Right and below 1 is better."}]
     if any(row.integrator == "path" and row.variance_per_sample > DARK for row in rows):
         drawings.append(("precision-time", partial(draw_time, rows)))
-        charts.append({"svg": "precision-time.svg", "title": "Accuracy bought per second, path tracing",
-                       "caption": "Noise falls with the root of time; what is systematic in float32 stays, and above it "
-                                  "float64 is the worse buy. Dotted: two standard errors more than was measured. The "
-                                  "upright line is at 4,096 samples in float32. Times are processor seconds."})
+        charts.append({"svg": "precision-time.svg", "title": "Error against render time, path tracing",
+                       "caption": "Noise falls with the square root of the time; the systematic error of float32 remains. Where it "
+                                  "dominates, float64 is more accurate for the same time. Dotted: upper bound (two standard "
+                                  "errors). Vertical line: 4,096 samples in float32. Times are processor seconds."})
     style.save_all(folder, drawings)
-    best = [[row.scene, row.integrator, row.width, row.difference, row.systematic, row.systematic_most, row.mean_difference,
+    table = [[row.scene, row.integrator, row.width, row.difference, row.systematic, row.systematic_most, row.mean_difference,
              row.times_as_fast, row.break_even_samples] for row in rows]
     style.section(
         folder, "precision", title="Float32 against float64", order=45,
-        text=["The same seed gives the same samples in either precision, but for rounding: what two images differ by is the "
-              "error of float32, mostly far below their common noise. Part of it is systematic; the rest are samples that "
-              "rounding sent another way, which is no bias: reflections enlarge the rounding of those before them, and samples "
-              "of very long paths may have nothing in common in the end. A difference near 1 then says no more than that, and "
-              "the systematic part is known no better. Both are root mean squares over pixels and channels in the measure of "
-              "phlux compare.",
-              "Camera, materials and lights are the same rounded floats in both, and so are sums on their way to the host; "
-              "shapes are doubles in float64."],
-        summary={"columns": ["scene", "integrator", "WIDTH", "difference", "systematic", "at most", "of the image's mean",
-                             "times as fast", "break even at"], "rows": best,
-                 "note": "In noise of 4,096 samples. At most: two standard errors above. Break even: samples per pixel in "
-                         "float64 beyond which it is the more accurate of the two for the same time; a dash where no "
-                         "systematic error was found."},
-        charts=charts, tables=[{"csv": "precision.csv", "title": "All figures"}])
+        text=["The same seed gives the same samples in both precisions, except for rounding. The difference of two such images is "
+              "the error of float32. It is mostly far below their common noise. A part of it is systematic. The rest comes from "
+              "samples that rounding sent along another path, which is no bias: each reflection amplifies the rounding error of "
+              "the previous ones, so that very long paths may have nothing in common at the end. A difference near 1 only says "
+              "this, and then the systematic part is not known more accurately. Both are root mean squares over pixels and "
+              "channels, in the measure of phlux compare.",
+              "Camera, materials and lights are rounded to float32 in both precisions, and so are the sums that go to the host. "
+              "Shapes are float64 in float64."],
+        summary={"columns": ["scene", "integrator", "WIDTH", "difference", "systematic", "upper bound", "of the image's mean",
+                             "speedup", "break even at"], "rows": table,
+                 "note": "Difference and systematic part are divided by the noise of 4,096 samples; the upper bound is two "
+                         "standard errors higher. Break even: samples per pixel in float64 from which on float64 is more "
+                         "accurate for the same time; a dash if no systematic error was found."},
+        charts=charts, tables=[{"csv": "precision.csv", "title": "All results"}])
 
 
 if __name__ == "__main__":

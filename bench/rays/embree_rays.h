@@ -1,4 +1,4 @@
-// Embree as the yardstick for rays.
+// Ray traversal by Embree, for comparison.
 #pragma once
 
 #include <functional>
@@ -11,20 +11,20 @@
 
 namespace phlux::bench {
 
-/// As kernels/rays.cl reads it.
+/// The layout that kernels/rays.cl reads.
 struct Ray {
   float origin[3], direction[3], distance, unused = 0;
 };
 
 class EmbreeRays {
 public:
-  /// Builds Embree's own hierarchy over the mesh, in coordinates about `origin`.
+  /// Builds Embree's hierarchy over the mesh, in coordinates relative to `origin`.
   EmbreeRays(const scene::Mesh& mesh, const scene::Vec3& origin, unsigned threads);
 
-  /// found[i]: the distance at which ray i meets the closest triangle; infinite where it meets none
+  /// Sets found[i] to the distance of the closest intersection of ray i, infinite if there is none
   /// (rtcIntersect1).
   void closest(const std::vector<Ray>& rays, std::vector<float>& found) const;
-  /// found[i]: 1 where something is before ray i's distance, else 0 (rtcOccluded1).
+  /// Sets found[i] to 1 if ray i has an intersection before its distance, else to 0 (rtcOccluded1).
   void any(const std::vector<Ray>& rays, std::vector<float>& found) const;
 
 private:

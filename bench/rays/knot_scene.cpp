@@ -28,7 +28,7 @@ Vec3 surface(double t, double around) {
 }
 
 void add_knot(scene::Mesh& mesh, std::uint64_t triangles) {
-  const double even = std::sqrt(static_cast<double>(triangles) * 1.5); // about as long as wide
+  const double even = std::sqrt(static_cast<double>(triangles) * 1.5); // for quads about as long as wide
   const auto rings = static_cast<std::uint32_t>(std::min(even, static_cast<double>(triangles / 6)));
   const auto sides = static_cast<std::uint32_t>(triangles / 2 / rings);
   for (std::uint32_t i = 0; i < rings; ++i)

@@ -7,7 +7,7 @@
 
 namespace phlux::bench {
 
-/// About `triangles` triangles (at least 36), twelve of them the room's walls.
+/// About `triangles` triangles (36 or more), twelve of them the walls of the room.
 [[nodiscard]] scene::Scene knot_scene(std::uint64_t triangles);
 
 } // namespace phlux::bench

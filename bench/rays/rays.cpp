@@ -14,7 +14,6 @@
 
 #include "bench/common/moments.h"
 #include "bench/common/report/draw.h"
-#include "bench/common/report/scripts.h"
 #include "bench/common/tables/csv.h"
 #include "bench/common/tables/provenance.h"
 #include "bench/rays/embree_rays.h"
@@ -44,7 +43,7 @@ public:
       : device_(device), scene_(device, host, parts), lanes_(parts.lanes),
         program_(device::build(device, files, parts.source("measure/rays.cl"))) {}
 
-  // Seconds that the kernel took, by the device's clock.
+  // Returns the seconds of the kernel by the clock of the device.
   double run(const char* kernel_name, const std::vector<Ray>& rays, std::vector<float>& found) {
     const cl::Buffer in(device_.context, CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR, rays.size() * sizeof(Ray),
                         const_cast<Ray*>(rays.data()));
@@ -96,8 +95,8 @@ std::vector<Ray> camera_rays(const scene::Camera& camera, const Vec3& origin) {
   return rays;
 }
 
-// From just before each hit, a direction uniform over the sphere and a shadow ray towards a point near the
-// ceiling.
+// From a point just before each hit: a ray with a direction uniform over the sphere, and a shadow ray to a
+// random point below the ceiling.
 struct SecondaryRays {
   std::vector<Ray> bounce, shadow;
 };
@@ -115,25 +114,25 @@ SecondaryRays secondary_rays(const std::vector<Ray>& camera, const std::vector<f
     const double z = 1 - 2 * uniform(generator), phi = 2 * std::numbers::pi * uniform(generator),
                  s = std::sqrt(1 - z * z);
     rays.bounce.push_back(make_ray(point, {s * std::cos(phi), s * std::sin(phi), z}, 0));
-    const Vec3 way = Vec3(uniform(generator) - 0.5, 4.9, uniform(generator) - 0.5) - point;
-    rays.shadow.push_back(make_ray(point, glm::normalize(way), 0.999 * glm::length(way)));
+    const Vec3 to_light = Vec3(uniform(generator) - 0.5, 4.9, uniform(generator) - 0.5) - point;
+    rays.shadow.push_back(make_ray(point, glm::normalize(to_light), 0.999 * glm::length(to_light)));
   }
   return rays;
 }
 
-// The largest share of rays on which the two may differ: edges are met by one and missed by the other.
+// Largest share of rays whose results may differ: at edges one may hit what the other misses.
 constexpr double allowed_difference = 1e-3;
 
-void check_agreement(const std::vector<float>& ours, const std::vector<float>& theirs) {
+void check_agreement(const std::vector<float>& found, const std::vector<float>& expected) {
   std::size_t different = 0;
-  for (std::size_t i = 0; i < ours.size(); ++i) {
-    const bool both_miss = !std::isfinite(ours[i]) && !std::isfinite(theirs[i]);
-    if (!both_miss && !(std::abs(ours[i] - theirs[i]) <= 1e-3f * std::max(1.0f, theirs[i]))) ++different;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const bool both_miss = !std::isfinite(found[i]) && !std::isfinite(expected[i]);
+    if (!both_miss && !(std::abs(found[i] - expected[i]) <= 1e-3f * std::max(1.0f, expected[i]))) ++different;
   }
-  if (static_cast<double>(different) > allowed_difference * static_cast<double>(ours.size()))
+  if (static_cast<double>(different) > allowed_difference * static_cast<double>(found.size()))
     throw DeviceError(
-        fmt::format("{} of {} rays met something else than Embree's: the figures would mean nothing",
-                    different, ours.size()));
+        fmt::format("{} of {} rays have other results than Embree's: the rates cannot be compared", different,
+                    found.size()));
 }
 
 constexpr const char* columns =
@@ -151,15 +150,15 @@ struct Kind {
   const std::vector<Ray>& rays;
 };
 
-void measure(CsvFile& table, const RaysOptions& options, const std::string& label, DeviceRays& ours,
-             const EmbreeRays& theirs, const Kind& kind) {
+void measure(CsvFile& table, const RaysOptions& options, const std::string& label, DeviceRays& device,
+             const EmbreeRays& embree, const Kind& kind) {
   const bool closest = std::string(kind.kernel) == "find_closest";
   std::vector<float> found(kind.rays.size()), expected(kind.rays.size());
   std::vector<double> rates, embree_rates, ratios;
   for (int round = 0; round < options.rounds; ++round) {
-    const double a = ours.run(kind.kernel, kind.rays, found);
+    const double a = device.run(kind.kernel, kind.rays, found);
     const double b =
-        seconds_of([&] { closest ? theirs.closest(kind.rays, expected) : theirs.any(kind.rays, expected); });
+        seconds_of([&] { closest ? embree.closest(kind.rays, expected) : embree.any(kind.rays, expected); });
     const double count = 1e-6 * static_cast<double>(kind.rays.size());
     rates.push_back(count / a), embree_rates.push_back(count / b), ratios.push_back(b / a);
   }
@@ -182,11 +181,11 @@ void measure_rays(const RaysOptions& options) {
     const scene::Scene scene = knot_scene(triangles);
     render::HostScene host = render::prepare(scene, options.traversal, lanes);
     const render::Parts parts = render::find_parts(scene, host.geometry, host.lights, {}, lanes);
-    DeviceRays ours(device, files, host, parts);
-    const EmbreeRays theirs(scene.meshes.front(), host.geometry.origin, device.info.compute_units);
+    DeviceRays device_rays(device, files, host, parts);
+    const EmbreeRays embree_rays(scene.meshes.front(), host.geometry.origin, device.info.compute_units);
     const std::vector<Ray> camera = camera_rays(scene.camera, host.geometry.origin);
     std::vector<float> distances(camera.size());
-    theirs.closest(camera, distances);
+    embree_rays.closest(camera, distances);
     const SecondaryRays secondary = secondary_rays(camera, distances);
     const std::string layout = fmt::format("{} x{}", parts.hierarchy ? "bvh" : "brute", lanes);
     const std::string label = fmt::format("knot,{},{{}},{},{}", scene.meshes.front().triangles.size(),
@@ -194,14 +193,14 @@ void measure_rays(const RaysOptions& options) {
     for (const Kind& kind :
          {Kind{"camera", "find_closest", camera}, Kind{"bounce", "find_closest", secondary.bounce},
           Kind{"shadow", "find_any", secondary.shadow}})
-      measure(table, options, label, ours, theirs, kind);
+      measure(table, options, label, device_rays, embree_rays, kind);
   }
   std::string command = "phlux bench rays --triangles ";
   for (const std::uint64_t triangles : options.triangles)
     command += fmt::format("{}{}", command.ends_with(' ') ? "" : ",", triangles);
   write_provenance(options.folder, "rays",
                    {command, device.info, lanes, "timings exclude building kernels", "1"});
-  draw_charts(options.folder, rays_script());
+  draw_charts(options.folder, "rays");
 }
 
 } // namespace phlux::bench

@@ -1,4 +1,4 @@
-// Traversal on a device against Embree on the same rays, in one process, alternating.
+// Compares ray traversal on a device with Embree: the same rays in one process, alternating.
 #pragma once
 
 #include <cstdint>
@@ -12,12 +12,12 @@ namespace phlux::bench {
 struct RaysOptions : CommonOptions {
   std::vector<std::uint64_t> triangles = {36, 20'000, 500'000};
   render::Traversal traversal = render::Traversal::automatic;
-  int rounds = 7; ///< alternations; medians are quoted
+  int rounds = 7; ///< of which the medians are reported
 };
 
-/// Writes rays.csv (the columns of the contract, then the Embree call) to the folder and prints each line as
-/// it comes, then charts and the report. Both sides use as many threads as the device has units. @throws
-/// DeviceError, WriteError, also where charts cannot be drawn: the table is there then
+/// Writes rays.csv (the columns of the contract, then the Embree call) and prints its rows, then writes
+/// charts and the report. Embree uses as many threads as the device has compute units. @throws DeviceError;
+/// WriteError, also if the charts cannot be drawn, when the table is complete
 void measure_rays(const RaysOptions& options);
 
 } // namespace phlux::bench

@@ -1,4 +1,4 @@
-"""Draws rays.csv, what `phlux bench rays` measured, and writes its section of the report.
+"""Draws the chart of `phlux bench rays` from rays.csv; writes its section of the report.
 
     python3 rays.py FOLDER
 """
@@ -46,14 +46,14 @@ def main():
     style.save(folder, "rays-rates", lambda theme: draw_rates(rows, theme))
     style.section(
         folder, "rays", title="Rays against Embree", order=30,
-        text=["Both trace the same rays in one process, in turns, with as many threads; medians of seven rounds. Camera "
-              "rays are coherent, bounce rays are not, shadow rays ask only whether anything is met."],
+        text=["Phlux and Embree trace the same rays in one process, alternating, with equally many threads. Rates are medians of "
+              "seven rounds. Camera rays are coherent, bounce rays are not. Shadow rays only test for any intersection."],
         summary={"columns": ["triangles", "kind", "million rays/s", "Embree", "ratio"],
                  "rows": [[row.triangles, row.kind, row.mrays_per_s, row.embree_mrays_per_s, row.ratio] for row in rows],
-                 "note": "ratio: above 1 Phlux is faster"},
+                 "note": "ratio: rate of Phlux over that of Embree"},
         charts=[{"svg": "rays-rates.svg", "title": "Rays per second",
-                 "caption": "The number over a pair is the ratio of Phlux to Embree, the median over rounds."}],
-        tables=[{"csv": "rays.csv", "title": "All figures"}])
+                 "caption": "Numbers: rate of Phlux over that of Embree, median over the rounds."}],
+        tables=[{"csv": "rays.csv", "title": "All results"}])
 
 
 if __name__ == "__main__":

@@ -16,7 +16,7 @@ using scene::Vec3;
 
 constexpr double lamp_radius = 0.05;
 
-scene::Patch lamp(const Vec3& center, int emitter) { // its front is down
+scene::Patch lamp(const Vec3& center, int emitter) { // faces down
   return {scene::Patch::Region::ellipse,
           center,
           lamp_radius * Vec3(1, 0, 0),

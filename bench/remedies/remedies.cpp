@@ -11,7 +11,6 @@
 #include "bench/common/methods/timed_render.h"
 #include "bench/common/moments.h"
 #include "bench/common/report/draw.h"
-#include "bench/common/report/scripts.h"
 #include "bench/common/status_line.h"
 #include "bench/common/tables/csv.h"
 #include "bench/common/tables/provenance.h"
@@ -83,7 +82,7 @@ void add_cells(const RemediesOptions& options, int size, const std::string& reme
     }
 }
 
-struct Rounds { // of one of the two
+struct Rounds { // renders before, or after
   std::vector<ImageEstimate> images;
   std::vector<double> seconds, rays;
 
@@ -120,7 +119,7 @@ Measurement measure(const RemedyCase& one, const RemediesOptions& options, bool 
 
 std::string row_of(const RemedyCase& one, const Measurement& m, const RemediesOptions& options,
                    const device::DeviceInfo& device) {
-  const Figure gain = gain_of(m.before, m.after);
+  const Estimate gain = gain_of(m.before, m.after);
   std::vector<std::string> row = {one.remedy, one.place, one.method.integrator, one.method.variant};
   for (const double value :
        {m.before.variance.value, m.before.variance.standard_error, m.after.variance.value,
@@ -163,8 +162,8 @@ std::vector<RemedyCase> remedy_cases(const RemediesOptions& options) {
   return cases;
 }
 
-Figure gain_of(const Efficiency& before, const Efficiency& after) {
-  const auto relative = [](const Figure& f) { return f.standard_error / f.value; };
+Estimate gain_of(const Efficiency& before, const Efficiency& after) {
+  const auto relative = [](const Estimate& f) { return f.standard_error / f.value; };
   const double gain =
       before.variance.value * before.seconds_per_sample / (after.variance.value * after.seconds_per_sample);
   return {gain, gain * std::hypot(relative(before.variance), relative(after.variance))};
@@ -180,11 +179,11 @@ bool measure_remedies(const RemediesOptions& options) try {
     status.show(
         fmt::format("{} of {}: {}, {}, {}", i + 1, cases.size(), one.remedy, one.place, one.method.name()));
     const Measurement m = measure(one, options, device.type == "cpu");
-    const Figure gain = gain_of(m.before, m.after);
+    const Estimate gain = gain_of(m.before, m.after);
     status.clear();
     table.line(row_of(one, m, options, device));
     fmt::print(
-        "{:<20} {:<24} {:<14} {:>8.3g} +- {:.2g} times as efficient; {:.3g} rays a sample, were {:.3g}\n",
+        "{:<20} {:<24} {:<14} {:>8.3g} +- {:.2g} times as efficient; {:.3g} rays per sample, {:.3g} before\n",
         one.remedy, one.place, one.method.name(), gain.value, gain.standard_error, m.after.rays_per_sample,
         m.before.rays_per_sample);
     std::fflush(stdout);
@@ -196,10 +195,10 @@ bool measure_remedies(const RemediesOptions& options) try {
       {command_of(options), device, options.lanes_on(device), "kernels are built before anything is timed",
        fmt::format("{} to {}", options.seed,
                    options.seed + static_cast<std::uint64_t>((options.quick ? quick_rounds : rounds) - 1))});
-  draw_charts(options.folder, remedies_script());
+  draw_charts(options.folder, "remedies");
   return true;
 } catch (const Interrupted&) {
-  fmt::print("interrupted: {} has what was measured\n", (options.folder / "remedies.csv").string());
+  fmt::print("interrupted: {} contains the finished rows\n", (options.folder / "remedies.csv").string());
   return false;
 }
 

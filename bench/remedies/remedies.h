@@ -1,4 +1,4 @@
-// What lessens variance where methods fail, without a bias: each remedy before and after, in turns.
+// Measures techniques that reduce variance without bias: renders with and without each one alternate.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace phlux::bench {
 
 struct RemediesOptions : CommonOptions {
   std::vector<std::string> remedies; ///< of remedy_names(); empty: all
-  bool quick = false;                ///< fewer and easier places, shorter renders
+  bool quick = false;                ///< fewer and easier scenes, shorter renders
   std::uint64_t seed = 1;
   std::function<bool()> interrupted; ///< may be empty
 };
@@ -22,7 +22,7 @@ struct RemediesOptions : CommonOptions {
 /// "light-selection", "connections", "exact-lobe".
 [[nodiscard]] const std::vector<std::string>& remedy_names();
 
-/// One method at one place with one remedy: settings that differ in nothing else.
+/// One remedy, scene and method. The settings before and after differ only in the remedy.
 struct RemedyCase {
   std::string remedy, place;
   scene::Scene scene;
@@ -32,16 +32,18 @@ struct RemedyCase {
 
 [[nodiscard]] std::vector<RemedyCase> remedy_cases(const RemediesOptions& options);
 
+/// Variance and cost of a sample.
 struct Efficiency {
-  Figure variance; ///< per sample, relative
+  Estimate variance; ///< relative
   double seconds_per_sample = 0, rays_per_sample = 0;
 };
 
-/// How many times as much is had of a second: (variance x seconds) before / after, and its standard error.
-[[nodiscard]] Figure gain_of(const Efficiency& before, const Efficiency& after);
+/// Gain in efficiency: (variance x seconds) before / after. Its standard error is from those of the
+/// variances.
+[[nodiscard]] Estimate gain_of(const Efficiency& before, const Efficiency& after);
 
-/// Measures and writes remedies.csv (README.md) as it goes, then its chart and its section of the report.
-/// Returns false when interrupted. @throws UsageError, DeviceError, WriteError
+/// Writes remedies.csv (bench/README.md), then its chart and its section of the report. Returns false if
+/// interrupted. @throws UsageError, DeviceError, WriteError
 [[nodiscard]] bool measure_remedies(const RemediesOptions& options);
 
 } // namespace phlux::bench

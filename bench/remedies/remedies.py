@@ -1,4 +1,4 @@
-"""Draws what `phlux bench remedies` measured, each remedy before and after, and writes its section of the report.
+"""Draws the chart of `phlux bench remedies` (efficiency with and without); writes its section of the report.
 
     python3 remedies.py FOLDER
 """
@@ -9,9 +9,9 @@ import chart_style as style
 import matplotlib.pyplot as plt
 
 TITLES = {
-    "light-selection": "Light samples by contribution (before: by power)",
-    "connections": "Roulette of the connections of long paths (before: all are made)",
-    "exact-lobe": "Sampling and weighting by the exact lobe (before: lobe-ks)",
+    "light-selection": "Light selection by contribution (before: by power)",
+    "connections": "Russian roulette on the connections of long paths (before: all connections)",
+    "exact-lobe": "Sampling and MIS weights by the exact lobe (before: lobe-ks)",
 }
 NEAR_TICKS = (0.5, 0.6, 0.7, 0.8, 0.9, 1, 1.1, 1.2, 1.4)
 TICKS = (0.5, 0.7, 1, 1.5, 2, 3, 5, 10, 20, 50, 100, 1000, 10000, 100000)
@@ -46,7 +46,7 @@ def draw(rows, theme):
         axes.set_ylim(len(places[remedy]) - 0.5, -0.5)
         axes.grid(True, axis="x")
         axes.set_title(TITLES[remedy], loc="left")
-    panels[-1, 0].set_xlabel("times as efficient: (variance x time) before / after")
+    panels[-1, 0].set_xlabel("efficiency gain: (variance x time) before / after")
     height = figure.get_figheight()
     figure.subplots_adjust(0.2, 0.75 / height, 0.98, 1 - 0.3 / height, hspace=0.45)
     known = {}
@@ -65,15 +65,15 @@ def main():
               row.variance_after, row.rays_per_sample_before, row.rays_per_sample_after] for row in rows]
     style.section(
         folder, "remedies", title="Remedies, before and after", order=55,
-        text=["Each remedy leaves the mean as it is and is measured by what a second yields: renders with and without it "
-              "take turns, with the same seeds. A gain rests on the two variances' standard errors; where the variance "
-              "before is hardly met by so few samples, the gain is a lower bound."],
-        summary={"columns": ["remedy", "place", "method", "times as efficient", "standard error", "variance before", "after",
-                             "rays a sample before", "after"], "rows": table,
-                 "note": "Variances are of one sample, relative to the image."},
-        charts=[{"svg": "remedies.svg", "title": "What each remedy brings",
-                 "caption": "Bars are two standard errors to either side; left of 1 a remedy costs more than it brings."}],
-        tables=[{"csv": "remedies.csv", "title": "All figures"}])
+        text=["Each remedy lowers the variance and leaves the mean unchanged. Renders with and without it alternate, with the same "
+              "seeds. The gain in efficiency is (variance x time) before / after; its standard error comes from those of the two "
+              "variances. If few samples dominate the variance before, the gain is a lower bound."],
+        summary={"columns": ["remedy", "scene", "method", "gain", "standard error", "variance before", "after",
+                             "rays per sample before", "after"], "rows": table,
+                 "note": "Variances are of one sample per pixel, relative to the image."},
+        charts=[{"svg": "remedies.svg", "title": "Gain of each remedy",
+                 "caption": "Error bars are two standard errors. Below 1 a remedy costs more time than it saves."}],
+        tables=[{"csv": "remedies.csv", "title": "All results"}])
 
 
 if __name__ == "__main__":

@@ -25,13 +25,13 @@ double integral(const Function& function, double from, double to) {
                                                                        tolerance);
 }
 
-// Radiance times cosine, by the cosine, of lights that depend on nothing else.
+// L_i cos(theta) as a function of cos(theta). For the disk, without the radiance of the disk.
 double incident(Light light, double cosine) {
   return light == Light::horizon_sky ? sky_scale * cosine / (cosine + sky_height) : cosine;
 }
 
-// Radiance times cosine over the part above the surface of the circle at `alpha` about a lobe whose axis is
-// `angle` from the normal; within the disk its radiance is left out.
+// Integral of L_i cos(theta) over longitude, along the part above the surface of the circle at angle `alpha`
+// about the lobe axis; the axis is at `angle` from the normal. For the disk, without its radiance.
 double circle_integral(Light light, double angle, double alpha) {
   const double along = std::cos(angle) * std::cos(alpha), across = std::sin(angle) * std::sin(alpha);
   if (across <= -along) return 0;
@@ -42,13 +42,13 @@ double circle_integral(Light light, double angle, double alpha) {
                   0.0, turn);
 }
 
-// The integral of cos^n(alpha) times incident light over a cap about the lobe's axis.
+// Integral of cos^n(alpha) L_i cos(theta) over solid angle, in a cap of angle `radius` about the lobe axis.
 double cap_integral(Light light, double exponent, double angle, double radius) {
   const double width = 1 / std::sqrt(exponent + 1), dip = pi / 2 - angle;
   std::vector<double> cuts{0, radius};
   for (const double widths : {0.5, 1., 2., 3., 4., 6., 9.}) cuts.push_back(widths * width);
   for (const double beyond : {-.2, -.05, 0., .05, .2})
-    cuts.push_back(dip + beyond);                 // the sky is brightest there
+    cuts.push_back(dip + beyond);                 // the radiance of the sky peaks at the horizon
   const double end = std::min(radius, 9 * width); // cos^n is below 1e-17 beyond
   std::erase_if(cuts, [&](double cut) { return cut < 0 || cut > end; });
   cuts.push_back(end);
@@ -61,13 +61,14 @@ double cap_integral(Light light, double exponent, double angle, double radius) {
   for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
     const double from = cuts[i], length = cuts[i + 1] - from;
     if (length < 1e-14) continue;
-    // alpha = from + length t^2 takes away the square root with which a circle dips below the surface.
+    // alpha = from + length t^2 removes the square-root singularity where the circle begins to cross the
+    // horizon.
     sum += integral([&](double t) { return integrand(from + length * t * t) * 2 * t * length; }, 0.0, 1.0);
   }
   return sum;
 }
 
-// kd / pi times the integral of incident light over the hemisphere, for kd = 1.
+// 1 / pi times the integral of L_i cos(theta) over the hemisphere: the diffuse part for kd = 1.
 double diffuse_part(Light light, double angle) {
   if (light == Light::mirror_disk) return disk_radiance / pi * cap_integral(light, 0, angle, disk_angle);
   return 2 * integral([&](double cosine) { return incident(light, cosine); }, 0.0, 1.0);

@@ -1,6 +1,7 @@
 #include "bench/sampling/sampler.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -9,34 +10,50 @@
 #include <boost/math/special_functions/gamma.hpp>
 #include <fmt/format.h>
 
+#include "bench/sampling/quadrature.h"
 #include "clock.h"
 
 namespace phlux::bench {
 namespace {
 
-// Float sums of so many terms lose at most a few parts in 1e6 of their standard deviation.
+// Sums of this many float32 terms have a rounding error of a few 1e-6 of their standard deviation.
 constexpr std::uint64_t most_block_samples = 256;
-constexpr int fixed_directions = 16; // a block has a whole multiple of them
+constexpr int fixed_directions = 16; // the size of a block is a multiple of this
 constexpr int powers = 4, counters = 3;
 
-// Directions at the case's angle and even longitudes, in the layout that the kernel reads.
-std::vector<float> directions_at(double degrees, int lanes) {
+// Directions at this angle and equidistant longitudes.
+std::vector<std::array<double, 3>> directions_at(double degrees) {
   const double angle = degrees * std::numbers::pi / 180;
-  std::vector<float> values;
+  std::vector<std::array<double, 3>> directions;
   for (int i = 0; i < fixed_directions; ++i) {
     const double longitude = 2 * std::numbers::pi * (i + 0.25) / fixed_directions;
-    const double direction[3] = {std::sin(angle) * std::cos(longitude), std::sin(angle) * std::sin(longitude),
-                                 std::cos(angle)};
+    directions.push_back(
+        {std::sin(angle) * std::cos(longitude), std::sin(angle) * std::sin(longitude), std::cos(angle)});
+  }
+  return directions;
+}
+
+// The same in every lane, in the layout of the kernel.
+std::vector<float> in_lanes(const std::vector<std::array<double, 3>>& directions, int lanes) {
+  std::vector<float> values;
+  for (const auto& direction : directions)
     for (const double component : direction)
       values.insert(values.end(), static_cast<std::size_t>(lanes), static_cast<float>(component));
-  }
   return values;
 }
 
 constexpr const char* root = "measure/sampling.cl";
 
-std::map<std::string, std::string> defines() {
-  return {{"FIXED_DIRECTIONS", std::to_string(fixed_directions)}};
+std::map<std::string, std::string> defines(const std::string& strategy, const scene::Model& model) {
+  std::string sampled_by = "SAMPLED_BY_MODEL";
+  if (model.name != "phong" && strategy == "cosine") sampled_by = "SAMPLED_BY_COSINE";
+  if (model.name != "phong" && strategy == "uniform") sampled_by = "SAMPLED_BY_HEMISPHERE";
+  return {{"FIXED_DIRECTIONS", std::to_string(fixed_directions)}, {"SAMPLED_BY", sampled_by}};
+}
+
+// Of the Phong model, of which a program for another model has no code.
+std::string phong_strategy(const std::string& strategy, const scene::Model& model) {
+  return model.name == "phong" ? strategy : "exact";
 }
 
 double seconds_of(const cl::Event& event) {
@@ -50,8 +67,8 @@ double rejection_proposals(const Case& one) {
   return (one.diffuse + one.specular * (one.exponent + 2) / 2) / exact_reflectivity(one);
 }
 
-// In the coordinates of kernels/phong-sampling.md the horizon is the longitude psi = pi / 2 - theta, and the
-// lobe's density separates into powers of cos(beta) and cos(psi).
+// In the coordinates of kernels/phong/sampling.md the horizon is at longitude psi = pi / 2 - theta, and the
+// density of the lobe is a product of powers of cos(beta) and cos(psi).
 double printed_loss(const Case& one) {
   const double sine = std::sin(one.degrees * std::numbers::pi / 180);
   return boost::math::ibeta((one.exponent + 1) / 2, 0.5, sine * sine) / 2;
@@ -65,6 +82,10 @@ double printed_density_at_horizon(const Case& one) {
 
 bool has_roulette(const std::string& strategy) {
   return strategy != "uniform" && strategy != "theta-phi" && strategy != "cosine" && strategy != "disk";
+}
+
+std::vector<std::string> strategies_of_model(const scene::Model& model) {
+  return {model.name, "cosine", "uniform"};
 }
 
 void Sampler::Run::add(const Run& other) {
@@ -82,18 +103,21 @@ void Sampler::Run::add(const Run& other) {
 }
 
 std::string Sampler::kernels_fingerprint(const sources::KernelFiles& files,
-                                         const std::vector<std::string>& strategies, int lanes) {
+                                         const std::vector<std::string>& strategies, int lanes,
+                                         const lobes::ModelPointer& model) {
   std::uint64_t hash = 0xcbf29ce484222325; // FNV-1a
   for (const std::string& strategy : strategies)
-    for (const char c : PhongProgram::text(files, root, strategy, lanes, defines()))
+    for (const char c : MaterialProgram::text(files, root, phong_strategy(strategy, *model), lanes,
+                                              defines(strategy, *model), model))
       hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
   return fmt::format("{:016x}", hash);
 }
 
 Sampler::Sampler(const device::Device& device, const sources::KernelFiles& files, const std::string& strategy,
-                 int lanes)
-    : program_(device, files, root, strategy, lanes, defines()), strategy_(strategy),
-      items_(device.info.compute_units * (device.info.type == "cpu" ? 4 : 1024)),
+                 int lanes, const lobes::ModelPointer& model)
+    : program_(device, files, root, phong_strategy(strategy, *model), lanes, defines(strategy, *model),
+               model),
+      strategy_(strategy), items_(device.info.compute_units * (device.info.type == "cpu" ? 4 : 1024)),
       local_(device.info.type == "cpu" ? 1 : 64), kernel_(program_.program(), "sample_moments") {}
 
 Sampler::Blocks Sampler::blocks(std::uint64_t samples) const {
@@ -114,8 +138,23 @@ std::uint32_t Sampler::samples_per_lane(std::uint64_t samples) const {
 void Sampler::prepare(const Case& one) {
   program_.set_material(one);
   if (one == prepared_) return;
-  directions_ = program_.upload(directions_at(one.degrees, program_.lanes()));
+  directions_ = program_.upload(in_lanes(directions_at(one.degrees), program_.lanes()));
   prepared_ = one;
+}
+
+double Sampler::reflectivity_of(const Case& one) {
+  program_.set_material(one);
+  double sum = 0;
+  for (const auto& [x, y, z] : directions_at(one.degrees)) {
+    const cl_float4 fixed{{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z), 0}};
+    const auto evaluate = [&](const std::vector<float>& directions) {
+      const std::size_t count = directions.size() / 3;
+      return program_.run("evaluate_directions", count, count, fixed, program_.upload(directions),
+                          static_cast<cl_int>(count));
+    };
+    sum += hemisphere_integral(evaluate, {{x, y, z}, {-x, -y, z}});
+  }
+  return sum / fixed_directions;
 }
 
 Sampler::Run Sampler::run(const Case& one, std::uint64_t samples, cl_uint2 seed, std::uint32_t first) {

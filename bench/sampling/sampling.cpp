@@ -4,20 +4,18 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <map>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "bench/common/moments.h"
 #include "bench/common/report/draw.h"
-#include "bench/common/report/scripts.h"
 #include "bench/common/status_line.h"
 #include "bench/common/tables/csv.h"
 #include "bench/common/tables/provenance.h"
+#include "bench/common/tables/resume.h"
 #include "bench/common/tables/saved_table.h"
-#include "bench/common/tables/settings.h"
+#include "bench/sampling/sampling_summary.h"
 #include "bench/sampling/sampling_table.h"
 #include "clock.h"
 #include "render/render.h"
@@ -27,11 +25,23 @@ namespace {
 
 constexpr int least_rounds = 5;
 constexpr std::uint64_t largest_launch = std::uint64_t{1} << 23; // samples; the kernel counts in 32 bits
-constexpr double proposals_for_full_count = 16; // beyond, `rejection` gets fewer samples by default
+// With more proposals per sample on average, `rejection` gets proportionally fewer samples by default.
+constexpr double proposals_for_full_count = 16;
 
-constexpr std::array<const char*, 2> tables = {"sampling.csv", "sampling-no-roulette.csv"};
+// Of the tables, of what resumes them, and of the section of the report.
+std::string name_of(const SamplingOptions& options) {
+  return options.material ? "sampling-" + options.material->model->name : "sampling";
+}
 
-bool left_out(const std::string& strategy, const Case& one) {
+std::array<std::string, 2> tables_of(const SamplingOptions& options) {
+  return {name_of(options) + ".csv", name_of(options) + "-no-roulette.csv"};
+}
+
+lobes::ModelPointer model_of(const SamplingOptions& options) {
+  return options.material ? options.material->model : lobes::shipped("phong");
+}
+
+bool is_left_out(const std::string& strategy, const Case& one) {
   return strategy == "rejection" && rejection_proposals(one) > most_proposals;
 }
 
@@ -49,211 +59,173 @@ std::uint64_t launch_of(const std::string& strategy, const Case& one, std::uint6
   return std::clamp<std::uint64_t>(samples / least_rounds, 1, static_cast<std::uint64_t>(most));
 }
 
-// What is measured together: every strategy in one case under one kind of light.
-struct Unit {
+// One integral, which every strategy estimates.
+struct Integral {
   Case one;
   Light light = Light::constant;
-  std::uint32_t number = 0;
+  std::uint32_t number = 0; // for its seed
 };
 
 std::vector<std::string> strategies_of(const SamplingOptions& options) {
+  if (options.material) return strategies_of_model(*options.material->model);
   return options.strategies.empty() ? render::strategy_names() : options.strategies;
 }
 
 std::vector<Case> cases_of(const SamplingOptions& options) {
-  return options.cases.empty() ? sampling_cases(options.quick) : options.cases;
+  if (!options.material) return options.cases.empty() ? sampling_cases(options.quick) : options.cases;
+  std::vector<Case> cases;
+  for (const double degrees : model_angles) cases.push_back({0, 0, 0, degrees, options.material});
+  return cases;
 }
 
 std::vector<Light> lights_of(const SamplingOptions& options) {
+  if (options.material) return {Light::constant};
   if (!options.lights.empty()) return options.lights;
   return {Light::constant, Light::mirror_disk, Light::horizon_sky};
 }
 
-std::vector<Unit> units_of(const std::vector<Case>& cases, const std::vector<Light>& lights) {
-  std::vector<Unit> units;
+std::vector<Integral> integrals_of(const std::vector<Case>& cases, const std::vector<Light>& lights) {
+  std::vector<Integral> integrals;
   for (std::size_t i = 0; i < cases.size(); ++i)
     for (const Light light : lights)
-      units.push_back(
+      integrals.push_back(
           {cases[i], light,
            static_cast<std::uint32_t>(i * light_names().size() + static_cast<std::size_t>(light))});
-  return units;
+  return integrals;
 }
 
-// A row in the making.
-struct Work {
+// A row for which samples are being taken.
+struct PendingRow {
   Sampler* sampler;
-  std::size_t table; // of `tables`
+  std::size_t table; // index in `tables`
   SamplingRow row;
-  std::uint64_t wanted, launch;
-  std::uint32_t first = 0;
+  std::uint64_t wanted, launch; // samples in all, samples per launch
+  std::uint32_t first = 0;      // number of the next sample in each lane
 
   [[nodiscard]] bool done() const {
     return row.run.sums.count >= wanted && row.nanoseconds.size() >= least_rounds;
   }
 };
 
-std::vector<Work> work_of(std::vector<Sampler>& samplers, const Unit& unit, const SamplingOptions& options) {
-  constexpr cl_uint most_rows = 64; // of one unit: each has a seed of its own
-  const double reflected = reflected_radiance(unit.one, unit.light);
-  std::vector<Work> work;
+std::vector<PendingRow> pending_rows(std::vector<Sampler>& samplers, const Integral& integral,
+                                     const SamplingOptions& options) {
+  constexpr cl_uint most_rows = 64; // per integral; each row has its own seed
+  const double reflected = options.material ? samplers.front().reflectivity_of(integral.one)
+                                            : reflected_radiance(integral.one, integral.light);
+  std::vector<PendingRow> pending;
   for (const std::size_t table : {0u, 1u})
     for (Sampler& sampler : samplers) {
       const std::string& strategy = sampler.strategy();
       const bool absorbs = has_roulette(strategy);
-      if (left_out(strategy, unit.one) || (table == 1 && !absorbs)) continue;
-      const std::uint64_t wanted = samples_of(options, strategy, unit.one);
-      const cl_uint2 seed = {{options.seed, unit.number * most_rows + static_cast<cl_uint>(work.size())}};
-      const Subject subject{unit.one, unit.light, absorbs && table == 0, reflected, seed};
-      work.push_back(
-          {&sampler, table, {subject, strategy, {}, {}, {}}, wanted, launch_of(strategy, unit.one, wanted)});
+      if (is_left_out(strategy, integral.one) || (table == 1 && !absorbs)) continue;
+      const std::uint64_t wanted = samples_of(options, strategy, integral.one);
+      const cl_uint2 seed = {
+          {options.seed, integral.number * most_rows + static_cast<cl_uint>(pending.size())}};
+      const Subject subject{integral.one, integral.light, absorbs && table == 0, reflected, seed};
+      pending.push_back({&sampler,
+                         table,
+                         {subject, strategy, {}, {}, {}},
+                         wanted,
+                         launch_of(strategy, integral.one, wanted)});
     }
-  return work;
+  return pending;
 }
 
-// A launch of each in turn until each has its samples.
-void measure(std::vector<Work>& work) {
-  while (!std::ranges::all_of(work, &Work::done))
-    for (Work& w : work) {
-      if (w.done()) continue;
-      const Sampler::Run run = w.sampler->run(w.row.subject, w.launch, w.first);
-      w.first += w.sampler->samples_per_lane(w.launch);
+// Launches the rows in turn until each has its samples.
+void measure(std::vector<PendingRow>& pending) {
+  while (!std::ranges::all_of(pending, &PendingRow::done))
+    for (PendingRow& p : pending) {
+      if (p.done()) continue;
+      const Sampler::Run run = p.sampler->run(p.row.subject, p.launch, p.first);
+      p.first += p.sampler->samples_per_lane(p.launch);
       const auto count = static_cast<double>(run.sums.count);
-      w.row.nanoseconds.push_back(1e9 * run.seconds / count);
-      w.row.wall_nanoseconds.push_back(1e9 * run.wall_seconds / count);
-      w.row.run.add(run);
+      p.row.nanoseconds.push_back(1e9 * run.seconds / count);
+      p.row.wall_nanoseconds.push_back(1e9 * run.wall_seconds / count);
+      p.row.run.add(run);
     }
 }
 
-// ---- Going on
-
-// What an earlier run left of a table, by the text of case and light.
-using Kept = std::map<std::string, std::vector<SavedTable::Row>>;
-
-std::string unit_text(const Unit& unit) {
-  return case_text(unit.one) + "," + light_names()[static_cast<std::size_t>(unit.light)];
-}
-
-Kept kept_rows(const SavedTable& table) {
-  Kept kept;
-  for (const SavedTable::Row& row : table.rows()) {
-    std::vector<std::string> unit;
-    for (const char* column : {"kd", "ks", "n", "theta_deg", "integrand"})
-      unit.push_back(table.value(row, column));
-    kept[fmt::format("{}", fmt::join(unit, ","))].push_back(row);
+// "--set NAME=VALUE" for each parameter of a given material.
+std::string parameters_text(const SamplingOptions& options) {
+  std::string text;
+  if (!options.material) return text;
+  const auto& parameters = options.material->model->parameters;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const scene::Rgb& value = options.material->values[i];
+    text += fmt::format(" --set {}={:g}", parameters[i].name, value.r);
+    if (parameters[i].kind == scene::Parameter::Kind::colour)
+      text += fmt::format(",{:g},{:g}", value.g, value.b);
   }
-  return kept;
+  return text;
 }
 
-std::size_t rows_of(const Unit& unit, const std::vector<std::string>& strategies, std::size_t table) {
+std::string integral_text(const Integral& integral) {
+  return case_text(integral.one) + "," + light_names()[static_cast<std::size_t>(integral.light)];
+}
+
+// ---- Resuming an earlier run
+
+std::size_t rows_of(const Integral& integral, const std::vector<std::string>& strategies, std::size_t table) {
   return static_cast<std::size_t>(std::ranges::count_if(strategies, [&](const std::string& strategy) {
-    return !left_out(strategy, unit.one) && (table == 0 || has_roulette(strategy));
+    return !is_left_out(strategy, integral.one) && (table == 0 || has_roulette(strategy));
   }));
 }
 
-// Removes the first units, whose rows are all there, from `units` and returns their lines for each table.
-std::array<std::vector<std::string>, 2> take_finished(std::vector<Unit>& units,
+// Removes the leading integrals whose rows are all saved, and returns these rows for each table.
+std::array<std::vector<std::string>, 2> take_finished(std::vector<Integral>& integrals,
                                                       const std::vector<std::string>& strategies,
-                                                      const std::filesystem::path& folder) {
-  const auto rows_kept = [&](std::size_t table) {
-    return kept_rows(SavedTable(folder, tables[table], sampling_columns()));
+                                                      const SamplingOptions& options) {
+  const auto saved_rows = [&](std::size_t table) {
+    return rows_by_integral(SavedTable(options.folder, tables_of(options).at(table), sampling_columns()));
   };
-  std::array<Kept, 2> kept = {rows_kept(0), rows_kept(1)};
+  std::array<RowsByIntegral, 2> saved = {saved_rows(0), saved_rows(1)};
   std::array<std::vector<std::string>, 2> lines;
   std::size_t finished = 0;
-  for (; finished < units.size(); ++finished) {
-    const Unit& unit = units[finished];
-    const std::string text = unit_text(unit);
-    if (kept[0][text].size() != rows_of(unit, strategies, 0) ||
-        kept[1][text].size() != rows_of(unit, strategies, 1))
+  for (; finished < integrals.size(); ++finished) {
+    const Integral& integral = integrals[finished];
+    const std::string text = integral_text(integral);
+    if (saved[0][text].size() != rows_of(integral, strategies, 0) ||
+        saved[1][text].size() != rows_of(integral, strategies, 1))
       break;
     for (const std::size_t table : {0u, 1u})
-      for (const SavedTable::Row& row : kept[table][text])
+      for (const SavedTable::Row& row : saved[table][text])
         lines[table].push_back(fmt::format("{}", fmt::join(row, ",")));
   }
-  units.erase(units.begin(), units.begin() + static_cast<std::ptrdiff_t>(finished));
+  integrals.erase(integrals.begin(), integrals.begin() + static_cast<std::ptrdiff_t>(finished));
   return lines;
 }
 
 nlohmann::json settings_of(const SamplingOptions& options, const device::Device& device, int lanes,
-                           const std::vector<std::string>& strategies, const std::vector<Unit>& units,
+                           const std::vector<std::string>& strategies, const std::vector<Integral>& integrals,
                            const std::string& kernels) {
   nlohmann::json cases = nlohmann::json::array();
-  for (const Unit& unit : units) cases.push_back(unit_text(unit));
+  for (const Integral& integral : integrals) cases.push_back(integral_text(integral));
   return {{"phlux", PHLUX_VERSION},
           {"device", device.info.platform + ", " + device.info.name + ", " + device.info.driver},
           {"width", lanes},
           {"kernels", kernels},
           {"strategies", strategies},
+          {"material", parameters_text(options)},
           {"samples", samples_of(options, "exact", {})},
           {"seed", options.seed},
           {"cases", cases}};
 }
 
-// ---- Summary
-
-struct Summary {
-  double largest_bias = 0;
-  int defects = 0, rows = 0, marked = 0, cheapest = 0;
-  std::vector<double> relative_costs; // to lobe-ks in the same unit
-};
-
-std::map<std::string, Summary> summaries_of(const SavedTable& table) {
-  const auto number = [&](const SavedTable::Row& row, const char* column) {
-    return std::stod(table.value(row, column));
-  };
-  std::map<std::string, Summary> summaries;
-  for (const auto& [unit, rows] : kept_rows(table)) {
-    const auto plain =
-        std::ranges::find_if(rows, [](const SavedTable::Row& row) { return row.front() == "lobe-ks"; });
-    const SavedTable::Row* cheapest = nullptr;
-    for (const SavedTable::Row& row : rows) {
-      Summary& summary = summaries[row.front()];
-      const double bias = number(row, "bias_sigma");
-      const std::string& marks = table.value(row, "marks");
-      if (std::abs(bias) > std::abs(summary.largest_bias) && marks.find("unresolved") == std::string::npos)
-        summary.largest_bias = bias;
-      summary.defects += number(row, "defects") > 0 ? 1 : 0;
-      ++summary.rows;
-      if (plain != rows.end())
-        summary.relative_costs.push_back(number(row, "ns_per_sample") / number(*plain, "ns_per_sample"));
-      if (!marks.empty()) {
-        ++summary.marked;
-        continue;
-      }
-      if (cheapest == nullptr ||
-          number(row, "variance_times_cost") < number(*cheapest, "variance_times_cost"))
-        cheapest = &row;
-    }
-    if (cheapest != nullptr) ++summaries[cheapest->front()].cheapest;
-  }
-  return summaries;
-}
-
-void print_summary(const std::vector<std::string>& strategies, const SavedTable& table) {
-  const auto summaries = summaries_of(table);
-  fmt::print("{:<22} {:>6} {:>7} {:>20} {:>8} {:>24} {:>26}\n", "strategy", "rows", "marked",
-             "largest bias / sigma", "defects", "time / lobe-ks (median)", "least variance x time in");
-  for (const std::string& strategy : strategies) {
-    const auto found = summaries.find(strategy);
-    if (found == summaries.end()) continue;
-    const Summary& s = found->second;
-    fmt::print("{:<22} {:>6} {:>7} {:>20.2f} {:>8} {:>24} {:>26}\n", strategy, s.rows, s.marked,
-               s.largest_bias, s.defects,
-               s.relative_costs.empty() ? "" : fmt::format("{:.2f}", median(s.relative_costs)), s.cheapest);
-  }
-}
+// ---- The whole measurement
 
 void print_left_out(const std::vector<std::string>& strategies, const std::vector<Case>& cases) {
   if (std::ranges::count(strategies, "rejection") == 0) return;
-  const auto count = std::ranges::count_if(cases, [](const Case& one) { return left_out("rejection", one); });
+  const auto count =
+      std::ranges::count_if(cases, [](const Case& one) { return is_left_out("rejection", one); });
   if (count > 0)
-    fmt::print("rejection is left out of {} cases: more than {:.0f} proposals a sample\n", count,
+    fmt::print("rejection is left out of {} cases: more than {:.0f} proposals per sample\n", count,
                most_proposals);
 }
 
 std::string command_of(const SamplingOptions& options) {
   std::string command = "phlux bench sampling";
   if (options.quick) command += " --quick";
+  if (options.material) command += " --lobe " + options.material->model->file + parameters_text(options);
   for (const std::string& strategy : options.strategies) command += " --strategy " + strategy;
   for (const Case& one : options.cases) command += " --case " + case_text(one);
   for (const Light light : options.lights)
@@ -272,11 +244,12 @@ std::string progress_text(std::size_t done, std::size_t all, std::size_t done_no
 }
 
 std::vector<Sampler> build_samplers(const device::Device& device, const sources::KernelFiles& files,
-                                    const std::vector<std::string>& strategies, int lanes) {
+                                    const SamplingOptions& options, int lanes) {
   std::vector<Sampler> samplers;
-  for (const std::string& strategy : strategies) {
-    samplers.emplace_back(device, files, strategy, lanes);
-    (void)samplers.back().run({.4, .4, 10, 60}, 1, {{0, 0}}); // warms up
+  for (const std::string& strategy : strategies_of(options)) {
+    samplers.emplace_back(device, files, strategy, lanes, model_of(options));
+    const Subject any{{.4, .4, 10, 60, options.material}};
+    (void)samplers.back().run(any, 1); // the first launch may compile
   }
   return samplers;
 }
@@ -307,30 +280,31 @@ bool write_sampling_tables(const SamplingOptions& options) {
   const device::Device device = device::open_devices(options.devices).front();
   const int lanes = options.lanes_on(device.info);
   const auto strategies = strategies_of(options);
-  std::vector<Unit> units = units_of(cases_of(options), lights_of(options));
-  const std::size_t all = units.size();
+  const auto tables = tables_of(options);
+  std::vector<Integral> integrals = integrals_of(cases_of(options), lights_of(options));
+  const std::size_t all = integrals.size();
   const sources::KernelFiles files = kernel_files(options.kernel_dir);
-  const auto settings = settings_of(options, device, lanes, strategies, units,
-                                    Sampler::kernels_fingerprint(files, strategies, lanes));
-  std::array<std::vector<std::string>, 2> kept;
-  if (goes_on(options.folder, "sampling", {tables.begin(), tables.end()}, settings, options.fresh))
-    kept = take_finished(units, strategies, options.folder);
+  const auto settings =
+      settings_of(options, device, lanes, strategies, integrals,
+                  Sampler::kernels_fingerprint(files, strategies, lanes, model_of(options)));
+  std::array<std::vector<std::string>, 2> saved;
+  if (can_resume(options.folder, name_of(options), {tables.begin(), tables.end()}, settings, options.fresh))
+    saved = take_finished(integrals, strategies, options);
   const std::string header = fmt::format("{}", fmt::join(sampling_columns(), ","));
-  std::array<CsvFile, 2> csv = {CsvFile(options.folder, tables[0], header, kept[0]),
-                                CsvFile(options.folder, tables[1], header, kept[1])};
-  if (units.size() < all)
-    fmt::print("goes on with an earlier run: {} of {} measurements are there (--fresh makes them anew)\n",
-               all - units.size(), all);
-  if (units.empty()) return true;
-  std::vector<Sampler> samplers = build_samplers(device, files, strategies, lanes);
+  std::array<CsvFile, 2> csv = {CsvFile(options.folder, tables[0], header, saved[0]),
+                                CsvFile(options.folder, tables[1], header, saved[1])};
+  if (integrals.size() < all)
+    fmt::print("resumes an earlier run: {} of {} measurements are there\n", all - integrals.size(), all);
+  if (integrals.empty()) return true;
+  std::vector<Sampler> samplers = build_samplers(device, files, options, lanes);
   StatusLine status;
   const Clock::time_point begin = Clock::now();
-  for (std::size_t i = 0; i < units.size(); ++i) {
+  for (std::size_t i = 0; i < integrals.size(); ++i) {
     if (options.interrupted && options.interrupted()) return false;
-    status.show(progress_text(all - units.size() + i, all, i, begin));
-    std::vector<Work> work = work_of(samplers, units[i], options);
-    measure(work);
-    for (const Work& w : work) csv[w.table].line(sampling_line(w.row, device.info.name, lanes));
+    status.show(progress_text(all - integrals.size() + i, all, i, begin));
+    std::vector<PendingRow> pending = pending_rows(samplers, integrals[i], options);
+    measure(pending);
+    for (const PendingRow& p : pending) csv[p.table].line(sampling_line(p.row, device.info.name, lanes));
   }
   return true;
 }
@@ -339,15 +313,16 @@ bool measure_sampling(const SamplingOptions& options) {
   if (!write_sampling_tables(options)) return false;
   const device::Device device = device::open_devices(options.devices).front();
   const int lanes = options.lanes_on(device.info);
+  const auto tables = tables_of(options);
   fmt::print("{}, WIDTH {}\n", device.info.name, lanes);
-  print_summary(strategies_of(options), SavedTable(options.folder, tables[0], sampling_columns()));
+  print_sampling_summary(strategies_of(options), SavedTable(options.folder, tables[0], sampling_columns()));
   print_left_out(strategies_of(options), cases_of(options));
-  for (const char* table : tables) fmt::print("{}\n", (options.folder / table).string());
+  for (const std::string& table : tables) fmt::print("{}\n", (options.folder / table).string());
   std::fflush(stdout);
-  write_provenance(options.folder, "sampling",
+  write_provenance(options.folder, name_of(options),
                    {command_of(options), device.info, lanes,
                     "kernels are built and run once before anything is timed", std::to_string(options.seed)});
-  draw_charts(options.folder, sampling_script());
+  draw_charts(options.folder, options.material ? "sampling_model" : "sampling");
   return true;
 }
 

@@ -1,8 +1,10 @@
-// Every sampling strategy over materials and angles: mean, variance, rays and time of one sample.
+// Measures each directional sampling strategy for many materials and angles: mean, variance, rays and time
+// per sample.
 #pragma once
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,32 +15,39 @@
 namespace phlux::bench {
 
 struct SamplingOptions : CommonOptions {
-  std::vector<std::string> strategies;  ///< empty: all
+  std::vector<std::string> strategies; ///< empty: all
+  std::shared_ptr<const scene::Material>
+      material;                         ///< of another model than the Phong model, to measure instead
   std::vector<Case> cases;              ///< empty: the grid
   std::vector<Light> lights;            ///< empty: all
-  bool quick = false;                   ///< a grid of thirteen cases
-  bool fresh = false;                   ///< forget what an earlier run left in the folder
-  std::optional<std::uint64_t> samples; ///< per row; absent: 2^19, 2^18 when quick, fewer where a sample
-                                        ///< costs much
+  bool quick = false;                   ///< thirteen cases
+  bool fresh = false;                   ///< do not resume an earlier run
+  std::optional<std::uint64_t> samples; ///< per row; default: 2^19, or 2^18 if quick; fewer for `rejection`
+                                        ///< where it needs many proposals
   std::uint32_t seed = 1;
-  std::function<bool()> interrupted; ///< asked after each case
+  std::function<bool()> interrupted; ///< called before each case; may be empty
 };
 
-/// Above so many proposals for a sample `rejection` is left out.
+/// `rejection` is left out of cases in which it needs more proposals per sample on average.
 inline constexpr double most_proposals = 1000;
 
-/// The cases of MATH.md 2.6, whose variances are known by quadrature, then a grid over material, exponent and
+/// Four cases whose variances are known by quadrature (MATH.md 2.6), then a grid over material, exponent and
 /// angle.
 [[nodiscard]] std::vector<Case> sampling_cases(bool quick);
 
-/// Measures and writes to the folder as it goes: sampling.csv, where strategies absorb by roulette if that is
-/// how they work, and sampling-no-roulette.csv, where those do not. Strategies take turns, so that they share
-/// what else the machine does. Goes on where a run with the same settings was stopped. Returns whether it
-/// came to its end. @throws UsageError, DeviceError, WriteError
+/// Angles of incidence, in degrees, at which a material of another model than the Phong model is measured.
+inline constexpr double model_angles[] = {0, 30, 60, 75, 85};
+
+/// Writes sampling.csv, with Russian roulette in those strategies that have it, and sampling-no-roulette.csv,
+/// these strategies without roulette. The strategies alternate, so that other load on the machine affects all
+/// alike. Resumes an interrupted run with the same settings. Returns false if interrupted. For a given
+/// material the tables are sampling-MODEL.csv and sampling-MODEL-no-roulette.csv: the model's own sampling,
+/// cosine and uniform, under constant light, against the reflectivity by quadrature.
+/// @throws UsageError, DeviceError, WriteError
 [[nodiscard]] bool write_sampling_tables(const SamplingOptions& options);
 
-/// The tables, a summary on standard output, and the charts and section of the report. @throws as the above;
-/// WriteError also when the charts cannot be drawn: the tables are there then
+/// Writes the tables, prints a summary, and writes the charts and the section of the report. @throws as the
+/// above; WriteError also if the charts cannot be drawn, when the tables are complete
 [[nodiscard]] bool measure_sampling(const SamplingOptions& options);
 
 } // namespace phlux::bench

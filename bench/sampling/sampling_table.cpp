@@ -14,20 +14,20 @@
 namespace phlux::bench {
 namespace {
 
-// A bias or a divergence that not one in so many samples would meet is none.
+// Probabilities below are too small for a bias or a divergence ever to be measured.
 constexpr double least_share = 1e-10;
 constexpr double most_relative_error = 1.0 / 3;
 constexpr double most_sigmas = 4;
 constexpr double least_lobe_samples = 32;
-// What float32 and the table of reflectivities make of a mean, and what float32 makes of a constant.
+// Relative errors: of a mean, by float32 and the table of reflectivities; of a constant, by float32.
 constexpr double arithmetic_error = 1e-5;
 constexpr double rounding = 1e-6;
 
-// Of so many samples, how many a strategy that knows nothing of the lobe sends into its solid angle,
-// 2 pi / (n + 1), by its density at the lobe's axis.
+// Expected number of samples in the lobe, for strategies that ignore the lobe: solid angle of the lobe,
+// 2 pi / (n + 1), times the density on its axis.
 double lobe_samples(const SamplingRow& row) {
   const auto count = static_cast<double>(row.run.sums.count);
-  if (has_roulette(row.strategy)) return count;
+  if (has_roulette(row.strategy) || row.subject.one.given) return count;
   const double angle = row.subject.one.degrees * std::numbers::pi / 180, n = row.subject.one.exponent;
   const double width = 1 / std::sqrt(n + 1), solid_angle = 2 * std::numbers::pi / (n + 1);
   double density = 1 / (2 * std::numbers::pi);
@@ -92,7 +92,7 @@ Marks marks_of(const SamplingRow& row) {
     marks.biased = printed_loss(row.subject.one) > least_share;
     marks.diverges = printed_density_at_horizon(row.subject.one) > least_share;
   }
-  // Samples that all missed what there is to see do not vary either: they are far off.
+  // Samples that all miss the light are constant too, but then their mean is far from the exact value.
   marks.unresolved = lobe_samples(row) < least_lobe_samples ||
                      (constant ? far : !(m.variance_standard_error <= most_relative_error * m.variance));
   marks.off = far && !marks.biased;
@@ -100,7 +100,19 @@ Marks marks_of(const SamplingRow& row) {
 }
 
 std::string case_text(const Case& one) {
+  if (one.given) return fmt::format(",,,{}", one.degrees);
   return fmt::format("{},{},{},{}", one.diffuse, one.specular, one.exponent, one.degrees);
+}
+
+RowsByIntegral rows_by_integral(const SavedTable& table) {
+  RowsByIntegral rows;
+  for (const SavedTable::Row& row : table.rows()) {
+    std::vector<std::string> integral;
+    for (const char* column : {"kd", "ks", "n", "theta_deg", "integrand"})
+      integral.push_back(table.value(row, column));
+    rows[fmt::format("{}", fmt::join(integral, ","))].push_back(row);
+  }
+  return rows;
 }
 
 std::string sampling_line(const SamplingRow& row, const std::string& device, int lanes) {
@@ -109,8 +121,8 @@ std::string sampling_line(const SamplingRow& row, const std::string& device, int
   const auto per_sample = [&](std::uint64_t count) {
     return static_cast<double>(count) / static_cast<double>(row.run.sums.count);
   };
-  const double earned = marks.diverges ? std::numeric_limits<double>::quiet_NaN() : 1;
-  const double variance = earned * m.variance, nanoseconds = median(row.nanoseconds),
+  const double factor = marks.diverges ? std::numeric_limits<double>::quiet_NaN() : 1;
+  const double variance = factor * m.variance, nanoseconds = median(row.nanoseconds),
                rays = per_sample(row.run.rays);
   const auto [least, most] = std::ranges::minmax(row.nanoseconds);
   return fmt::format("{},{},{},{:.9g},{:.9g},{:.4g},{:.8g},{:.4g},{:.6g},{:.5g},{:.6g},{:.6g},{:.6g},{},{},{:"
@@ -118,7 +130,7 @@ std::string sampling_line(const SamplingRow& row, const std::string& device, int
                      "{},{:.5g},{},{:.8g},{},{}",
                      row.strategy, case_text(row.subject.one), row.run.sums.count, m.mean,
                      row.subject.reflected, bias_in_sigmas(m, row.subject.reflected), variance,
-                     earned * m.variance_standard_error, rays, nanoseconds, variance * nanoseconds,
+                     factor * m.variance_standard_error, rays, nanoseconds, variance * nanoseconds,
                      variance * rays, per_sample(row.run.draws), row.subject.roulette ? 1 : 0,
                      row.run.defects, least, most, row.subject.seed.s[0], csv_value(device), lanes,
                      median(row.wall_nanoseconds), row.nanoseconds.size(), m.variance, marks.text(),

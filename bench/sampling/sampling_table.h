@@ -1,14 +1,16 @@
-// Rows of `phlux bench sampling`: what is said of a strategy in a case, and what is not.
+// Rows of sampling.csv and sampling-no-roulette.csv, and the marks on rows that must not be compared.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
+#include "bench/common/tables/saved_table.h"
 #include "bench/sampling/sampler.h"
 
 namespace phlux::bench {
 
-/// What one row says.
+/// The measurement of one row.
 struct SamplingRow {
   Subject subject;
   std::string strategy;
@@ -16,30 +18,34 @@ struct SamplingRow {
   std::vector<double> nanoseconds, wall_nanoseconds; ///< per sample, of each round
 };
 
-/// The columns of the contract, then those that say how they were measured; the kind of light comes last.
+/// The columns of the contract, then those about the measurement; the last one is the kind of light.
 [[nodiscard]] const std::vector<std::string>& sampling_columns();
 
-/// What keeps a row from being compared with others.
+/// Reasons why a row must not be compared with others.
 struct Marks {
-  bool biased = false;     ///< a known bias, of any size that could ever be seen
-  bool diverges = false;   ///< the variance is infinite by what printed_density_at_horizon() says
-  bool unresolved = false; ///< too few samples: the variance's standard error is above a third of it, or
-                           ///< hardly one is expected where the lobe is
-  bool off = false; ///< without a known bias, the mean is 4 standard errors or more from the exact value, and
-                    ///< by more than the arithmetic explains
+  bool biased = false;     ///< known bias, if large enough ever to be measured
+  bool diverges = false;   ///< infinite variance, by printed_density_at_horizon()
+  bool unresolved = false; ///< too few samples: relative standard error of the variance above a third, or
+                           ///< too few samples expected in the lobe
+  bool off = false; ///< without a known bias, the mean differs from the exact value by 4 standard errors or
+                    ///< more, and by more than rounding explains
 
   [[nodiscard]] bool any() const { return biased || diverges || unresolved || off; }
-  /// "biased infinite-variance-suspected unresolved mean-off", as many as there are.
+  /// Those that apply, of "biased infinite-variance-suspected unresolved mean-off".
   [[nodiscard]] std::string text() const;
 };
 
 [[nodiscard]] Marks marks_of(const SamplingRow& row);
 
-/// One line under sampling_columns(). A variance that is suspected to be infinite is nan, and so are its
-/// standard error and its products; sample_variance has what these samples happened to give.
+/// The row as text. A variance that is suspected to be infinite is nan, and so are its standard error and its
+/// products; sample_variance is then the variance of these samples.
 [[nodiscard]] std::string sampling_line(const SamplingRow& row, const std::string& device, int lanes);
 
-/// The values of kd, ks, n, theta_deg as they stand in the table.
+/// The columns kd, ks, n, theta_deg as text; the first three are empty for a material of another model.
 [[nodiscard]] std::string case_text(const Case& one);
+
+/// The rows of a saved table by the text of case and light: "kd,ks,n,theta_deg,integrand".
+using RowsByIntegral = std::map<std::string, std::vector<SavedTable::Row>>;
+[[nodiscard]] RowsByIntegral rows_by_integral(const SavedTable& table);
 
 } // namespace phlux::bench

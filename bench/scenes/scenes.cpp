@@ -12,48 +12,45 @@
 #include "bench/common/methods/result_table.h"
 #include "bench/common/methods/timed_render.h"
 #include "bench/common/report/draw.h"
-#include "bench/common/report/scripts.h"
 #include "bench/common/status_line.h"
 #include "bench/common/tables/array_file.h"
 #include "bench/common/tables/csv.h"
 #include "bench/common/tables/fingerprint.h"
 #include "bench/common/tables/provenance.h"
+#include "bench/scenes/scene_files.h"
 #include "clock.h"
 #include "device/device.h"
 #include "errors.h"
-#include "scene/image_size.h"
 #include "scene_file/load.h"
 
 namespace phlux::bench {
 namespace {
 
-constexpr double default_seconds = 120, quick_seconds = 11; // a scene
+constexpr double default_seconds = 120, quick_seconds = 11; // per scene
 constexpr double default_total = 17 * 60, quick_total = 90;
 constexpr int default_side = 128, quick_side = 64;
 
 const std::vector<std::string> convergence_columns = {
     "seconds", "samples_per_pixel", "relmse", "relmse_least", "relmse_most", "relmse_expected", "rounds"};
 
-// ---- What is the same in two runs
-
 std::string text_of(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-struct Run { // what all scenes share
+struct Run { // settings of all scenes
   const ScenesOptions& options;
   device::DeviceInfo device;
   int lanes = 0;
   std::vector<Method> methods;
-  double seconds = 0;      // a scene
-  double seconds_left = 0; // a scene, of what building kernels left
+  double seconds = 0;      // per scene
+  double seconds_left = 0; // per scene, after building kernels
 };
 
 struct SceneRun {
   std::string name;
   scene::Scene scene;
-  std::string settings; // fingerprint of all that the figures depend on but the method
+  std::string settings; // fingerprint of everything that the results depend on, except the method
 };
 
 SceneRun load(const std::filesystem::path& file, const Run& run) {
@@ -91,8 +88,8 @@ struct Tables {
 
   void replace(const Run& run, const SceneRun& scene, const std::vector<Method>& methods,
                const ReferenceImage& reference, const std::vector<MethodResult>& measured) {
-    results.forget({scene.name}, methods, scene.settings);
-    convergence.forget({scene.name}, methods, scene.settings);
+    results.remove({scene.name}, methods, scene.settings);
+    convergence.remove({scene.name}, methods, scene.settings);
     for (const MethodResult& result : measured) {
       results.add({scene.name}, result.method,
                   result_values(result, reference, scene.scene.camera,
@@ -106,7 +103,7 @@ struct Tables {
   }
   void write() const {
     convergence.write();
-    results.write(); // last: what it has is there in full
+    results.write(); // last: its rows then have their convergence rows
   }
 
   ResultTable results, convergence;
@@ -177,7 +174,7 @@ SceneResults measure(const Run& run, const SceneRun& scene, const std::vector<Me
   bench.try_methods(methods);
   ReferenceImage reference = reference_of(bench, scene, run.options.folder / "references");
   const std::vector<MethodResult> results = bench.measure(reference);
-  // The reference's own renders may all have missed what the rounds met.
+  // The renders of the reference may all lack large samples that the rounds have drawn.
   for (const MethodResult& result : results)
     if (result.method.name() == reference.method)
       reference.relmse = std::max(reference.relmse, result.variance.value / reference.samples_per_pixel);
@@ -192,8 +189,8 @@ void check_names(const std::vector<std::filesystem::path>& files) {
   std::map<std::string, std::filesystem::path> seen;
   for (const auto& file : files)
     if (const auto [other, added] = seen.try_emplace(file.stem().string(), file); !added)
-      throw UsageError(fmt::format("--scene {}: has the name of {}: tables tell scenes by it", file.string(),
-                                   other->second.string()));
+      throw UsageError(fmt::format("{}: has the name of {}: tables identify scenes by it: rename one of them",
+                                   file.string(), other->second.string()));
 }
 
 double seconds_for_each(const ScenesOptions& options, double total, std::size_t scenes) {
@@ -209,11 +206,11 @@ std::string command_of(const ScenesOptions& options) {
   return command;
 }
 
-struct Done {
+struct Progress {
   std::size_t scenes = 0, programs = 0, programs_built = 0;
 };
 
-void measure_all(const Run& run, const std::vector<SceneRun>& scenes, Tables& tables, Done& done) {
+void measure_all(const Run& run, const std::vector<SceneRun>& scenes, Tables& tables, Progress& progress) {
   StatusLine status;
   std::vector<std::vector<Method>> methods_of;
   for (const SceneRun& scene : scenes)
@@ -226,7 +223,7 @@ void measure_all(const Run& run, const std::vector<SceneRun>& scenes, Tables& ta
     }
     const Clock::time_point begin = Clock::now();
     const auto later = std::count_if(methods_of.begin() + static_cast<std::ptrdiff_t>(i) + 1,
-                                     methods_of.end(), [](const auto& those) { return !those.empty(); });
+                                     methods_of.end(), [](const auto& missing) { return !missing.empty(); });
     const SceneResults results = measure(run, scenes[i], methods, tables, [&](const std::string& what) {
       const double left = std::max(0.0, run.seconds_left - seconds_since(begin)) +
                           run.seconds_left * static_cast<double>(later);
@@ -235,68 +232,48 @@ void measure_all(const Run& run, const std::vector<SceneRun>& scenes, Tables& ta
     });
     status.clear();
     print(scenes[i], results.reference, results.methods);
-    ++done.scenes;
+    ++progress.scenes;
   }
 }
 
-void finish(const Run& run, const Done& done) {
-  // Where nothing was measured, what is there says how it was.
-  if (done.scenes > 0 || !std::filesystem::exists(run.options.folder / "scenes.provenance.json")) {
+void finish(const Run& run, const Progress& progress) {
+  // If nothing was measured now, the saved provenance is still valid.
+  if (progress.scenes > 0 || !std::filesystem::exists(run.options.folder / "scenes.provenance.json")) {
     const std::string kernels =
-        done.programs > 0
-            ? fmt::format("{} programs of {} scenes and methods were not in the cache; all were built before "
-                          "anything was timed",
-                          done.programs_built, done.programs)
+        progress.programs > 0
+            ? fmt::format(
+                  "{} programs for {} pairs of scene and method were not in the cache; all were built "
+                  "before anything was timed",
+                  progress.programs_built, progress.programs)
             : "built before anything was timed";
-    write_provenance(run.options.folder, "scenes",
-                     {command_of(run.options), run.device, run.lanes, kernels,
-                      fmt::format("{} and up for the rounds, from 1000000 above for trials, from 2000000 "
-                                  "above for references",
-                                  run.options.seed)});
+    write_provenance(
+        run.options.folder, "scenes",
+        {command_of(run.options), run.device, run.lanes, kernels,
+         fmt::format("from {} for the rounds, 1000000 more for trials, 2000000 more for references",
+                     run.options.seed)});
   }
-  draw_charts(run.options.folder, scenes_script());
+  draw_charts(run.options.folder, "scenes");
 }
 
 } // namespace
 
-scene::Scene load_at_size(const std::filesystem::path& file, int largest_side) {
-  scene::Scene scene = scene_file::load(file);
-  scene::shrink_image(scene.camera, largest_side);
-  return scene;
-}
-
-std::vector<std::filesystem::path> shipped_scenes() {
-  std::error_code ignored;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", ignored);
-  for (const std::filesystem::path& folder :
-       {std::filesystem::path("scenes"), program.parent_path().parent_path() / "scenes"}) {
-    std::vector<std::filesystem::path> files;
-    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
-      if (entry.path().extension() == ".xml") files.push_back(entry.path());
-    std::ranges::sort(files);
-    if (!files.empty()) return files;
-  }
-  throw UsageError("no folder scenes/ here with scenes that ship: name some with --scene FILE.xml");
-}
-
 bool measure_scenes(const ScenesOptions& options) {
   const std::vector<std::filesystem::path> files = options.scenes.empty() ? shipped_scenes() : options.scenes;
   check_names(files);
-  for (const auto& file : files)
-    (void)scene_file::load(file); // bad ones are errors before minutes have passed
+  check_scenes(files);
   make_folder(options.folder);
   Tables tables(options.folder);
-  Done done;
+  Progress progress;
   const Clock::time_point begin = Clock::now();
   const std::vector<Method> methods = all_methods(options.strategies, options.quick);
   if (options.build_ahead && tables.results.empty()) {
     tables.write();
     StatusLine status;
     status.show("building kernels");
-    done.programs = files.size() * methods.size();
+    progress.programs = files.size() * methods.size();
     std::vector<std::function<scene::Scene()>> loads;
     for (const auto& file : files) loads.emplace_back([&file] { return scene_file::load(file); });
-    done.programs_built = build_programs(loads, methods, settings_for(options));
+    progress.programs_built = build_programs(loads, methods, settings_for(options));
   }
   const device::Device device = device::open_devices(options.devices).front();
   const double total = options.quick ? quick_total : default_total;
@@ -309,11 +286,11 @@ bool measure_scenes(const ScenesOptions& options) {
                 seconds_left_for_each(options, seconds, total, seconds_since(begin), files.size())};
   std::vector<SceneRun> scenes;
   for (const auto& file : files) scenes.push_back(load(file, run));
-  if (!runs_to_end([&] { measure_all(run, scenes, tables, done); }, options.interrupted)) {
-    fmt::print("interrupted: the same command goes on with the scenes that are missing\n");
+  if (!runs_to_end([&] { measure_all(run, scenes, tables, progress); }, options.interrupted)) {
+    fmt::print("interrupted: the same command resumes with the missing scenes\n");
     return false;
   }
-  finish(run, done);
+  finish(run, progress);
   fmt::print("{}\n", (options.folder / "index.html").string());
   return true;
 }

@@ -1,32 +1,23 @@
-// Every method on every scene: variance, time, their product, convergence against a reference, charts and a
-// report.
+// Measures every method on every scene: variance, time, their product, and convergence to a reference.
 #pragma once
 
 #include <filesystem>
 #include <vector>
 
 #include "bench/common/methods/comparison.h"
-#include "scene/scene.h"
 
 namespace phlux::bench {
 
-/// Absent seconds: what keeps all within 17 minutes, or 90 s when quick. Absent side: 128, or 64.
+/// Default of seconds: 120, or 11 if quick, but 17 minutes, or 90 s, for all scenes at most. Default of side:
+/// 128, or 64 if quick.
 struct ScenesOptions : ComparisonOptions {
-  std::vector<std::filesystem::path> scenes; ///< empty: those that ship with phlux
+  std::vector<std::filesystem::path> scenes; ///< empty: shipped_scenes()
 };
 
-/// Writes scenes.csv (the columns of the contract, then those that say how they were measured), the doubling
-/// times in scenes-convergence.csv, the references and images, then charts and the report. Rows that the
-/// folder has of the same settings are kept, so that an interrupted run goes on where it was stopped, at the
-/// scene.
-/// Returns false when interrupted. @throws UsageError, SceneError, DeviceError, WriteError
+/// Writes scenes.csv (the columns of the contract, then those about the measurement), scenes-convergence.csv
+/// (errors at doubling times), references and images, then charts and the report. Keeps the rows that an
+/// earlier run with the same settings left in the folder; resumes an interrupted run at its scene. Returns
+/// false if interrupted. @throws UsageError, SceneError, DeviceError, WriteError
 [[nodiscard]] bool measure_scenes(const ScenesOptions& options);
-
-/// The scene in `file`, its image no larger than `largest_side` pixels. @throws SceneError
-[[nodiscard]] scene::Scene load_at_size(const std::filesystem::path& file, int largest_side);
-
-/// The scenes that ship: scenes/*.xml in the working directory, or beside the program's folder. @throws
-/// UsageError where there are none
-[[nodiscard]] std::vector<std::filesystem::path> shipped_scenes();
 
 } // namespace phlux::bench

@@ -10,7 +10,6 @@
 #include "bench/common/methods/result_table.h"
 #include "bench/common/methods/timed_render.h"
 #include "bench/common/report/draw.h"
-#include "bench/common/report/scripts.h"
 #include "bench/common/status_line.h"
 #include "bench/common/tables/array_file.h"
 #include "bench/common/tables/csv.h"
@@ -23,18 +22,17 @@
 namespace phlux::bench {
 namespace {
 
-constexpr double default_seconds = 20, quick_seconds = 10; // a cell
+constexpr double default_seconds = 20, quick_seconds = 10; // per cell
 constexpr double default_total = 13 * 60, quick_total = 90;
 constexpr int default_side = 48, quick_side = 32;
-constexpr double reference_share = 0.15; // of a cell's time
-constexpr int trial_renders = 2;         // who makes the reference is known
-// Whatever its rivals do in a cell, bidir balance is known to have a technique for every path of the scene.
+constexpr double reference_share = 0.15; // of the time of a cell
+constexpr int trial_renders = 2;         // few: they do not choose the method of the reference
+// In every cell bidir balance has an efficient technique for each kind of path.
 const Method reference_method{"bidir", "exact", "balance"};
 
-// A processor's own time does not see what else the machine does; of other devices it says nothing.
 std::vector<std::string> columns() {
   std::vector<std::string> all = result_columns();
-  all.emplace_back("clock"); // of variance_times_seconds
+  all.emplace_back("clock"); // of variance_times_seconds; processor time excludes other programs
   return all;
 }
 
@@ -48,21 +46,23 @@ std::vector<Method> methods_of(const StabilityOptions& options) {
   return methods;
 }
 
-struct Run { // what all cells share
+struct Run { // settings of all cells
   const StabilityOptions& options;
   device::DeviceInfo device;
   int lanes = 0, side = 0;
   std::vector<Method> methods;
-  double seconds = 0;      // a cell
-  double seconds_left = 0; // a cell, of what building kernels left
+  double seconds = 0;      // per cell
+  double seconds_left = 0; // per cell, after building kernels
 
-  [[nodiscard]] Measured measured() const { return {device.name, lanes, options.seed, device.type == "cpu"}; }
+  [[nodiscard]] CommonValues common_values() const {
+    return {device.name, lanes, options.seed, device.type == "cpu"};
+  }
 };
 
 struct CellRun {
   ResultTable::Values key;
   scene::Scene scene;
-  std::string settings; // fingerprint of all that the figures depend on but the method
+  std::string settings; // fingerprint of everything that the results depend on, except the method
 
   [[nodiscard]] std::string name() const { return fmt::format("n{}-r{}", key[0], key[1]); }
   [[nodiscard]] std::string title() const { return fmt::format("n {}, light radius {}", key[0], key[1]); }
@@ -107,7 +107,7 @@ void write_image(const std::filesystem::path& folder, const CellRun& cell, const
 void print(const Run& run, const CellRun& cell, const std::vector<MethodResult>& results) {
   const auto cost = [&](const MethodResult& r) {
     return r.variance.value *
-           (run.measured().processor_time ? r.processor_seconds_per_sample : r.seconds_per_sample);
+           (run.common_values().processor_time ? r.processor_seconds_per_sample : r.seconds_per_sample);
   };
   std::vector<const MethodResult*> sound;
   std::vector<std::string> others;
@@ -142,10 +142,10 @@ void measure(const Run& run, const CellRun& cell, const std::vector<Method>& met
   bench.try_methods(methods);
   const std::vector<MethodResult> results = bench.measure(reference);
   write_image(run.options.folder / "stability-images", cell, reference);
-  table.forget(cell.key, methods, cell.settings);
+  table.remove(cell.key, methods, cell.settings);
   for (const MethodResult& result : results) {
-    auto values = result_values(result, reference, cell.scene.camera, run.measured());
-    values.emplace_back(run.measured().processor_time ? "processor" : "wall");
+    auto values = result_values(result, reference, cell.scene.camera, run.common_values());
+    values.emplace_back(run.common_values().processor_time ? "processor" : "wall");
     table.add(cell.key, result.method, values, cell.settings);
   }
   table.write();
@@ -157,19 +157,19 @@ void measure(const Run& run, const CellRun& cell, const std::vector<Method>& met
 
 void measure_all(const Run& run, const std::vector<CellRun>& cells, ResultTable& table) {
   StatusLine status;
-  std::vector<std::pair<const CellRun*, std::vector<Method>>> work;
+  std::vector<std::pair<const CellRun*, std::vector<Method>>> pending;
   for (const CellRun& cell : cells)
     if (auto methods = table.missing(cell.key, run.methods, cell.settings); !methods.empty())
-      work.emplace_back(&cell, std::move(methods));
-  if (work.size() < cells.size())
-    fmt::print("{} of {} cells are measured already\n", cells.size() - work.size(), cells.size());
-  for (std::size_t i = 0; i < work.size(); ++i) {
-    const auto& [cell, methods] = work[i];
+      pending.emplace_back(&cell, std::move(methods));
+  if (pending.size() < cells.size())
+    fmt::print("{} of {} cells are measured already\n", cells.size() - pending.size(), cells.size());
+  for (std::size_t i = 0; i < pending.size(); ++i) {
+    const auto& [cell, methods] = pending[i];
     const Clock::time_point begin = Clock::now();
     measure(run, *cell, methods, table, status, [&](const std::string& what) {
       const double left = std::max(0.0, run.seconds_left - seconds_since(begin)) +
-                          run.seconds_left * static_cast<double>(work.size() - i - 1);
-      status.show(fmt::format("cell {} of {}, {}: {}  {} left", i + 1, work.size(), cell->title(), what,
+                          run.seconds_left * static_cast<double>(pending.size() - i - 1);
+      status.show(fmt::format("cell {} of {}, {}: {}  {} left", i + 1, pending.size(), cell->title(), what,
                               clock_text(left)));
     });
   }
@@ -184,7 +184,7 @@ std::string command_of(const StabilityOptions& options) {
   return command + text_of_strategies(options) + text_of_amount(options);
 }
 
-// One program for all cells: they differ in numbers alone.
+// The program is the same in all cells, which differ only in numbers.
 void build_kernels(const StabilityOptions& options, const StabilityCell& cell,
                    const std::vector<Method>& methods) {
   StatusLine status;
@@ -238,14 +238,13 @@ bool measure_stability(const StabilityOptions& options) {
   std::vector<CellRun> runs;
   for (const StabilityCell& cell : cells) runs.push_back(cell_run(run, cell));
   if (!runs_to_end([&] { measure_all(run, runs, table); }, options.interrupted)) {
-    fmt::print("interrupted: the same command goes on with the cells that are missing\n");
+    fmt::print("interrupted: the same command resumes with the missing cells\n");
     return false;
   }
-  write_provenance(
-      options.folder, "stability",
-      {command_of(options), device.info, run.lanes, "built before anything was timed",
-       fmt::format("{} and up for the rounds, from 2000000 above for references", options.seed)});
-  draw_charts(options.folder, stability_script());
+  write_provenance(options.folder, "stability",
+                   {command_of(options), device.info, run.lanes, "built before anything was timed",
+                    fmt::format("from {} for the rounds, 2000000 more for references", options.seed)});
+  draw_charts(options.folder, "stability");
   fmt::print("{}\n", (options.folder / "index.html").string());
   return true;
 }

@@ -17,9 +17,10 @@ enum MaterialIndex { white, red, green, glossy, black };
 
 const Vec3 camera_position(0, 1, 3.9), camera_target(0, 1, 0), lamp(-.6, 2.1, 1.8), lamp_target(.1, .5, -.3);
 const Vec3 left_panel(-.5, .75, -.55);
-constexpr double lamp_power = 20; // W in the red, less in the others
+constexpr double lamp_power = 20; // W, red channel
 
-// Its half edges are `half` long, across `up` as far as that goes.
+// A square with this centre, normal and half edge length; one edge is horizontal unless the normal is
+// vertical.
 scene::Patch facing(const Vec3& center, const Vec3& normal, double half, int material) {
   const Vec3 n = glm::normalize(normal);
   const Vec3 up = std::abs(n.y) > 0.9 ? Vec3(0, 0, -1) : Vec3(0, 1, 0);

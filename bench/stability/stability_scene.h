@@ -1,17 +1,18 @@
-// The scene of `phlux bench stability`: one room whose glossy panels and lamp have parameters.
+// The scene of `phlux bench stability`: a room with variable lobe exponent and light size.
 #pragma once
 
 #include "scene/scene.h"
 
 namespace phlux::bench {
 
-inline constexpr double largest_light_radius = 0.3; ///< a larger lamp would come into view
+inline constexpr double largest_light_radius = 0.3; ///< a larger light would be visible
 
-/// An open box with edges of 2, lit from beside the camera by a disk of `light_radius` (above 0, at most
-/// largest_light_radius) whose power does not depend on it. Two panels have a lobe of `exponent`: one on the
-/// floor throws a caustic on the walls above, and shows the camera a part of the back wall where that
-/// caustic is not; one on the left shows it the lamp's highlight. So every path of light has an efficient
-/// technique, however small the lamp and however sharp the lobe. `side` pixels, square.
+/// An open box of edge length 2, lit from beside the camera by a disk of radius `light_radius` (above 0, at
+/// most largest_light_radius). The power of the disk is the same for every radius. Two panels have a Phong
+/// lobe of this exponent. The one on the floor casts a caustic on the walls above it, and reflects to the
+/// camera a part of the back wall outside that caustic; the one on the left reflects the light to the camera.
+/// Hence each kind of path has an efficient bidirectional technique, however small the light and however
+/// narrow the lobe. The image has side x side pixels.
 [[nodiscard]] scene::Scene stability_scene(double exponent, double light_radius, int side);
 
 } // namespace phlux::bench

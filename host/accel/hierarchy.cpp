@@ -156,7 +156,7 @@ Geometry hierarchy(const scene::Scene& scene, int lanes, bool in_double) {
   geometry.block = lanes;
   geometry.origin = middle(scene);
   std::vector<RTCBuildPrimitive> primitives = build_primitives(scene, geometry.origin, in_double);
-  if (primitives.empty()) return geometry;
+  if (primitives.empty() && count_primitives(scene) > 0) return geometry; // none has an area
   geometry.radius = radius_of(primitives);
 
   // One level is left for a node above a leaf of both kinds.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cassert>
 #include <type_traits>
 
 #include "errors.h"
@@ -72,7 +71,7 @@ struct Tree::Builder {
 
 Tree::Tree(std::vector<RTCBuildPrimitive> primitives, const Shape& shape)
     : builder_(std::make_unique<Builder>()) {
-  assert(!primitives.empty());
+  if (primitives.empty()) throw SceneError("a hierarchy needs at least one shape");
   if (!builder_->device) throw SceneError("Embree cannot start to build a hierarchy");
   builder_->bvh.reset(rtcNewBVH(builder_->device.get()));
   builder_->leaf_primitives.resize(primitives.size());

@@ -24,7 +24,7 @@ public:
     unsigned max_depth;
   };
 
-  /// Of one primitive or more. @throws SceneError when there is no memory for it
+  /// @throws SceneError when there is no memory for it, or no primitive
   Tree(std::vector<RTCBuildPrimitive> primitives, const Shape& shape);
   ~Tree();
   Tree(Tree&&) = delete;

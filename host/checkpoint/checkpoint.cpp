@@ -49,8 +49,8 @@ void serialize(Archive& archive, Launch& launch) {
 }
 
 template<class Archive>
-void serialize(Archive& archive, Place& place) {
-  auto& [sample, pixel, block_samples, missing] = place;
+void serialize(Archive& archive, SchedulePosition& position) {
+  auto& [sample, pixel, block_samples, missing] = position;
   archive(sample, pixel, block_samples, missing);
 }
 
@@ -67,8 +67,8 @@ void serialize(Archive& archive, Counts& counts) {
 }
 
 template<class Archive>
-void serialize(Archive& archive, Standing& standing) {
-  archive(static_cast<Counts&>(standing), standing.place, standing.seconds_render);
+void serialize(Archive& archive, RenderState& state) {
+  archive(static_cast<Counts&>(state), state.position, state.seconds_render);
 }
 
 } // namespace phlux::render
@@ -77,8 +77,8 @@ namespace phlux::checkpoint {
 
 template<class Archive>
 void serialize(Archive& archive, Session& session) {
-  auto& [scene, scene_digest, choices, settings, standing] = session;
-  archive(scene, scene_digest, choices, settings, standing);
+  auto& [scene, scene_digest, choices, settings, state] = session;
+  archive(scene, scene_digest, choices, settings, state);
 }
 
 namespace {

@@ -16,7 +16,7 @@ struct Session {
   std::string scene_digest;  ///< scene::digest
   settings::Choices choices; ///< of the user
   render::Settings settings; ///< what they and the scene led to; in a file without where it runs
-  render::Standing standing;
+  render::RenderState state;
 };
 
 struct Checkpoint {

@@ -28,11 +28,12 @@ void check_settings(const render::Settings& earlier, const render::Settings& now
   }
 }
 
-void check_amount(const render::Place& place, const render::Settings& now, const std::string& file) {
-  if (now.time_limit || now.target_error || place.end() <= now.samples_per_pixel) return;
+void check_amount(const render::SchedulePosition& position, const render::Settings& now,
+                  const std::string& file) {
+  if (now.time_limit || now.target_error || position.end() <= now.samples_per_pixel) return;
   throw UsageError(
       fmt::format("{}: has {} samples per pixel already, and `spp` {} asks for fewer: give `spp` {} or more",
-                  file, place.end(), now.samples_per_pixel, place.end()));
+                  file, position.end(), now.samples_per_pixel, position.end()));
 }
 
 } // namespace
@@ -48,7 +49,7 @@ void check_same(const Checkpoint& earlier, const Session& now, int width, int he
                                 "it had",
                                 file.string(), earlier.session.scene));
   check_settings(earlier.session.settings, now.settings, file.string());
-  check_amount(earlier.session.standing.place, now.settings, file.string());
+  check_amount(earlier.session.state.position, now.settings, file.string());
 }
 
 } // namespace phlux::checkpoint

@@ -1,4 +1,5 @@
 // The grammar of `phlux bench`.
+#include <algorithm>
 #include <limits>
 #include <memory>
 
@@ -17,6 +18,7 @@
 #include "cli/grammar.h"
 #include "cli/interrupt.h"
 #include "errors.h"
+#include "lobes/assignment.h"
 #include "settings/values.h"
 
 namespace phlux::cli {
@@ -26,33 +28,33 @@ const char* const default_folder = "bench-results";
 
 void add_common(CLI::App& app, bench::CommonOptions& options) {
   options.folder = default_folder;
-  add_value(
-      app, "--out", "DIR",
-      fmt::format("the folder that the tables go to, made where it is missing; default: {}", default_folder),
-      [&options](const std::string& text) {
-        if (text.empty()) throw UsageError("--out '': must be a folder's name");
-        options.folder = text;
-      });
+  add_value(app, "--out", "DIR",
+            fmt::format("folder for tables, charts and the report; created if missing; default: {}",
+                        default_folder),
+            [&options](const std::string& text) {
+              if (text.empty()) throw UsageError("--out '': must be the name of a folder");
+              options.folder = text;
+            });
   add_one_device(app, options.devices, options.lanes, options.kernel_dir);
 }
 
 template<class Seed>
 void add_seed(CLI::App& app, const std::string& of, Seed& seed) {
-  add_value(app, "--seed", "N", "of " + of + "; default: 1", [&seed](const std::string& text) {
+  add_value(app, "--seed", "N", "seed of " + of + "; default: 1", [&seed](const std::string& text) {
     constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
     seed = static_cast<Seed>(settings::whole_number("--seed", text, 0, most));
   });
 }
 
 void add_scene_files(CLI::App& app, const std::string& defaults, std::vector<std::filesystem::path>& files) {
-  add_values(app, "--scene", "FILE.xml", "only this one; may be repeated; default: " + defaults,
+  add_values(app, "--scene", "FILE.xml", "measure only this scene; may be repeated; default: " + defaults,
              [&files](const std::string& text) { files.emplace_back(text); });
 }
 
-// In place of those that are there.
+// Replaces the default strategies.
 void add_strategies(CLI::App& app, std::vector<std::string>& strategies) {
   const auto named = std::make_shared<bool>(false);
-  add_values(app, "--strategy", "NAME", "how directions are sampled; may be repeated; default: exact",
+  add_values(app, "--strategy", "NAME", "directional sampling strategy; may be repeated; default: exact",
              [&strategies, named](const std::string& text) {
                const auto& names = render::strategy_names();
                if (!*named) strategies.clear();
@@ -61,7 +63,7 @@ void add_strategies(CLI::App& app, std::vector<std::string>& strategies) {
              });
 }
 
-// How long methods are compared, and on how large images.
+// Render time and image size.
 void add_amount(CLI::App& app, bench::ComparisonOptions& options, const std::string& seconds,
                 const std::string& side) {
   add_value(app, "--seconds", "S", seconds, [&options](const std::string& text) {
@@ -72,7 +74,8 @@ void add_amount(CLI::App& app, bench::ComparisonOptions& options, const std::str
     options.side = static_cast<int>(settings::whole_number("--side", text, 1, most));
   });
   add_seed(app, "the first round", options.seed);
-  app.footer("What the folder holds of the same settings is not measured again: an interrupted run goes on.");
+  app.footer(
+      "Results with the same settings in the folder are not measured again: an interrupted run resumes.");
 }
 
 template<class Options>
@@ -86,7 +89,7 @@ void measure_by(void (*measure)(const Options&), CLI::App& app, std::optional<Co
   });
 }
 
-// For a measurement that says whether it came to its end, and that an interrupt ends.
+// For a measurement that can be interrupted: it returns whether it was completed.
 template<class Options>
 void measure_by(bool (*measure)(const Options&), CLI::App& app, std::optional<Command>& command,
                 const std::shared_ptr<Options>& options) {
@@ -108,10 +111,11 @@ std::vector<std::string> split(const std::string& text) {
 }
 
 void add_rays(CLI::App& bench, std::optional<Command>& command) {
-  CLI::App& app = *bench.add_subcommand("rays", "Traversal against Embree's on the same rays: rays.csv");
+  CLI::App& app =
+      *bench.add_subcommand("rays", "Measures ray traversal against Embree on the same rays: rays.csv");
   const auto options = std::make_shared<bench::RaysOptions>();
   add_common(app, *options);
-  add_value(app, "--triangles", "N,N,...", "sizes of the mesh; default: 36,20000,500000",
+  add_value(app, "--triangles", "N,N,...", "numbers of triangles; default: 36,20000,500000",
             [options](const std::string& text) {
               constexpr std::uint64_t least = 36, most = 50'000'000;
               options->triangles.clear();
@@ -135,96 +139,137 @@ bench::Case case_of(const std::string& text) {
   return one;
 }
 
+// A user's reflectance model and the values of its parameters, NAME=VALUE.
+std::shared_ptr<const scene::Material> own_material(const std::filesystem::path& file,
+                                                    const std::vector<std::string>& values) {
+  lobes::Library library;
+  library.add(file);
+  const std::string name = file.stem().string();
+  if (std::ranges::count(render::strategy_names(), name) > 0)
+    throw UsageError(
+        fmt::format("--lobe {}: {} is a strategy: give the file another name", file.string(), name));
+  scene::Material material = lobes::default_material(library.find(name));
+  for (const std::string& value : values) {
+    const std::size_t equals = value.find('=');
+    if (equals == std::string::npos) throw UsageError(fmt::format("--set {}: must be NAME=VALUE", value));
+    lobes::assign(material, value.substr(0, equals), value.substr(equals + 1));
+  }
+  return std::make_shared<const scene::Material>(std::move(material));
+}
+
+void add_own_lobe(CLI::App& app, const std::shared_ptr<bench::SamplingOptions>& options) {
+  const auto file = std::make_shared<std::filesystem::path>();
+  const auto values = std::make_shared<std::vector<std::string>>();
+  add_value(app, "--lobe", "NAME.cl",
+            "measures a reflectance model of your own instead, beside sampling by the cosine and uniformly: "
+            "sampling-NAME.csv, sampling-NAME-no-roulette.csv",
+            [file](const std::string& text) { *file = text; });
+  add_values(app, "--set", "NAME=VALUE",
+             "a parameter of that model; a colour takes one number or three, R,G,B; may be repeated",
+             [values](const std::string& text) { values->push_back(text); });
+  app.parse_complete_callback([=] {
+    if (file->empty() && !values->empty()) throw UsageError("--set: needs --lobe NAME.cl");
+    if (file->empty()) return;
+    if (!options->strategies.empty() || !options->cases.empty() || !options->lights.empty())
+      throw UsageError("--lobe: excludes --strategy, --case and --integrand");
+    options->material = own_material(*file, *values);
+  });
+}
+
 void add_sampling(CLI::App& bench, std::optional<Command>& command) {
-  CLI::App& app = *bench.add_subcommand(
-      "sampling",
-      "Mean, variance, rays and time of a sample by every strategy: sampling.csv, sampling-no-roulette.csv");
+  CLI::App& app = *bench.add_subcommand("sampling", "Measures mean, variance, rays and time per sample of "
+                                                    "every directional sampling strategy: sampling.csv, "
+                                                    "sampling-no-roulette.csv");
   const auto options = std::make_shared<bench::SamplingOptions>();
   add_common(app, *options);
-  app.add_flag("--quick", options->quick, "thirteen cases with a quarter of a million samples each");
-  app.add_flag("--fresh", options->fresh,
-               "begins anew where an earlier run with the same settings would go on");
-  add_value(app, "--samples", "N", "samples for each row; default: half a million, or a quarter with --quick",
+  app.add_flag("--quick", options->quick, "13 cases with 2^18 samples per row");
+  app.add_flag("--fresh", options->fresh, "measures everything again instead of resuming an earlier run");
+  add_value(app, "--samples", "N", "samples per row; default: 2^19, or 2^18 with --quick",
             [options](const std::string& text) {
               constexpr std::uint64_t most = 1'000'000'000'000;
               options->samples = settings::whole_number("--samples", text, 1, most);
             });
-  add_values(app, "--strategy", "NAME", "only this one; may be repeated", [options](const std::string& text) {
-    options->strategies.push_back(
-        render::strategy_names()[settings::choice("--strategy", text, render::strategy_names())]);
-  });
-  add_values(app, "--case", "KD,KS,N,DEGREES",
-             "only this material and angle of incidence; may be repeated; default: a grid",
-             [options](const std::string& text) { options->cases.push_back(case_of(text)); });
+  add_values(app, "--strategy", "NAME", "only this strategy; may be repeated; default: all",
+             [options](const std::string& text) {
+               options->strategies.push_back(
+                   render::strategy_names()[settings::choice("--strategy", text, render::strategy_names())]);
+             });
+  add_values(
+      app, "--case", "KD,KS,N,DEGREES",
+      "only this Phong material (diffuse and specular coefficient, exponent) and angle of incidence; may be "
+      "repeated; default: a grid",
+      [options](const std::string& text) { options->cases.push_back(case_of(text)); });
   add_values(app, "--integrand", "NAME",
-             "only this light: constant, mirror-disk (a bright disk about the mirror direction) or "
-             "horizon-sky (a sky "
-             "that is bright at the horizon); may be repeated",
+             "only this incident light: constant, mirror-disk (a bright disk about the mirror direction) or "
+             "horizon-sky (a sky that is bright at the horizon); may be repeated; default: all",
              [options](const std::string& text) {
                options->lights.push_back(
                    static_cast<bench::Light>(settings::choice("--integrand", text, bench::light_names())));
              });
+  add_own_lobe(app, options);
   add_seed(app, "the random numbers", options->seed);
   measure_by(bench::measure_sampling, app, command, options);
 }
 
 void add_arithmetic(CLI::App& bench, std::optional<Command>& command) {
   CLI::App& app = *bench.add_subcommand(
-      "arithmetic", "Accuracy against speed of the formulas that kernels could use: arithmetic.csv");
+      "arithmetic", "Measures error and speed of formulas for the kernels: arithmetic.csv");
   const auto options = std::make_shared<bench::ArithmeticOptions>();
   add_common(app, *options);
-  app.add_flag("--quick", options->quick, "fewer values");
+  app.add_flag("--quick", options->quick, "2^15 instead of 2^18 values per formula, shorter timings");
   measure_by(bench::measure_arithmetic, app, command, options);
 }
 
 void add_precision(CLI::App& bench, std::optional<Command>& command) {
-  CLI::App& app = *bench.add_subcommand(
-      "precision", "Float32 against float64: its error against noise, and its speed: precision.csv");
+  CLI::App& app = *bench.add_subcommand("precision",
+                                        "Measures error and speed of float32 against float64: precision.csv");
   const auto options = std::make_shared<bench::PrecisionOptions>();
   add_common(app, *options);
-  add_scene_files(app, "those that ship, with those of scenes/stability", options->scenes);
-  app.add_flag("--quick", options->quick, "path tracing alone, without scenes/stability; fewer samples");
-  app.footer("--width N is measured beside 1. The device must have doubles.");
+  add_scene_files(app, "scenes/*.xml and scenes/stability/*.xml", options->scenes);
+  app.add_flag("--quick", options->quick, "only path tracing, without scenes/stability; fewer samples");
+  app.footer("Measures WIDTH 1 and that of --width. The device must support doubles.");
   measure_by(bench::measure_precision, app, command, options);
 }
 
 void add_remedies(CLI::App& bench, std::optional<Command>& command) {
   CLI::App& app = *bench.add_subcommand(
-      "remedies", "What lessens variance without a bias, each before and after: remedies.csv");
+      "remedies",
+      "Measures techniques that reduce variance without bias, each with and without: remedies.csv");
   const auto options = std::make_shared<bench::RemediesOptions>();
   add_common(app, *options);
   add_values(app, "--remedy", "NAME",
-             fmt::format("only this one of {}; may be repeated; default: all",
+             fmt::format("only this remedy, one of {}; may be repeated; default: all",
                          fmt::join(bench::remedy_names(), ", ")),
              [options](const std::string& text) {
                const auto& names = bench::remedy_names();
                options->remedies.push_back(names[settings::choice("--remedy", text, names)]);
              });
-  app.add_flag("--quick", options->quick, "fewer and easier places; shorter renders");
+  app.add_flag("--quick", options->quick, "fewer and easier scenes; shorter renders");
   measure_by(bench::measure_remedies, app, command, options);
 }
 
 void add_figures(CLI::App& bench, std::optional<Command>& command) {
   CLI::App& app = *bench.add_subcommand(
-      "figures", "The figures of CW 197 from the kernels' output: figure-1 to figure-7 (.csv, .svg, .png)");
+      "figures",
+      "Draws the figures of CW 197 from the output of the kernels: figure-1 to figure-7 (.csv, .svg, .png)");
   const auto options = std::make_shared<bench::FiguresOptions>();
   add_common(app, *options);
   app.footer(
-      "The drawings need python3-matplotlib; without it the tables are written and the exit code is 5.");
+      "The figures need python3-matplotlib. Without it only the tables are written, and the exit code is 5.");
   measure_by(bench::make_figures, app, command, options);
 }
 
 void add_scenes(CLI::App& bench, std::optional<Command>& command) {
   CLI::App& app = *bench.add_subcommand(
-      "scenes", "Every method on every scene: variance, time, convergence: scenes.csv and index.html");
+      "scenes", "Measures variance, time and convergence of every method on every scene: scenes.csv");
   const auto options = std::make_shared<bench::ScenesOptions>();
   options->build_ahead = true;
   add_common(app, *options);
-  add_scene_files(app, "those that ship", options->scenes);
+  add_scene_files(app, "scenes/*.xml", options->scenes);
   add_strategies(app, options->strategies);
-  app.add_flag("--quick", options->quick, "under two minutes for the scenes that ship; coarser");
-  add_amount(app, *options, "for each scene; default: 120, or 11 with --quick, less for many scenes",
-             "pixels of an image's longer side at most; default: 128, or 64 with --quick");
+  app.add_flag("--quick", options->quick, "less time per scene: under two minutes for scenes/*.xml");
+  add_amount(app, *options, "seconds per scene; default: 120, or 11 with --quick, less for many scenes",
+             "largest side of the images in pixels; default: 128, or 64 with --quick");
   measure_by(bench::measure_scenes, app, command, options);
 }
 
@@ -238,33 +283,34 @@ bench::StabilityCell cell_of(const std::string& text) {
 
 void add_stability(CLI::App& bench, std::optional<Command>& command) {
   CLI::App& app = *bench.add_subcommand(
-      "stability", "Where each method fails, over a lobe's exponent and a light's size: stability.csv");
+      "stability",
+      "Measures where each method fails, for varying lobe exponent and light size: stability.csv");
   const auto options = std::make_shared<bench::StabilityOptions>();
   options->build_ahead = true;
   add_common(app, *options);
-  app.add_flag("--quick", options->quick, "nine cells and five methods in under two minutes; coarser");
+  app.add_flag("--quick", options->quick, "nine cells and five methods in under two minutes; smaller images");
   add_values(app, "--cell", "N,RADIUS",
-             "only this exponent and radius of the light; may be repeated; default: a grid",
+             "only this exponent of the lobe and radius of the light; may be repeated; default: a grid",
              [options](const std::string& text) { options->cells.push_back(cell_of(text)); });
   add_values(app, "--method", "NAME",
-             "only this one, such as 'path mis' or light; may be repeated; default: all",
+             "only this method, such as 'path mis' or light; may be repeated; default: all",
              [options](const std::string& text) {
                const auto names = bench::stability_method_names();
                options->variants.push_back(names[settings::choice("--method", text, names)]);
              });
   add_strategies(app, options->strategies);
   add_amount(app, *options,
-             "for each cell; default: 20, or 10 with --quick, less where building kernels took long",
-             "pixels of an image's side; default: 48, or 32 with --quick");
+             "seconds per cell; default: 20, or 10 with --quick, less if building kernels takes long",
+             "side of the images in pixels; default: 48, or 32 with --quick");
   measure_by(bench::measure_stability, app, command, options);
 }
 
 } // namespace
 
 void add_bench(CLI::App& program, std::optional<Command>& command) {
-  CLI::App& app = *program.add_subcommand("bench", "Measures this device: tables (CSV) and figures");
+  CLI::App& app = *program.add_subcommand("bench", "Measures this device: tables (CSV), charts and a report");
   app.require_subcommand(1);
-  app.footer("phlux bench COMMAND --help lists the options of one.");
+  app.footer("phlux bench COMMAND --help lists the options of a command.");
   add_scenes(app, command);
   add_rays(app, command);
   add_sampling(app, command);

@@ -58,17 +58,17 @@ void Checkpoints::update(const film::Film& film, const render::Progress& progres
   if (file_.empty() || Clock::now() < next_) return;
   if (writing_.valid() && writing_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
   wait();
-  session_.standing = progress.standing();
+  session_.state = progress.state();
   writing_ = std::async(std::launch::async, [file = file_, bytes = checkpoint::encode(session_, film)] {
     files::write_file(file, bytes);
   });
   next_ = Clock::now() + between_;
 }
 
-std::optional<WriteError> Checkpoints::finish(const film::Film& film, const render::Standing& standing) {
+std::optional<WriteError> Checkpoints::finish(const film::Film& film, const render::RenderState& state) {
   if (file_.empty()) return std::nullopt;
   wait();
-  session_.standing = standing;
+  session_.state = state;
   try {
     files::write_file(file_, checkpoint::encode(session_, film));
   } catch (const WriteError& error) {

@@ -31,7 +31,7 @@ public:
   /// cannot be written is a warning, as the next may succeed.
   void update(const film::Film& film, const render::Progress& progress);
   /// The last one. Why it could not be written, if so: what else there is to write comes before that.
-  [[nodiscard]] std::optional<WriteError> finish(const film::Film& film, const render::Standing& standing);
+  [[nodiscard]] std::optional<WriteError> finish(const film::Film& film, const render::RenderState& state);
 
 private:
   using Clock = std::chrono::steady_clock;

@@ -10,6 +10,7 @@
 #include "cli/checkpoints.h"
 #include "cli/commands.h"
 #include "cli/grammar.h"
+#include "cli/version.h"
 #include "errors.h"
 #include "settings/values.h"
 
@@ -46,10 +47,11 @@ void add_amount(CLI::App& app, RenderOptions& options) {
 
 void add_device(CLI::App& app, RenderOptions& options) {
   app.option_defaults()->group("Where it runs");
-  add_values(app, "--device", "SPEC",
-             "P:D as `phlux devices` lists them, cpu, gpu, all, or a part of a name; may be "
-             "repeated",
-             [&](const std::string& text) { options.devices.push_back(text); });
+  add_values(
+      app, "--device", "SPEC",
+      "P:D as `phlux devices` lists them, cpu, gpu, all, or a part of a platform's or else a device's "
+      "name; may be repeated. Of two drivers for the same CPU, cpu and a part of a name take the first",
+      [&](const std::string& text) { options.devices.push_back(text); });
   add_settings(app, options, [](Affects affects) { return affects == Affects::execution; });
   add_kernel_dir(app, options.kernel_dir);
 }
@@ -140,7 +142,8 @@ void add_compare(CLI::App& program, std::optional<Command>& command) {
 void add_merge(CLI::App& program, std::optional<Command>& command) {
   CLI::App& app = *program.add_subcommand("merge", "Makes one image of several renders of a scene");
   const auto options = std::make_shared<MergeOptions>();
-  app.add_option("A.exr B.exr", options->images, "renders of different seeds, or of different samples of one")
+  app.add_option("IMAGE.exr", options->images,
+                 "two or more renders of different seeds, or of different samples of one")
       ->type_name("")
       ->required();
   app.add_option("-o,--output", options->output, "the merged image")->type_name("OUT.exr")->required();
@@ -204,7 +207,9 @@ std::string full_name(const CLI::App& app) {
 std::optional<Command> parse(int argc, char** argv) {
   std::optional<Command> command;
   CLI::App program("phlux: path tracing of Mitsuba scenes on any OpenCL device", "phlux");
-  program.set_version_flag("--version", "phlux " PHLUX_VERSION);
+  program.set_version_flag(
+      "--version", version_report,
+      "version, commit, compiler, libraries and OpenCL platforms: what a report should say");
   program.require_subcommand(1);
   program.get_formatter()->label("REQUIRED", ""); // the usage line says it
   program.footer("phlux COMMAND --help lists the options of a command.\n"

@@ -98,6 +98,9 @@ int list_devices(const DevicesOptions& options) {
   } else {
     print_table(rows);
     fmt::print("* used unless --device says otherwise; WIDTH: paths that one work item traces at a time\n");
+    for (const device::PlatformInfo& platform : device::list_platforms())
+      if (platform.devices == 0)
+        fmt::print("platform {}, {}, has no devices\n", platform.index, platform.name);
   }
   return 0;
 }

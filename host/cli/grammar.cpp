@@ -67,7 +67,8 @@ void add_kernel_dir(CLI::App& app, std::filesystem::path& folder) {
 
 void add_one_device(CLI::App& app, std::vector<std::string>& devices, int& lanes,
                     std::filesystem::path& kernel_dir) {
-  add_value(app, "--device", "SPEC", "P:D as `phlux devices` lists them, cpu, gpu, or a part of a name",
+  add_value(app, "--device", "SPEC",
+            "P:D as `phlux devices` lists them, cpu, gpu, or a part of a platform's or else a device's name",
             [&devices](const std::string& text) { devices = {text}; });
   add_width(app, "lanes of a work item", lanes);
   add_kernel_dir(app, kernel_dir);

@@ -53,7 +53,7 @@ private:
 
 // The renderer knows no files; the user should read which one is to blame.
 render::Statistics render_scene(const scene::Scene& scene, const render::Settings& settings, film::Film& film,
-                                const render::Events& events, const render::Standing& from,
+                                const render::Events& events, const render::RenderState& from,
                                 const std::filesystem::path& file) try {
   return render::render(scene, settings, film, events, from);
 } catch (const SceneError& error) {
@@ -62,7 +62,7 @@ render::Statistics render_scene(const scene::Scene& scene, const render::Setting
 
 render::Statistics run(const scene::Scene& scene, const render::Settings& settings, film::Film& film,
                        const Outputs& outputs, const RenderOptions& options, Checkpoints& checkpoints,
-                       const render::Standing& from) {
+                       const render::RenderState& from) {
   const InterruptGuard interrupt;
   ProgressDisplay display(options.quiet, settings.time_limit, settings.target_error);
   PreviewRefresher preview(outputs.preview);
@@ -92,7 +92,7 @@ files::RenderInfo info_of(const checkpoint::Session& session, const film::Film& 
           .settings = files::stored(settings),
           .samples = film.samples_per_pixel(),
           .seed = settings.seed,
-          .ranges = {{settings.seed, settings.first_sample, settings.first_sample + statistics.place.end()}},
+          .ranges = {{settings.seed, settings.first_sample, settings.first_sample + statistics.position.end()}},
           .device = statistics.device,
           .driver = statistics.driver,
           .seconds = statistics.seconds_render,
@@ -154,13 +154,13 @@ int render(const RenderOptions& given) {
                                     .scene_digest = scene::digest(scene),
                                     .choices = options,
                                     .settings = settings_of(options, scene.defaults),
-                                    .standing = {}};
+                                    .state = {}};
   if (earlier) check_same(*earlier, session, camera, options.resume);
   const render::Settings& settings = session.settings;
   film::Film film = earlier ? std::move(earlier->film) : film::Film(camera.width, camera.height);
   Checkpoints checkpoints(outputs.checkpoint, options, session);
   const render::Statistics statistics = run(scene, settings, film, outputs, options, checkpoints,
-                                            earlier ? earlier->session.standing : render::Standing());
+                                            earlier ? earlier->session.state : render::RenderState());
 
   if (film.samples_per_pixel() == 0.0) { // an older image is worth more than a black one
     spdlog::warn("interrupted before the first sample: nothing is written");

@@ -66,6 +66,7 @@ nlohmann::ordered_json statistics_json(const render::Statistics& statistics, con
   json.update({{"device", statistics.device},
                {"driver", statistics.driver},
                {"lanes", statistics.lanes},
+               {"portable_lanes", statistics.portable_lanes},
                {"traversal", statistics.traversal},
                {"parts", statistics.parts},
                {"width", film.width()},

@@ -106,12 +106,14 @@ void print_notes(const Report& report) {
   }
 }
 
-nlohmann::ordered_json json_of(const Report& report, const device::DeviceInfo& info, int lanes,
+nlohmann::ordered_json json_of(const Report& report, const device::Device& device, int lanes,
                                double seconds) {
+  const device::DeviceInfo& info = device.info;
   nlohmann::ordered_json json = {{"device", info.name},
                                  {"platform", info.platform},
                                  {"driver", info.driver},
                                  {"width", lanes},
+                                 {"portable_lanes", device::portable_lanes(device)},
                                  {"seconds", seconds},
                                  {"false_alarm_rate", verify::false_alarm_rate},
                                  {"p_values", report.questions()},
@@ -153,7 +155,9 @@ int verify(const VerifyOptions& options) {
   fmt::print("\n");
   print_notes(report);
   if (!options.json.empty())
-    files::write_file(options.json, files::json_text(json_of(report, device.info, settings.lanes, seconds)));
+    files::write_file(options.json, files::json_text(json_of(report, device, settings.lanes, seconds)));
+  if (device::portable_lanes(device))
+    fmt::print("portable lanes: the compiler refuses the processor's own instructions\n");
   fmt::print("{}: {} checks, {} p-values with a false alarm in {:g} runs, {:.1f} s\n",
              report.passed() ? "passed" : "FAILED", report.results().size(), report.questions(),
              1 / verify::false_alarm_rate, seconds);

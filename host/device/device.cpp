@@ -5,27 +5,19 @@
 #include <cstdlib>
 #include <mutex>
 #include <optional>
+#include <set>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
 #include "device/cache_folder.h"
+#include "device/choice.h"
 #include "errors.h"
 
 namespace phlux::device {
 
 namespace {
-
-struct Found {
-  DeviceInfo info;
-  cl::Device handle;
-};
-
-std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
 
 // Drivers return names with blanks around them, and some with the terminating zero inside.
 std::string trimmed(std::string text) {
@@ -71,118 +63,105 @@ DeviceInfo describe_device(const cl::Device& device, const std::string& platform
 constexpr const char* what_to_install =
     "install a driver, such as the package pocl-opencl-icd for the CPU or the one of the GPU's vendor";
 
-std::vector<cl::Platform> all_platforms() {
+// What the drivers show, found once: a second question could number the devices differently, and a warning
+// should not come twice.
+struct Found {
+  std::vector<PlatformInfo> platforms;
+  std::vector<DeviceInfo> devices;
+  std::vector<cl::Device> handles; // of the devices
+  std::string failure;             // why there is no platform
+};
+
+// Either result of the drivers: none, or CL_PLATFORM_NOT_FOUND_KHR.
+std::vector<cl::Platform> all_platforms(std::string& failure) {
   prepare_pocl_cache();
   std::vector<cl::Platform> platforms;
   try {
     cl::Platform::get(&platforms);
   } catch (const cl::Error& error) {
-    throw DeviceError(fmt::format("no OpenCL platform ({}): {}", error_name(error.err()), what_to_install));
+    failure = fmt::format(" ({})", error_name(error.err()));
   }
-  if (platforms.empty()) throw DeviceError(fmt::format("no OpenCL platform: {}", what_to_install));
   return platforms;
 }
 
-void add_devices(const cl::Platform& platform, int platform_index, std::vector<Found>& found) {
-  std::string name = fmt::format("platform {}", platform_index);
+void add_platform(const cl::Platform& platform, Found& found) {
+  PlatformInfo info;
+  info.index = static_cast<int>(found.platforms.size());
+  info.name = fmt::format("platform {}", info.index);
   try {
-    name = trimmed(platform.getInfo<CL_PLATFORM_NAME>());
+    info.name = trimmed(platform.getInfo<CL_PLATFORM_NAME>());
+    info.version = trimmed(platform.getInfo<CL_PLATFORM_VERSION>());
     std::vector<cl::Device> devices;
     platform.getDevices(CL_DEVICE_TYPE_ALL, &devices);
-    if (devices.empty())
-      spdlog::warn("OpenCL platform {} ({}) has no devices: skipped", platform_index, name);
-    for (std::size_t i = 0; i < devices.size(); ++i)
-      found.push_back({describe_device(devices[i], name, platform_index, static_cast<int>(i)), devices[i]});
+    for (const cl::Device& device : devices) {
+      found.devices.push_back(describe_device(device, info.name, info.index, info.devices));
+      found.handles.push_back(device);
+      ++info.devices;
+    }
+    if (devices.empty()) spdlog::debug("OpenCL platform {} ({}) has no devices", info.index, info.name);
   } catch (const cl::Error& error) {
-    spdlog::warn("OpenCL platform {} ({}) has no devices that answer ({}): skipped", platform_index, name,
+    spdlog::warn("OpenCL platform {} ({}) has no devices that answer ({}): skipped", info.index, info.name,
                  describe(error));
   }
+  found.platforms.push_back(info);
 }
 
-// Found once: a second question could number the devices differently, and a warning should not come twice.
-const std::vector<Found>& all_devices() {
-  static const std::vector<Found>& found = *[] {
-    auto devices = std::make_unique<std::vector<Found>>();
-    const auto platforms = all_platforms();
-    for (std::size_t i = 0; i < platforms.size(); ++i)
-      add_devices(platforms[i], static_cast<int>(i), *devices);
-    if (devices->empty()) throw DeviceError(fmt::format("no OpenCL device: {}", what_to_install));
-    return devices.release(); // kept for the life of the process: PoCL crashes when it releases devices
+const Found& all_found() {
+  static const Found& found = *[] {
+    auto all = std::make_unique<Found>();
+    for (const cl::Platform& platform : all_platforms(all->failure)) add_platform(platform, *all);
+    return all.release(); // kept for the life of the process: PoCL crashes when it releases devices
   }();
   return found;
 }
 
-std::optional<std::pair<int, int>> parse_indices(const std::string& specification) {
-  const auto colon = specification.find(':');
-  const auto is_number = [](const std::string& text) {
-    return !text.empty() && text.size() <= 6 &&
-           std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
-  };
-  if (colon == std::string::npos) return std::nullopt;
-  const std::string platform = specification.substr(0, colon), device = specification.substr(colon + 1);
-  if (!is_number(platform) || !is_number(device)) return std::nullopt;
-  return std::pair{std::stoi(platform), std::stoi(device)};
+// "Clover and rusticl have no devices", or nothing.
+std::string without_devices(const std::vector<PlatformInfo>& platforms) {
+  std::vector<std::string> names;
+  for (const PlatformInfo& each : platforms)
+    if (each.devices == 0) names.push_back(each.name);
+  if (names.empty()) return {};
+  return fmt::format("{} {} no devices", fmt::join(names, " and "), names.size() == 1 ? "has" : "have");
 }
 
-bool names(const std::string& specification, const DeviceInfo& info) {
-  const std::string wanted = lower_case(specification);
-  if (wanted.empty()) return false;
-  if (wanted == "all") return true;
-  if (wanted == "cpu" || wanted == "gpu") return info.type == wanted;
-  if (const auto indices = parse_indices(wanted))
-    return *indices == std::pair{info.platform_index, info.device_index};
-  return lower_case(info.name).find(wanted) != std::string::npos ||
-         lower_case(info.platform).find(wanted) != std::string::npos;
+const Found& some_found() {
+  const Found& found = all_found();
+  if (found.platforms.empty())
+    throw DeviceError(fmt::format("no OpenCL platform{}: {}", found.failure, what_to_install));
+  if (found.devices.empty())
+    throw DeviceError(
+        fmt::format("no OpenCL device: {}: {}", without_devices(found.platforms), what_to_install));
+  return found;
 }
 
-std::string listing(const std::vector<Found>& found) {
-  std::string list;
-  for (const auto& [info, handle] : found)
-    list += fmt::format("{}{}:{} ({}) {}, {}", list.empty() ? "" : "; ", info.platform_index,
-                        info.device_index, info.type, info.name, info.platform);
-  return list;
-}
-
-std::size_t default_device(const std::vector<Found>& found) {
-  const auto cpu =
-      std::find_if(found.begin(), found.end(), [](const Found& each) { return each.info.type == "cpu"; });
-  return cpu == found.end() ? 0 : static_cast<std::size_t>(cpu - found.begin());
-}
-
-std::vector<std::size_t> chosen(const std::vector<std::string>& specifications,
-                                const std::vector<Found>& found) {
-  std::vector<std::size_t> indices;
-  for (const auto& specification : specifications) {
-    bool any = false;
-    for (std::size_t i = 0; i < found.size(); ++i)
-      if (names(specification, found[i].info)) {
-        if (std::find(indices.begin(), indices.end(), i) == indices.end()) indices.push_back(i);
-        any = true;
-      }
-    if (!any)
-      throw DeviceError(fmt::format("no OpenCL device '{}': there is {}", specification, listing(found)));
-  }
-  if (indices.empty()) indices.push_back(default_device(found));
-  return indices;
-}
-
-Device open(const Found& found) {
+Choice choice_of(const std::vector<std::string>& specifications, const Found& found) {
   try {
-    const cl::Context context(found.handle);
-    const cl::CommandQueue queue(context, found.handle, CL_QUEUE_PROFILING_ENABLE);
-    return {found.info, found.handle, context, queue};
+    return choose(specifications, found.devices);
+  } catch (const DeviceError& error) {
+    const std::string more = without_devices(found.platforms);
+    throw DeviceError(more.empty() ? error.what() : fmt::format("{}; {}", error.what(), more));
+  }
+}
+
+Device open(const DeviceInfo& info, const cl::Device& handle) {
+  try {
+    const cl::Context context(handle);
+    const cl::CommandQueue queue(context, handle, CL_QUEUE_PROFILING_ENABLE);
+    return {info, handle, context, queue};
   } catch (const cl::Error& error) {
-    throw DeviceError(fmt::format("OpenCL device {}:{} ({}) cannot be used: {}", found.info.platform_index,
-                                  found.info.device_index, found.info.name, describe(error)));
+    throw DeviceError(fmt::format("OpenCL device {}:{} ({}) cannot be used: {}", info.platform_index,
+                                  info.device_index, info.name, describe(error)));
   }
 }
 
 } // namespace
 
+std::vector<PlatformInfo> list_platforms() {
+  return all_found().platforms;
+}
+
 std::vector<DeviceInfo> list_devices() {
-  std::vector<DeviceInfo> infos;
-  for (const auto& each : all_devices()) infos.push_back(each.info);
-  return infos;
+  return some_found().devices;
 }
 
 std::vector<Device> open_devices(const std::vector<std::string>& specifications) {
@@ -193,12 +172,16 @@ std::vector<Device> open_devices(const std::vector<std::string>& specifications)
 
   static std::mutex mutex;
   static auto& opened = *new std::vector<std::optional<Device>>; // never destroyed, as above
+  static std::set<std::string> told;
   const std::lock_guard lock(mutex);
-  const auto& found = all_devices();
-  opened.resize(found.size());
+  const Found& found = some_found();
+  const Choice choice = choice_of(wanted, found);
+  for (const std::string& note : choice.notes)
+    if (told.insert(note).second) spdlog::warn("{}", note);
+  opened.resize(found.devices.size());
   std::vector<Device> devices;
-  for (const std::size_t i : chosen(wanted, found)) {
-    if (!opened[i]) opened[i] = open(found[i]);
+  for (const std::size_t i : choice.devices) {
+    if (!opened[i]) opened[i] = open(found.devices[i], found.handles[i]);
     devices.push_back(*opened[i]);
   }
   return devices;

@@ -21,8 +21,19 @@ struct DeviceInfo {
   int lanes = 1;        ///< the WIDTH that phlux would use: 1, 4, 8 or 16
 };
 
-/// Every device of every platform, in the drivers' order. A platform without devices is skipped with a
-/// warning.
+struct PlatformInfo {
+  int index = 0; ///< as in `--device P:D`
+  std::string name, version;
+  int devices = 0; ///< how many it has; a driver without its hardware has none
+};
+
+/// Every platform, in the order of the drivers; none is no error.
+[[nodiscard]] std::vector<PlatformInfo> list_platforms();
+
+/// Name and version of the library that finds the drivers, such as "OpenCL ICD Loader 2.3.1".
+[[nodiscard]] std::string icd_loader();
+
+/// Every device of every platform, in the drivers' order.
 /// @throws DeviceError when there is no platform or no device at all, saying what to install
 [[nodiscard]] std::vector<DeviceInfo> list_devices();
 
@@ -35,9 +46,8 @@ struct Device {
   cl::CommandQueue queue;
 };
 
-/// The devices that the user's `--device` specifications name, each once; the default when there are none is
-/// the first CPU, else the first device; the environment variable PHLUX_DEVICE replaces that default. A
-/// specification is "P:D", "cpu", "gpu", "all" or a part of a device's or platform's name (case-insensitive).
+/// The devices that the user's `--device` specifications name, as choice.h says; without any, that of the
+/// environment variable PHLUX_DEVICE, and without that the default. A note of the choice is a warning, once.
 /// @throws DeviceError when a specification names nothing, listing what there is
 [[nodiscard]] std::vector<Device> open_devices(const std::vector<std::string>& specifications);
 

@@ -48,7 +48,7 @@ public:
       ++number;
       std::smatch found;
       if (!in_comment && std::regex_match(line, found, include)) {
-        add_included(found[1].matched ? found[1].str() : included_by(found[2]), name, number);
+        add_included(found, name, number);
         tagged = false;
         continue;
       }
@@ -70,9 +70,9 @@ private:
     return value->second.substr(1, value->second.size() - 2); // without its quotes
   }
 
-  void add_included(const std::string& name, const std::string& file, int line) {
+  void add_included(const std::smatch& include, const std::string& file, int line) {
     try {
-      add_file(name);
+      add_file(include[1].matched ? include[1].str() : included_by(include[2]));
     } catch (const DeviceError& error) {
       if (blamed_) throw;
       blamed_ = true; // the innermost #include

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <optional>
 #include <regex>
+#include <set>
 #include <sstream>
 #include <thread>
 #include <tuple>
@@ -107,6 +108,31 @@ cl::Program build_text(const Device& device, const std::string& name, const std:
   }
 }
 
+// The macro by which lanes.h leaves out the processor's own instructions.
+constexpr const char* portable_lanes_macro = "LANES_PORTABLE";
+
+// The devices whose compiler refused those instructions' builtins.
+class PortableDevices {
+public:
+  [[nodiscard]] bool has(const Device& device) const {
+    const std::lock_guard lock(mutex_);
+    return devices_.contains(device.handle());
+  }
+  void add(const Device& device) {
+    const std::lock_guard lock(mutex_);
+    devices_.insert(device.handle());
+  }
+
+private:
+  mutable std::mutex mutex_;
+  std::set<cl_device_id> devices_;
+};
+
+PortableDevices& portable_devices() {
+  static PortableDevices devices;
+  return devices;
+}
+
 // Empty when the driver gives no binary, as it may.
 std::vector<unsigned char> binary_of(const cl::Program& program) {
   try {
@@ -157,30 +183,70 @@ std::string first_error(const std::string& log, const std::string& text) {
   return fmt::format("{}:{}: {}", file, line, found.str(3));
 }
 
-BuiltProgram build(const Device& device, const sources::KernelFiles& files, const ProgramSource& source,
-                   const std::function<void()>& slow) {
-  const Clock::time_point start = Clock::now();
-  const Watcher watcher(slow);
-  const std::string text = expand(files, source);
+namespace {
+
+BuiltProgram build_expanded(const Device& device, const std::string& name, const std::string& text) {
   const std::string key = cache_key(device, text);
-  const std::string name = source.root.empty() ? "extra" : source.root;
   if (const auto folder = driver_cache(device)) {
     const BinaryCache records(*folder / "phlux");
     const bool known = records.load(key).has_value();
     const auto program = build_text(device, name, text);
     if (!known) records.store(key, {1});
-    return {program, known, seconds_since(start), argument_names(program)};
+    return {program, known, 0, argument_names(program)};
   }
   const BinaryCache cache(binary_cache_folder());
   if (const auto bytes = cache.load(key)) { // with names: drivers need not know them of binaries
     NamedBinary kept = decode(*bytes);
     if (const auto program = build_binary(device, kept.binary))
-      return {*program, true, seconds_since(start), std::move(kept.arguments)};
+      return {*program, true, 0, std::move(kept.arguments)};
   }
   const auto program = build_text(device, name, text);
   const NamedBinary built{argument_names(program), binary_of(program)};
   cache.store(key, encode(built));
-  return {program, false, seconds_since(start), built.arguments};
+  return {program, false, 0, built.arguments};
+}
+
+BuiltProgram build_portable(const Device& device, const sources::KernelFiles& files, ProgramSource source,
+                            const std::string& name) {
+  source.defines[portable_lanes_macro] = "1";
+  return build_expanded(device, name, expand(files, source));
+}
+
+// Where the text leaves it to the compiler whether the lanes use the processor's own instructions, a compiler
+// that knows their builtins and refuses how they are used gets the text without them. What is wrong with a
+// text that it refuses either way is what it says of the one without.
+BuiltProgram build_either(const Device& device, const sources::KernelFiles& files,
+                          const ProgramSource& source, const std::string& name) {
+  const std::string text = expand(files, source);
+  const bool compiler_decides = !source.defines.contains(portable_lanes_macro) &&
+                                significant(text).find(portable_lanes_macro) != std::string::npos;
+  if (!compiler_decides) return build_expanded(device, name, text);
+  if (portable_lanes(device)) return build_portable(device, files, source, name);
+  try {
+    return build_expanded(device, name, text);
+  } catch (const DeviceError& refusal) {
+    const BuiltProgram built = build_portable(device, files, source, name);
+    portable_devices().add(device);
+    spdlog::info(
+        "portable lanes on {}, slower, for its compiler refuses the processor's own instructions: {}",
+        device.info.name, refusal.what());
+    return built;
+  }
+}
+
+} // namespace
+
+bool portable_lanes(const Device& device) {
+  return portable_devices().has(device);
+}
+
+BuiltProgram build(const Device& device, const sources::KernelFiles& files, const ProgramSource& source,
+                   const std::function<void()>& slow) {
+  const Clock::time_point start = Clock::now();
+  const Watcher watcher(slow);
+  BuiltProgram built = build_either(device, files, source, source.root.empty() ? "extra" : source.root);
+  built.seconds = seconds_since(start);
+  return built;
 }
 
 } // namespace phlux::device

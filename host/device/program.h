@@ -42,12 +42,16 @@ struct BuiltProgram {
 };
 
 /// Builds for one device, from the binary cache where it can. The cache is keyed by text, options, device,
-/// driver and phlux's version. `slow` is called once, from another thread, when building takes longer than
-/// 200 ms.
+/// driver and phlux's version. Where the device's compiler refuses the processor's own instructions in the
+/// lanes, the program is built with portable lanes, and so is every later one for that device. `slow` is
+/// called once, from another thread, when building takes longer than 200 ms.
 /// @throws DeviceError naming file and line of the first error when the build fails; the full log goes to the
 /// log
 [[nodiscard]] BuiltProgram build(const Device& device, const sources::KernelFiles& files,
                                  const ProgramSource& source, const std::function<void()>& slow = {});
+
+/// Whether programs for the device have had to be built with portable lanes.
+[[nodiscard]] bool portable_lanes(const Device& device);
 
 /// OpenCL C options for every program, then those of the environment variable PHLUX_KERNEL_OPTIONS (tests:
 /// -Werror).

@@ -7,8 +7,9 @@
 namespace phlux::lobes {
 
 std::span<const ShippedModel* const> shipped_models() {
-  static const ShippedModel* const list[] = {&diffuse_model, &phong_model, &anisotropicphong_model,
-                                             &conductor_model};
+#define ADDRESS_OF_MODEL(name) &name##_model,
+  static const ShippedModel* const list[] = {PHLUX_SHIPPED_MODELS(ADDRESS_OF_MODEL)};
+#undef ADDRESS_OF_MODEL
   return list;
 }
 

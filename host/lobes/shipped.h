@@ -29,12 +29,17 @@ struct ShippedModel {
   scene::Material (*simplest)(const scene::Material&) = nullptr;
 };
 
+/// The models that ship, in the order in which messages name them. NAME_model is in a file of host/lobes.
+#define PHLUX_SHIPPED_MODELS(MODEL) MODEL(diffuse) MODEL(phong) MODEL(anisotropicphong) MODEL(conductor)
+
+#define PHLUX_DECLARE_MODEL(name) extern const ShippedModel name##_model;
+PHLUX_SHIPPED_MODELS(PHLUX_DECLARE_MODEL)
+#undef PHLUX_DECLARE_MODEL
+
 [[nodiscard]] std::span<const ShippedModel* const> shipped_models();
 [[nodiscard]] const ShippedModel* find_shipped(const scene::Model& model); ///< null for a user's own
 
 [[nodiscard]] float largest_channel(const scene::Rgb& rgb);
 [[nodiscard]] float bits_of(int index); ///< an index among words that are floats
-
-extern const ShippedModel diffuse_model, phong_model, anisotropicphong_model, conductor_model;
 
 } // namespace phlux::lobes

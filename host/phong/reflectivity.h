@@ -1,4 +1,4 @@
-// What a modified Phong lobe reflects, and the table of it that kernels interpolate (lobes/phong.cl).
+// What a modified Phong lobe reflects, and the table of it that kernels interpolate (kernels/phong/phong.cl).
 #pragma once
 
 #include <vector>
@@ -14,7 +14,7 @@ inline constexpr int reflectivity_intervals = 1024;
 [[nodiscard]] double lobe_reflectivity(double exponent, double cosine);
 
 /// The same at grazing incidence, cosine 0: Gamma((n + 1) / 2) / (2 sqrt(pi) Gamma(n / 2 + 1))
-/// (phong-sampling.md).
+/// (kernels/phong/sampling.md).
 [[nodiscard]] double grazing_reflectivity(double exponent);
 
 /// The cosine from which on the lobe is so far above the horizon that it reflects just ks cos(theta): the

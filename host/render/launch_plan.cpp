@@ -27,7 +27,8 @@ int least_lane_jobs(int lanes, int block_samples) {
 }
 
 int vertex_words(const Parts& parts) {
-  return parts.has_tangents() ? VERTEX_WORDS_MOST : parts.smooth_normals ? VERTEX_TANGENT : VERTEX_GEOMETRIC;
+  return VERTEX_WORDS_PLAIN + (parts.smooth_normals ? VERTEX_WORDS_OF_NORMAL : 0) +
+         (parts.has_tangents() ? VERTEX_WORDS_OF_TANGENT : 0);
 }
 
 // Of what a bidirectional work-item keeps: kernels/lanes.h's Scalar.

@@ -1,6 +1,7 @@
 #include "render/parts.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -158,8 +159,21 @@ std::vector<std::string> Parts::names() const {
   std::vector<std::string> list;
   for (const NamedPart& part : named_parts)
     if (this->*part.member) list.emplace_back(part.name);
+  if (double_precision) list.emplace_back("double_precision");
   for (const auto& model : models) list.push_back(model->name);
   return list;
+}
+
+std::vector<std::string> Parts::all_names() {
+  std::vector<std::string> list;
+  for (const NamedPart& part : named_parts) list.emplace_back(part.name);
+  return list;
+}
+
+void Parts::set(const std::string& name, bool on) {
+  const auto found = std::ranges::find(named_parts, name, &NamedPart::name);
+  if (found == std::end(named_parts)) throw std::out_of_range("there is no part " + name);
+  this->*found->member = on;
 }
 
 const char* Parts::file() const {

@@ -43,6 +43,10 @@ struct Parts {
   [[nodiscard]] bool has_tangents() const; ///< a model needs them
   /// Names for people, such as "spheres" or "light_planar", in a fixed order.
   [[nodiscard]] std::vector<std::string> names() const;
+  /// The names of all parts, whether on or off.
+  [[nodiscard]] static std::vector<std::string> all_names();
+  /// @throws std::out_of_range when no part has that name
+  void set(const std::string& name, bool on);
   /// The kernel file of the integrator.
   [[nodiscard]] const char* file() const;
   /// Macros for the kernels.

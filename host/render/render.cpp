@@ -38,15 +38,15 @@ void add(const Counts& counts, Counts& to) {
 }
 
 // The work that devices share: whoever takes a launch or folds one in holds the lock.
-class Work {
+class DispatchLoop {
 public:
-  Work(const scene::Camera& camera, const Settings& settings, film::Film& film, const Events& events,
-       const Standing& from)
+  DispatchLoop(const scene::Camera& camera, const Settings& settings, film::Film& film, const Events& events,
+               const RenderState& from)
       : settings_(settings), film_(film), events_(events), begin_(Clock::now()),
         seconds_before_(from.seconds_render), open_ended_(settings.time_limit || settings.target_error),
         schedule_(static_cast<std::int64_t>(camera.width) * camera.height,
                   open_ended_ ? std::nullopt : std::optional<std::int64_t>(settings.samples_per_pixel),
-                  from.place),
+                  from.position),
         counts_(from), ended_(from.paths > 0 && precise_enough()) {}
 
   // Runs one device until the work is done or ended. Whoever folds a launch in reports.
@@ -73,12 +73,12 @@ public:
   [[nodiscard]] double seconds() const { return seconds_before_ + seconds_since(begin_); }
 
   // Of what is on the film.
-  [[nodiscard]] Standing standing() const {
-    Standing standing{counts_, schedule_.place(), seconds()};
-    std::vector<Launch>& missing = standing.place.missing;
+  [[nodiscard]] RenderState state() const {
+    RenderState state{counts_, schedule_.position(), seconds()};
+    std::vector<Launch>& missing = state.position.missing;
     for (const auto& [launcher, launches] : in_flight_)
       missing.insert(missing.begin(), launches.begin(), launches.end());
-    return standing;
+    return state;
   }
 
 private:
@@ -101,7 +101,7 @@ private:
     if (!open_ended_) progress.samples_total = settings_.samples_per_pixel;
     progress.seconds = seconds();
     progress.paths = counts_.paths;
-    progress.standing = [this] { return standing(); };
+    progress.state = [this] { return state(); };
     return events_.progress(progress);
   }
 
@@ -178,15 +178,20 @@ void warn(const scene::Scene& scene, const Settings& settings, const Events& eve
     events.warning("anisotropicphong on a sphere: toWorld does not turn it, and exponentU is along the "
                    "circles about the "
                    "world's z axis: use equal exponents where that matters");
+  const auto is_delta = [](const scene::Material& m) { return m.model->has_delta; };
+  if (settings.integrator == "light" && std::any_of(scene.materials.begin(), scene.materials.end(), is_delta))
+    events.warning(
+        "light tracing shows mirrors black: no light path can be connected from a mirror to the camera: "
+        "use `integrator` path or bidir where one is in view");
   if (settings.strategy == "lobe-estimate-printed")
     events.warning("`strategy` lobe-estimate-printed is biased: it loses light at grazing angles; "
                    "lobe-estimate does not");
 }
 
 // Builds the scene's program for each device. The tables for one WIDTH serve every device of that WIDTH.
-class Workshop {
+class WorkerFactory {
 public:
-  Workshop(const scene::Scene& scene, const Settings& settings, const Events& events)
+  WorkerFactory(const scene::Scene& scene, const Settings& settings, const Events& events)
       : scene_(scene), settings_(settings), events_(events),
         files_(settings.kernel_dir.empty() ? sources::KernelFiles()
                                            : sources::KernelFiles(settings.kernel_dir)) {}
@@ -209,6 +214,7 @@ public:
     const device::BuiltProgram built =
         device::build(device, files_, worker.parts.source(worker.parts.file()), events_.building_kernels);
     statistics.kernels_from_cache = built.from_cache;
+    statistics.portable_lanes = device::portable_lanes(device);
     worker.launcher = std::make_unique<Launcher>(device, built, *host_, worker.parts, settings_);
     const Clock::time_point warm_up_begin = Clock::now();
     worker.launcher->warm_up();
@@ -258,14 +264,14 @@ void describe(Statistics& statistics, const std::vector<device::Device>& devices
 
 // Every device in a thread of its own but the first, which works in the caller's. One that fails ends the
 // render.
-void run_all(Work& work, std::vector<Worker>& workers) {
+void run_all(DispatchLoop& loop, std::vector<Worker>& workers) {
   std::vector<std::exception_ptr> failures(workers.size());
   const auto run = [&](std::size_t i) {
     try {
-      work.run(*workers[i].launcher);
+      loop.run(*workers[i].launcher);
     } catch (...) {
       failures[i] = std::current_exception();
-      work.end();
+      loop.end();
     }
   };
   {
@@ -280,24 +286,24 @@ void run_all(Work& work, std::vector<Worker>& workers) {
 } // namespace
 
 Statistics render(const scene::Scene& scene, const Settings& settings, film::Film& film, const Events& events,
-                  const Standing& from) try {
+                  const RenderState& from) try {
   check(settings);
   check_paths_end(scene, settings);
   warn(scene, settings, events);
   Statistics statistics;
   const std::vector<device::Device> devices = device::open_devices(settings.devices);
-  Workshop workshop(scene, settings, events);
+  WorkerFactory factory(scene, settings, events);
   std::vector<Worker> workers;
-  for (const device::Device& device : devices) workers.push_back(workshop.make(device, statistics));
+  for (const device::Device& device : devices) workers.push_back(factory.make(device, statistics));
   describe(statistics, devices, workers);
-  set_unit(film, workshop.unit());
-  statistics.shines = workshop.shines();
+  set_unit(film, factory.unit());
+  statistics.shines = factory.shines();
   if (settings.clamp) film.set_clamp(*settings.clamp);
   if (settings.techniques) film.use_techniques();
 
-  Work work(scene.camera, settings, film, events, from);
-  run_all(work, workers);
-  static_cast<Standing&>(statistics) = work.standing();
+  DispatchLoop loop(scene.camera, settings, film, events, from);
+  run_all(loop, workers);
+  static_cast<RenderState&>(statistics) = loop.state();
   return statistics;
 } catch (const cl::Error& error) {
   throw DeviceError(fmt::format("{} failed: {}", error.what(), device::error_name(error.err())));

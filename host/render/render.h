@@ -36,6 +36,6 @@ struct Events {
 /// @throws UsageError for settings that cannot work, SceneError for a scene that cannot be rendered,
 /// DeviceError
 [[nodiscard]] Statistics render(const scene::Scene& scene, const Settings& settings, film::Film& film,
-                                const Events& events, const Standing& from = {});
+                                const Events& events, const RenderState& from = {});
 
 } // namespace phlux::render

@@ -13,7 +13,7 @@ constexpr std::int64_t endless = std::numeric_limits<std::int32_t>::max() / 2;
 
 } // namespace
 
-Schedule::Schedule(std::int64_t pixels, std::optional<std::int64_t> samples, const Place& from)
+Schedule::Schedule(std::int64_t pixels, std::optional<std::int64_t> samples, const SchedulePosition& from)
     : pixels_(pixels), end_(samples.value_or(endless)), short_blocks_first_(!samples),
       missing_(from.missing.begin(), from.missing.end()), phase_end_(from.sample) {
   assert(from.end() <= end_ && from.pixel < pixels);
@@ -66,14 +66,14 @@ std::optional<Launch> Schedule::next(const Wanted& wanted) {
   return cut_from(phase_, wanted);
 }
 
-Place Schedule::place() const {
-  Place place{phase_end_, 0, samples_per_block, {missing_.begin(), missing_.end()}};
+SchedulePosition Schedule::position() const {
+  SchedulePosition position{phase_end_, 0, samples_per_block, {missing_.begin(), missing_.end()}};
   if (phase_.jobs > 0) {
-    place.sample = phase_.first_sample;
-    place.pixel = phase_.first_job;
-    place.block_samples = phase_.block_samples;
+    position.sample = phase_.first_sample;
+    position.pixel = phase_.first_job;
+    position.block_samples = phase_.block_samples;
   }
-  return place;
+  return position;
 }
 
 } // namespace phlux::render

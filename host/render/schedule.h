@@ -25,7 +25,7 @@ struct Launch {
 
 /// How much of the work is done: every pixel has the samples below `sample`, and pixels below `pixel` have
 /// the `block_samples` from there on as well, but for launches that are missing.
-struct Place {
+struct SchedulePosition {
   std::int64_t sample = 0, pixel = 0;
   int block_samples = samples_per_block;
   std::vector<Launch> missing; ///< were handed out, and their results did not come
@@ -39,16 +39,16 @@ struct Place {
 /// samples), so that a render that is stopped early has seen every pixel.
 class Schedule {
 public:
-  /// Goes on `from` a place, whose end() is no more than `samples`: with what is missing first, then where a
-  /// schedule that had not stopped would. A number of samples that is no multiple of samples_per_block is
+  /// Continues `from` a position, whose end() is no more than `samples`: with what is missing first, then where
+  /// a schedule that had not stopped would. A number of samples that is no multiple of samples_per_block is
   /// filled up to one first.
-  Schedule(std::int64_t pixels, std::optional<std::int64_t> samples, const Place& from = {});
+  Schedule(std::int64_t pixels, std::optional<std::int64_t> samples, const SchedulePosition& from = {});
   /// The next launch; nothing when the work is done. `wanted` says how many jobs (>= 1) a launch should have,
   /// given how many like it are left and the samples of each.
   using Wanted = std::function<std::int64_t(std::int64_t left, int block_samples)>;
   [[nodiscard]] std::optional<Launch> next(const Wanted& wanted);
   /// The work that was handed out; missing is what is still to be handed out again.
-  [[nodiscard]] Place place() const;
+  [[nodiscard]] SchedulePosition position() const;
 
 private:
   // The rest of a phase: blocks of one length, as one launch would have them.

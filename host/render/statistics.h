@@ -24,8 +24,8 @@ struct Counts {
 };
 
 /// How far a render has come: with its film, all that another takes to go on.
-struct Standing : Counts {
-  Place place;
+struct RenderState : Counts {
+  SchedulePosition position;
   double seconds_render = 0.0;
 };
 
@@ -34,12 +34,13 @@ struct Progress {
   std::optional<double> samples_total; ///< absent when time or error ends the render
   double seconds = 0.0;                ///< since rendering began
   std::uint64_t paths = 0;
-  std::function<Standing()> standing = {}; ///< of what the film has; a little slow
+  std::function<RenderState()> state = {}; ///< of what the film has; a little slow
 };
 
-struct Statistics : Standing {
+struct Statistics : RenderState {
   std::string device, driver;
   int lanes = 1;
+  bool portable_lanes = false;    ///< the compiler refused the processor's own instructions
   std::string traversal;          ///< brute or bvh
   std::vector<std::string> parts; ///< what the scene's kernel holds code for
   double seconds_setup = 0.0, seconds_build_kernels = 0.0;

@@ -1,15 +1,21 @@
-# Puts every file of kernels/ into phlux_sources, so that the installed program needs none of them.
-file(GLOB_RECURSE kernels RELATIVE ${PROJECT_SOURCE_DIR}/kernels CONFIGURE_DEPENDS
-     ${PROJECT_SOURCE_DIR}/kernels/*.h ${PROJECT_SOURCE_DIR}/kernels/*.cl)
-list(TRANSFORM kernels PREPEND ${PROJECT_SOURCE_DIR}/kernels/ OUTPUT_VARIABLE kernel_paths)
-list(JOIN kernels "|" kernel_names)
+# phlux_embed(LIBRARY FOLDER HEADER NAMESPACE FUNCTION EXTENSION...): puts every file of the folder with one of these
+# extensions into the library, which returns them by FUNCTION (embed_files.cmake). The installed program needs no file.
+set(embed_files ${CMAKE_CURRENT_LIST_DIR}/embed_files.cmake)
+function(phlux_embed library folder header namespace function)
+  set(root ${PROJECT_SOURCE_DIR}/${folder})
+  list(TRANSFORM ARGN PREPEND ${root}/*. OUTPUT_VARIABLE patterns)
+  file(GLOB_RECURSE paths CONFIGURE_DEPENDS ${patterns})
+  file(GLOB_RECURSE names RELATIVE ${root} ${patterns})
+  list(JOIN names "|" names)
+  set(output ${PROJECT_BINARY_DIR}/embedded_${folder}.cpp)
+  add_custom_command(
+    OUTPUT ${output}
+    COMMAND ${CMAKE_COMMAND} -DFOLDER=${root} "-DFILES=${names}" -DHEADER=${header} -DNAMESPACE=${namespace}
+            -DFUNCTION=${function} -DOUTPUT=${output} -P ${embed_files}
+    DEPENDS ${paths} ${embed_files}
+    COMMENT "Embedding the files of ${folder}/"
+    VERBATIM)
+  target_sources(${library} PRIVATE ${output})
+endfunction()
 
-set(embedded ${PROJECT_BINARY_DIR}/embedded_kernels.cpp)
-add_custom_command(
-  OUTPUT ${embedded}
-  COMMAND ${CMAKE_COMMAND} -DFOLDER=${PROJECT_SOURCE_DIR}/kernels "-DFILES=${kernel_names}" -DOUTPUT=${embedded}
-          -P ${CMAKE_CURRENT_LIST_DIR}/embed_kernels.cmake
-  DEPENDS ${kernel_paths} ${CMAKE_CURRENT_LIST_DIR}/embed_kernels.cmake
-  COMMENT "Embedding the kernels"
-  VERBATIM)
-target_sources(phlux_sources PRIVATE ${embedded})
+phlux_embed(phlux_sources kernels sources/embedded.h phlux::sources embedded_files h cl)

@@ -7,7 +7,7 @@
 namespace phlux::sources {
 
 struct EmbeddedFile {
-  std::string_view name; ///< relative to kernels/
+  std::string_view name; ///< relative to the folder that was embedded
   std::string_view text;
 };
 

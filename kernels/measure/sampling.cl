@@ -9,6 +9,37 @@ static inline Vec3 fixed_direction(const __global float* directions, int number)
   return vec3(load_reals(at), load_reals(at + LANES), load_reals(at + 2 * LANES));
 }
 
+// SAMPLED_BY: the material's model itself, or one of two densities that know nothing of it, to compare it with.
+#define SAMPLED_BY_MODEL 0
+#define SAMPLED_BY_COSINE 1
+#define SAMPLED_BY_HEMISPHERE 2
+
+static inline MaterialSample sample_of(Material m, Vec3 fixed, RandomDraws random, Mask absorbing) {
+  if (SAMPLED_BY == SAMPLED_BY_MODEL) return material_sample(m, fixed, random, absorbing, ALL_LANES);
+  const Real u1 = uniform_real(random.words.y), u2 = uniform_real(random.words.z);
+  MaterialSample s;
+  s.direction = SAMPLED_BY == SAMPLED_BY_COSINE ? cosine_direction(u1, u2) : hemisphere_direction(u1, u2);
+  s.density = SAMPLED_BY == SAMPLED_BY_COSINE ? s.direction.z * INV_PI : (Real)(0.5f * INV_PI);
+  s.weight = vec_scale(s.direction.z / s.density, material_evaluate(m, fixed, s.direction).value);
+  s.survives = ALL_LANES;
+  s.delta = NO_LANES;
+  s.draws = (Int)(1);
+  return s;
+}
+
+// values[i]: f_r, the mean of its channels, for this fixed direction and the i-th of `count` others, of three floats each.
+__kernel void evaluate_directions(const __global float* materials, const __global float* lobe_tables, float4 fixed,
+                                  const __global float* directions, int count, __global float* values) {
+  const Int element = (int)get_global_id(0) * LANES + LANE_NUMBERS;
+  const Mask inside = element < count;
+  const Int at = inside ? 3 * element : (Int)(0);
+  const Vec3 generated =
+      vec3(gather_real(directions, at), gather_real(directions, at + 1), gather_real(directions, at + 2));
+  const Vec3 known = vec3((Real)(fixed.x), (Real)(fixed.y), (Real)(fixed.z));
+  const LobeValue v = material_evaluate(only_material(materials, lobe_tables), known, generated);
+  scatter_real(values, element, vec_mean(v.value), inside);
+}
+
 // What arrives from `direction`, which lies above the surface.
 static inline Real radiance_from(int kind, Vec3 fixed, Vec3 direction) {
   if (kind == RADIANCE_MIRROR_DISK) {
@@ -55,7 +86,7 @@ __kernel void sample_moments(const __global float* materials, const __global flo
     for (int i = 0; i < block_samples; ++i) {
       sequence.sample = (Uint)(first_sample + (uint)(block * block_samples + i));
       const Vec3 fixed = fixed_direction(directions, i);
-      const MaterialSample s = material_sample(m, fixed, random_draws(sequence, (Uint)(2u)), absorbing, ALL_LANES);
+      const MaterialSample s = sample_of(m, fixed, random_draws(sequence, (Uint)(2u)), absorbing);
       const Mask goes_on = s.survives & (s.direction.z > 0.0f);
       const Real weight = vec_mean(s.weight);
       const Real value = weight * radiance_from(light, fixed, s.direction);

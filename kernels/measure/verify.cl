@@ -3,7 +3,7 @@
 // Arrays of lanes hold one plane per value: value k of all elements, then value k + 1 of all elements.
 #include "measure/only_material.cl"
 
-#define PLANE(k) ((k)*get_global_size(0) + get_global_id(0))
+#define PLANE(k) ((size_t)(k)*get_global_size(0) + get_global_id(0))
 
 #define VERIFY_PARAMETERS __global const float *materials, __global const float *table, int material
 #define VERIFY_MATERIAL only_material(materials + material * MATERIAL_WORDS, table)

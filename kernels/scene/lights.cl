@@ -27,6 +27,10 @@ static inline Int light_kind(const Scene* scene, Int light) {
   return LIGHT_KINDS > 1 ? LIGHT_INT(scene, light, kind) : (Int)(scene->lights[0].kind);
 }
 
+// Lanes whose light a ray can find.
+static inline Mask is_hittable(Int kind) {
+  return (kind != LIGHT_POINT) & (kind != LIGHT_SPOT) & (kind != LIGHT_DIRECTIONAL);
+}
 static inline Mask is_pointlike(Int kind) { return LIGHT_IS(kind, LIGHT_POINT) | LIGHT_IS(kind, LIGHT_SPOT); }
 
 // The probability of choose_light.

@@ -20,7 +20,7 @@ enum PlanarRegions {
   REGION_NONE = 3           // fills up a block: never hit
 };
 
-// How PHLUX_CONNECT says what reaches the lights.
+// CONNECT: how path tracing reaches the lights, by hits, by light samples, or by both with weights.
 #define CONNECT_NONE 0
 #define CONNECT_LIGHT 1
 #define CONNECT_MIS 2
@@ -98,21 +98,9 @@ enum SumWords { SUM_RADIANCE = 0, SUM_SQUARES = 3, SUM_NONFINITE = 6, SUM_CLAMPE
 // weight.
 enum RecordWords { RECORD_PIXEL = 0, RECORD_PATH, RECORD_VALUE, RECORD_WEIGHT = 5, RECORD_TECHNIQUE };
 
-// A stored vertex of a subpath, in words. A scene with neither interpolated normals nor anisotropic surfaces stores the
-// first 16 words, one with interpolated normals 19.
-enum VertexWords {
-  VERTEX_POSITION = 0,
-  VERTEX_NORMAL = 3, // shading
-  VERTEX_FIXED = 6,  // back along the subpath, in the world
-  VERTEX_THROUGHPUT = 9,
-  VERTEX_ERROR = 12,
-  VERTEX_MATERIAL = 13,
-  VERTEX_EDGE = 14, // Ratios, see weights.cl
-  VERTEX_REST = 15,
-  VERTEX_GEOMETRIC = 16, // normal
-  VERTEX_TANGENT = 19,
-  VERTEX_WORDS_MOST = 22
-};
+// Words of a stored vertex (transport/vertex_store.cl): of a scene without interpolated normals and tangents, and what
+// each of these adds.
+enum VertexWords { VERTEX_WORDS_PLAIN = 16, VERTEX_WORDS_OF_NORMAL = 3, VERTEX_WORDS_OF_TANGENT = 3 };
 
 // What a batch of bidirectional paths needs for each path besides vertices: where the two subpaths' are, and radiance.
 enum { SCRATCH_WORDS_PER_PATH = 8 };

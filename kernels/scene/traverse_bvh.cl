@@ -109,7 +109,7 @@ static inline Mask meet_spheres(const Scene* scene, int block, Ray ray, Scalar l
 // The primitives of block `block` of a leaf; *first is the primitive index of its lane 0.
 static inline Mask meet_block(const Scene* scene, int block, int spheres, Ray ray, Scalar limit, Real* distance,
                               int* first) {
-  if (HAS_SPHERES && (!HAS_PLANARS || spheres)) {
+  if (HAS_SPHERES & (!HAS_PLANARS | (spheres != 0))) {
     *first = scene->first_sphere + block * LANES;
     return meet_spheres(scene, block, ray, limit, distance);
   }

@@ -1,11 +1,32 @@
-// The vertices of a batch's subpaths in memory. The vertex that lane l reaches in step t of its walk stands in column l
-// of row t: a subpath's vertices are in consecutive rows of one column, and a row is written as it stands in registers.
+// The vertices of a batch's subpaths in memory. The vertex that lane l reaches in step t of its loop is in column l of row
+// t: a subpath's vertices are in consecutive rows of one column, and a row is written from registers as it is.
 #ifndef PHLUX_VERTEX_STORE_CL
 #define PHLUX_VERTEX_STORE_CL
 
-#include "transport/walk.cl"
+#include "transport/lane_records.h"
+#include "transport/subpath.cl"
 
-#define VERTEX_WORDS (HAS_TANGENTS ? VERTEX_WORDS_MOST : HAS_SMOOTH_NORMALS ? VERTEX_TANGENT : VERTEX_GEOMETRIC)
+// What connecting to a vertex takes.
+typedef struct {
+  Vec3 position, shading_normal;
+  Vec3 back; // along the subpath, in world space
+  Vec3 throughput;
+  Real error;
+  Int material;
+  MisQuantities mis;
+  Vec3 normal;  // HAS_SMOOTH_NORMALS
+  Vec3 tangent; // HAS_TANGENTS
+} VertexRecord;
+#define VERTEX_FIELDS(VECTOR, NUMBER, INTEGER, UNSIGNED)                                                               \
+  VECTOR(position)                                                                                                     \
+  VECTOR(shading_normal)                                                                                               \
+  VECTOR(back) VECTOR(throughput) NUMBER(error) INTEGER(material) NUMBER(mis.d_vcm) NUMBER(mis.d_vc)
+#define VERTEX_FIELDS_OF_NORMALS(VECTOR, NUMBER, INTEGER, UNSIGNED) VECTOR(normal)
+#define VERTEX_FIELDS_OF_TANGENTS(VECTOR, NUMBER, INTEGER, UNSIGNED) VECTOR(tangent)
+#define VERTEX_WORDS                                                                                                   \
+  (RECORD_WORDS_OF(VERTEX_FIELDS) + (HAS_SMOOTH_NORMALS ? RECORD_WORDS_OF(VERTEX_FIELDS_OF_NORMALS) : 0) +             \
+   (HAS_TANGENTS ? RECORD_WORDS_OF(VERTEX_FIELDS_OF_TANGENTS) : 0))
+#define ROW_WORDS (VERTEX_WORDS * LANES)
 
 typedef struct {
   __global Scalar* words;
@@ -14,82 +35,122 @@ typedef struct {
   __global int* length; // and how many vertices it has
 } VertexStore;
 
-// Lanes of a subpath's vertices.
+// Where the vertices of each lane's subpath are.
 typedef struct {
   Int first, length;
-} Trail;
+} StoredSubpath;
 
-static inline Trail no_trail(void) {
-  Trail trail;
-  trail.first = trail.length = (Int)(0);
-  return trail;
+static inline StoredSubpath nothing_stored(void) {
+  StoredSubpath stored;
+  stored.first = stored.length = (Int)(0);
+  return stored;
 }
 
-#define ROW_WORDS (VERTEX_WORDS * LANES)
-
-static inline void store_vec(__global Scalar* words, int word, Vec3 v) {
-  store_scalars(words + word * LANES, v.x);
-  store_scalars(words + (word + 1) * LANES, v.y);
-  store_scalars(words + (word + 2) * LANES, v.z);
+static inline void store_number(__global Scalar** words, Real v) {
+  store_scalars(*words, v);
+  *words += LANES;
 }
-static inline Vec3 gather_vec(const __global Scalar* words, int word, Int at) {
-  return vec3(gather_scalar(words + word * LANES, at), gather_scalar(words + (word + 1) * LANES, at),
-              gather_scalar(words + (word + 2) * LANES, at));
+static inline void store_vector(__global Scalar** words, Vec3 v) {
+  store_number(words, v.x);
+  store_number(words, v.y);
+  store_number(words, v.z);
+}
+static inline Real gather_number(const __global Scalar** words, Int at) {
+  const Real v = gather_scalar(*words, at);
+  *words += LANES;
+  return v;
+}
+static inline Vec3 gather_vector(const __global Scalar** words, Int at) {
+  Vec3 v;
+  v.x = gather_number(words, at);
+  v.y = gather_number(words, at);
+  v.z = gather_number(words, at);
+  return v;
 }
 
-static inline void store_vertex(const VertexStore* store, int row, const Walk* walk, Vertex v) {
+#define STORE_VECTOR(member) store_vector(&words, record.member);
+#define STORE_NUMBER(member) store_number(&words, record.member);
+#define STORE_INTEGER(member) store_number(&words, carry_int(record.member));
+
+// Stores the vertices of all lanes in a row; those of `scattered` are the next of their subpaths, which in the lanes of
+// `starting` begin here.
+static inline void store_vertices(const VertexStore* store, int row, const Subpath* s, Vertex v, StoredSubpath* stored,
+                                  Mask starting, Mask scattered) {
+  VertexRecord record;
+  record.position = v.point.position;
+  record.shading_normal = v.point.frame.z;
+  record.back = vec_scale((Real)(-1.0f), s->ray.direction);
+  record.throughput = s->throughput;
+  record.error = v.point.error;
+  record.material = v.point.material;
+  record.mis = s->mis;
+  record.normal = v.point.normal;
+  record.tangent = v.point.frame.x;
   __global Scalar* words = store->words + (size_t)row * ROW_WORDS;
-  store_vec(words, VERTEX_POSITION, v.point.position);
-  store_vec(words, VERTEX_NORMAL, v.point.frame.z);
-  store_vec(words, VERTEX_FIXED, vec_scale((Real)(-1.0f), walk->ray.direction));
-  store_vec(words, VERTEX_THROUGHPUT, walk->throughput);
-  store_scalars(words + VERTEX_ERROR * LANES, v.point.error);
-  store_scalars(words + VERTEX_MATERIAL * LANES, carry_int(v.point.material));
-  store_scalars(words + VERTEX_EDGE * LANES, walk->ratios.edge);
-  store_scalars(words + VERTEX_REST * LANES, walk->ratios.rest);
-  if (HAS_SMOOTH_NORMALS) store_vec(words, VERTEX_GEOMETRIC, v.point.normal);
-  if (HAS_TANGENTS) store_vec(words, VERTEX_TANGENT, v.point.frame.x);
+  VERTEX_FIELDS(STORE_VECTOR, STORE_NUMBER, STORE_INTEGER, STORE_INTEGER)
+  if (HAS_SMOOTH_NORMALS) {
+    VERTEX_FIELDS_OF_NORMALS(STORE_VECTOR, STORE_NUMBER, STORE_INTEGER, STORE_INTEGER)
+  }
+  if (HAS_TANGENTS) {
+    VERTEX_FIELDS_OF_TANGENTS(STORE_VECTOR, STORE_NUMBER, STORE_INTEGER, STORE_INTEGER)
+  }
+  stored->first = starting ? row * ROW_WORDS + LANE_NUMBERS : stored->first;
+  stored->length = starting ? (Int)(0) : stored->length;
+  stored->length += scattered ? (Int)(1) : (Int)(0);
 }
 
-// A stored vertex, as far as connecting to it takes.
+// A stored vertex, ready for a connection.
 typedef struct {
   Vertex vertex;
   Vec3 throughput;
-  Ratios ratios;
-} Joint;
+  MisQuantities mis;
+} StoredVertex;
 
-static inline Joint load_vertex(const Scene* scene, const VertexStore* store, Int at) {
+#define GATHER_VECTOR(member) record.member = gather_vector(&words, at);
+#define GATHER_NUMBER(member) record.member = gather_number(&words, at);
+#define GATHER_INTEGER(member) record.member = carried_int(gather_number(&words, at));
+static inline VertexRecord vertex_record_at(const VertexStore* store, Int at) {
+  VertexRecord record;
   const __global Scalar* words = store->words;
-  Joint j;
-  j.vertex.point.position = gather_vec(words, VERTEX_POSITION, at);
-  const Vec3 shading = gather_vec(words, VERTEX_NORMAL, at);
-  if (HAS_TANGENTS) {
-    j.vertex.point.frame.x = gather_vec(words, VERTEX_TANGENT, at);
-    j.vertex.point.frame.y = vec_cross(shading, j.vertex.point.frame.x);
-    j.vertex.point.frame.z = shading;
-  } else {
-    j.vertex.point.frame = frame_about(shading);
+  VERTEX_FIELDS(GATHER_VECTOR, GATHER_NUMBER, GATHER_INTEGER, GATHER_INTEGER)
+  record.normal = record.tangent = record.shading_normal;
+  if (HAS_SMOOTH_NORMALS) {
+    VERTEX_FIELDS_OF_NORMALS(GATHER_VECTOR, GATHER_NUMBER, GATHER_INTEGER, GATHER_INTEGER)
   }
-  j.vertex.point.normal = HAS_SMOOTH_NORMALS ? gather_vec(words, VERTEX_GEOMETRIC, at) : shading;
-  j.vertex.fixed = to_frame(j.vertex.point.frame, gather_vec(words, VERTEX_FIXED, at));
-  j.vertex.point.error = gather_scalar(words + VERTEX_ERROR * LANES, at);
-  j.vertex.material = material_at(scene, carried_int(gather_scalar(words + VERTEX_MATERIAL * LANES, at)));
-  j.throughput = gather_vec(words, VERTEX_THROUGHPUT, at);
-  j.ratios.edge = gather_scalar(words + VERTEX_EDGE * LANES, at);
-  j.ratios.rest = gather_scalar(words + VERTEX_REST * LANES, at);
-  return j;
+  if (HAS_TANGENTS) {
+    VERTEX_FIELDS_OF_TANGENTS(GATHER_VECTOR, GATHER_NUMBER, GATHER_INTEGER, GATHER_INTEGER)
+  }
+  return record;
 }
 
-// Where a subpath's vertices are, once it has ended.
-static inline void store_trail(const VertexStore* store, Int path, Trail trail, Mask m) {
-  scatter_int(store->first, path, trail.first, m);
-  scatter_int(store->length, path, trail.length, m);
+static inline StoredVertex stored_vertex(const Scene* scene, const VertexStore* store, Int at) {
+  const VertexRecord record = vertex_record_at(store, at);
+  StoredVertex s;
+  s.vertex.point.position = record.position;
+  s.vertex.point.normal = record.normal;
+  s.vertex.point.error = record.error;
+  s.vertex.point.frame = frame_about(record.shading_normal);
+  if (HAS_TANGENTS) {
+    s.vertex.point.frame.x = record.tangent;
+    s.vertex.point.frame.y = vec_cross(record.shading_normal, record.tangent);
+  }
+  s.vertex.fixed = to_frame(s.vertex.point.frame, record.back);
+  s.vertex.material = material_at(scene, record.material);
+  s.throughput = record.throughput;
+  s.mis = record.mis;
+  return s;
 }
-static inline Trail load_trail(const VertexStore* store, Int path) {
-  Trail trail;
-  trail.first = gather_int(store->first, path);
-  trail.length = gather_int(store->length, path);
-  return trail;
+
+// Where the subpaths of m have their vertices, once they have ended.
+static inline void set_stored(const VertexStore* store, Int path, StoredSubpath stored, Mask m) {
+  scatter_int(store->first, path, stored.first, m);
+  scatter_int(store->length, path, stored.length, m);
+}
+static inline StoredSubpath stored_of(const VertexStore* store, Int path) {
+  StoredSubpath stored;
+  stored.first = gather_int(store->first, path);
+  stored.length = gather_int(store->length, path);
+  return stored;
 }
 
 #endif

@@ -7,6 +7,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "errors.h"
+
 using phlux::accel::Tree;
 
 namespace {
@@ -92,4 +94,8 @@ TEST_CASE("primitives at one place, and in a row without extent, keep leaves and
     check_tree(heap, shape);
     check_tree(row, shape);
   }
+}
+
+TEST_CASE("a tree of nothing is refused") {
+  CHECK_THROWS_AS(Tree({}, shapes[0]), phlux::SceneError);
 }

@@ -1,10 +1,10 @@
-// That `phlux bench arithmetic` knows good formulas from bad ones.
+// `phlux bench arithmetic` measures the known errors of accurate and of inaccurate formulas.
 #include <cmath>
 
 #include <catch2/catch.hpp>
 
 #include "bench/arithmetic/arithmetic.h"
-#include "bench/common/phong_program.h"
+#include "bench/common/material_program.h"
 #include "bench/common/tables/csv.h"
 #include "bench/common/tables/saved_table.h"
 #include "kernel_copy.h"
@@ -41,7 +41,7 @@ FormulaErrors errors_of(const std::string& kernel, double exponent = 0) {
 
 } // namespace
 
-TEST_CASE("The lobe's power: pow loses digits as n grows, the chord's logarithm does not") {
+TEST_CASE("Power of the lobe: pow loses digits as n grows, log1p of the chord does not") {
   // MATH.md 2.2: 3e-4 at n = 1e4 and 3e-2 at 1e6 against 8e-8.
   CHECK(errors_of("lobe_pow", 1e4).rms_relative == Approx(3.4e-4).epsilon(.3));
   CHECK(errors_of("lobe_pow", 1e6).rms_relative == Approx(3.4e-2).epsilon(.3));
@@ -52,7 +52,7 @@ TEST_CASE("The lobe's power: pow loses digits as n grows, the chord's logarithm 
   }
 }
 
-TEST_CASE("The lobe's sine: the textbook formula ends in zeros, expm1 holds") {
+TEST_CASE("Sine of a lobe sample: the textbook formula returns 0 for large n, expm1 stays accurate") {
   CHECK(errors_of("sine_pow", 1e6).largest_relative == 1); // sin(alpha) = 0
   for (const double exponent : {10., 100., 1e4, 1e6}) {
     CAPTURE(exponent);
@@ -61,7 +61,7 @@ TEST_CASE("The lobe's sine: the textbook formula ends in zeros, expm1 holds") {
   }
 }
 
-TEST_CASE("What the kernels use holds what its comments say") {
+TEST_CASE("The formulas in the kernels are as accurate as their comments say") {
   CHECK(errors_of("turns_own").largest_ulp < 2);
   CHECK(errors_of("frame_duff").largest_relative < 4e-7);
   CHECK(errors_of("frame_frisvad").largest_relative > 1e-3);
@@ -70,14 +70,14 @@ TEST_CASE("What the kernels use holds what its comments say") {
   CHECK(errors_of("offset_scaled").largest_relative < 4e-6);
 }
 
-TEST_CASE("Polynomials of our own are as right as they were fitted") {
+TEST_CASE("Our own polynomials have the errors of their fits") {
   CHECK(errors_of("function_own_log").largest_ulp < 4);
   CHECK(errors_of("function_own_log1p").largest_ulp < 5);
   CHECK(errors_of("function_own_expm1").largest_ulp < 4);
   CHECK(errors_of("function_own_exp2").largest_ulp < 32);
 }
 
-TEST_CASE("A formula made worse has larger errors") {
+TEST_CASE("A formula with a wrong coefficient has larger errors") {
   const KernelCopy copy("arithmetic.cl", "(Real)(-7.21347332e-01f)", "(Real)(-7.21447332e-01f)");
   const ArithmeticKernels worse(test_device(), sources::KernelFiles(copy.folder()), test_device().info.lanes);
   CHECK(errors_of(worse, "function_own_log").largest_relative >
@@ -85,7 +85,7 @@ TEST_CASE("A formula made worse has larger errors") {
   CHECK(errors_of(worse, "function_log").largest_relative == errors_of("function_log").largest_relative);
 }
 
-TEST_CASE("Every formula has its row, every question one that the kernels use") {
+TEST_CASE("Every formula has a row, and each group has one formula that the kernels use") {
   for (const FormulaGroup& group : formula_groups()) {
     CAPTURE(group.name);
     CHECK(std::count_if(group.formulas.begin(), group.formulas.end(),

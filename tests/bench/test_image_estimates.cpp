@@ -1,4 +1,4 @@
-// Statistical tests here raise a false alarm with probability 1e-3 each, were their seeds drawn anew.
+// With random seeds, each statistical test here would fail with probability 1e-3.
 #include <cmath>
 #include <functional>
 #include <random>
@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t repeats = 10;
 constexpr double t_95 = 2.2622; // Student's, two-sided, 9 degrees of freedom (Abramowitz and Stegun, 26.10)
 
-// An image whose pixels are means of `samples` draws.
+// An image whose values are means of `samples` random numbers.
 ImageEstimate image_of(std::size_t pixels, int samples, const std::function<double()>& draw) {
   ImageEstimate image;
   for (std::size_t value = 0; value < 3 * pixels; ++value) {
@@ -46,8 +46,7 @@ std::function<double()> heavy_tailed(std::mt19937& generator) {
   };
 }
 
-// The least and most successes of n that a rate leaves out with probability 1e-3, by the normal
-// approximation.
+// Two-sided test of a binomial rate with significance level 1e-3, by the normal approximation.
 bool rate_holds(int successes, int n, double rate) {
   return std::abs(successes - n * rate) < 3.29 * std::sqrt(n * rate * (1 - rate)) + 0.5;
 }
@@ -69,21 +68,21 @@ TEST_CASE("The relative MSE is that of phlux compare") {
         Approx(phlux::files::compare(image(a), image(b), "a", "b").relmse).epsilon(1e-5));
 }
 
-TEST_CASE("The variance per sample is that of what is drawn, however many samples an image has") {
+TEST_CASE("The variance per sample does not depend on the number of samples per image") {
   std::mt19937 generator(2);
   const Reference reference(300, 0.5);
   const double expected = 0.25 / (0.25 + 1e-4);
   std::vector<ImageEstimate> images;
   for (const int samples : {1, 2, 3, 5, 8, 13, 21, 34, 55, 89})
     images.push_back(image_of(100, samples, exponential(generator, 0.5)));
-  const Figure variance = variance_per_sample(images, reference);
+  const Estimate variance = variance_per_sample(images, reference);
   CHECK(p_value(variance, expected, images.size()) > 1e-3);
   CHECK(variance.standard_error < 0.15 * expected);
-  // The error of the image of them all is then what this variance says, and no more.
+  // The variance then explains the whole error of the pooled image.
   CHECK(p_value(unexplained_mse(images, reference), 0, images.size()) > 1e-3);
 }
 
-TEST_CASE("Standard errors cover the truth at the rate of Student's t") {
+TEST_CASE("Confidence intervals have the coverage of Student's t") {
   constexpr int experiments = 400;
   constexpr std::size_t pixels = 64;
   std::mt19937 generator(3);
@@ -91,7 +90,7 @@ TEST_CASE("Standard errors cover the truth at the rate of Student's t") {
   int means = 0, variances = 0, unexplained = 0;
   for (int i = 0; i < experiments; ++i) {
     const auto images = images_of(repeats, pixels, 4, exponential(generator, 2.0));
-    const auto covers = [](const Figure& figure, double truth) {
+    const auto covers = [](const Estimate& figure, double truth) {
       return std::abs(figure.value - truth) < t_95 * figure.standard_error;
     };
     means += covers(image_mean(images), 2.0) ? 1 : 0;
@@ -101,28 +100,28 @@ TEST_CASE("Standard errors cover the truth at the rate of Student's t") {
   CAPTURE(means, variances, unexplained);
   CHECK(rate_holds(means, experiments, 0.95));
   CHECK(rate_holds(variances, experiments, 0.95));
-  CHECK(unexplained >= means); // without a bias it is a difference of squares: its jackknife is careful
+  CHECK(unexplained >= means); // the jackknife of a difference of squares overestimates
 }
 
-TEST_CASE("A bias is what the variance does not explain, and shows in the mean") {
+TEST_CASE("A bias appears in the unexplained MSE and in the mean") {
   std::mt19937 generator(4);
   const Reference reference(300, 2.0);
   const auto images = images_of(repeats, 100, 50, exponential(generator, 1.9)); // 5% too dark
-  const Figure unexplained = unexplained_mse(images, reference);
+  const Estimate unexplained = unexplained_mse(images, reference);
   CHECK(p_value(unexplained, 0, repeats) < 1e-4);
   CHECK(p_value(unexplained, 0.01 / 4.0001, repeats) > 1e-3);
   CHECK(p_value(image_mean(images), 2.0, repeats) < 1e-4);
   CHECK(p_value(image_mean(images), 1.9, repeats) > 1e-3);
 }
 
-TEST_CASE("The pooled image weighs each by its samples") {
+TEST_CASE("The pooled image weights images by their samples") {
   const std::vector<ImageEstimate> images = {{{1, 1, 1}, {1}}, {{4, 4, 4}, {3}}};
   const ImageEstimate image = pooled(images);
   CHECK(image.radiance == std::vector<double>{3.25, 3.25, 3.25});
   CHECK(image.samples == std::vector<double>{4});
 }
 
-TEST_CASE("The top share tells even samples from one that decides") {
+TEST_CASE("The top share is near 1 if one sample dominates the error") {
   std::mt19937 generator(5);
   const Reference reference(3 * 5000, 1.0);
   std::normal_distribution<double> normal(1, 0.5);
@@ -136,7 +135,7 @@ TEST_CASE("The top share tells even samples from one that decides") {
   CHECK(top_share(exact, reference) == 0);
 }
 
-TEST_CASE("An infinite variance grows with the samples, a finite one does not") {
+TEST_CASE("An infinite variance grows with the number of samples, a finite one does not") {
   std::mt19937 generator(6);
   const Reference reference(3 * 200, 3.0);
   const auto growth = [&](const std::function<double()>& draw) {
@@ -149,25 +148,25 @@ TEST_CASE("An infinite variance grows with the samples, a finite one does not") 
   CHECK(growths[7] > std::log(2.0));
 }
 
-TEST_CASE("An infinite variance rests on few samples and is never known") {
+TEST_CASE("An infinite variance is dominated by few samples and keeps a large standard error") {
   std::mt19937 generator(7);
   const Reference reference(3 * 200, 3.0);
-  int rests = 0, unknown = 0, well_known = 0;
+  int dominated = 0, uncertain = 0, well_known = 0;
   for (int i = 0; i < 15; ++i) {
-    const Figure heavy =
+    const Estimate heavy =
         variance_per_sample(images_of(repeats, 200, 100, heavy_tailed(generator)), reference);
-    unknown += heavy.standard_error > 0.1 * heavy.value ? 1 : 0;
-    rests += top_share(images_of(repeats, 200, 1, heavy_tailed(generator)), reference) > 0.3 ? 1 : 0;
-    const Figure light =
+    uncertain += heavy.standard_error > 0.1 * heavy.value ? 1 : 0;
+    dominated += top_share(images_of(repeats, 200, 1, heavy_tailed(generator)), reference) > 0.3 ? 1 : 0;
+    const Estimate light =
         variance_per_sample(images_of(repeats, 200, 100, exponential(generator, 3.0)), reference);
     well_known += light.standard_error < 0.1 * light.value ? 1 : 0;
   }
-  CHECK(unknown >= 12);
-  CHECK(rests >= 12);
+  CHECK(uncertain >= 12);
+  CHECK(dominated >= 12);
   CHECK(well_known == 15);
 }
 
-TEST_CASE("P-values are Student's") {
+TEST_CASE("P-values are those of Student's t distribution") {
   CHECK(p_value({1 + t_95, 1}, 1, repeats) == Approx(0.05).epsilon(1e-4));
   CHECK(p_value({1 - t_95, 1}, 1, repeats) == Approx(0.05).epsilon(1e-4));
   CHECK(p_value({1, 0}, 1, repeats) == 1);

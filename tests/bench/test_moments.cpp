@@ -25,7 +25,7 @@ PowerSums sums_of(const std::vector<double>& samples, double centre) {
 
 } // namespace
 
-TEST_CASE("Moments of a few numbers, wherever the centre is") {
+TEST_CASE("Moments of four numbers, for several centres") {
   for (const double centre : {0.0, 2.5, 7.0}) {
     const Moments m = moments_of(sums_of({1, 2, 3, 6}, centre));
     CHECK(m.mean == Approx(3));
@@ -36,12 +36,12 @@ TEST_CASE("Moments of a few numbers, wherever the centre is") {
   }
 }
 
-TEST_CASE("Bias is counted in standard errors of the mean") {
+TEST_CASE("Bias is in standard errors of the mean") {
   const Moments m = moments_of(sums_of({1, 2, 3, 6}, 3));
   CHECK(bias_in_sigmas(m, 2) == Approx(1 / std::sqrt(14.0 / 12)));
   const Moments constant = moments_of(sums_of({.5, .5, .5}, .5));
   CHECK(bias_in_sigmas(constant, .5) == 0);
-  CHECK(std::abs(bias_in_sigmas(constant, .5 * (1 + 6e-8))) < 1); // float's rounding is no bias
+  CHECK(std::abs(bias_in_sigmas(constant, .5 * (1 + 6e-8))) < 1); // rounding of float32 is not a bias
   CHECK(bias_in_sigmas(constant, .4) > 1e5);
 }
 

@@ -1,11 +1,11 @@
-// What `phlux bench precision` makes of pairs of images whose differences are known.
+// The error estimates of `phlux bench precision` for pairs of images with known differences.
 #include <cmath>
 #include <limits>
 #include <random>
 
 #include <catch2/catch.hpp>
 
-#include "bench/precision/precision.h"
+#include "bench/precision/precision_error.h"
 
 using namespace phlux::bench;
 
@@ -14,22 +14,21 @@ namespace {
 constexpr std::size_t pixels = 1600, repeats = 8;
 constexpr double samples = 16;
 
-// Radiance 2 with this noise in an image of 16 samples per pixel; in single `bias` more, and differences of
-// samples that went another way. The last tenth of the pixels has no noise.
+// Radiance 2 with this noise in images of 16 samples per pixel. float32 adds `bias`, and random differences
+// as from samples on other paths. The last tenth of the pixels has no noise.
 PrecisionPairs known_pairs(double noise, double bias, double differences) {
   std::mt19937 random(1);
   std::normal_distribution<double> normal;
   PrecisionPairs pairs;
   for (std::size_t i = 0; i < repeats; ++i) {
-    ImageEstimate single{{}, std::vector<double>(pixels, samples)}, in_double = single;
+    ImageEstimate float32{{}, std::vector<double>(pixels, samples)}, float64 = float32;
     for (std::size_t value = 0; value < 3 * pixels; ++value) {
       const bool quiet = value >= 3 * pixels * 9 / 10;
-      in_double.radiance.push_back(2 + (quiet ? 0 : noise * normal(random)));
-      single.radiance.push_back(in_double.radiance.back() + bias +
-                                (quiet ? 0 : differences * normal(random)));
+      float64.radiance.push_back(2 + (quiet ? 0 : noise * normal(random)));
+      float32.radiance.push_back(float64.radiance.back() + bias + (quiet ? 0 : differences * normal(random)));
     }
-    pairs.single.push_back(single);
-    pairs.in_double.push_back(in_double);
+    pairs.float32.push_back(float32);
+    pairs.float64.push_back(float64);
   }
   for (std::size_t value = 0; value < 3 * pixels; ++value)
     pairs.variance.push_back(value >= 3 * pixels * 9 / 10 ? 0 : noise * noise / repeats);
@@ -38,7 +37,7 @@ PrecisionPairs known_pairs(double noise, double bias, double differences) {
 
 } // namespace
 
-TEST_CASE("an error of float32 comes apart into what is systematic and samples that went another way") {
+TEST_CASE("the error of float32 is separated into a systematic part and samples on other paths") {
   // Noise of one sample 0.4, of 4096 samples 0.4 / 64, in nine tenths of the pixels.
   const double unit = 0.1 * std::sqrt(samples * 0.9 / unit_samples);
   const PrecisionError biased = precision_error(known_pairs(0.1, 0.001, 0.002));
@@ -55,7 +54,7 @@ TEST_CASE("an error of float32 comes apart into what is systematic and samples t
   CHECK(biased.quiet_difference == Approx(0.0005).epsilon(1e-3));
 }
 
-TEST_CASE("what is no bias is not taken for one") {
+TEST_CASE("unbiased differences have no systematic part") {
   const PrecisionError fair = precision_error(known_pairs(0.1, 0, 0.002));
   CHECK(fair.systematic < 0.02);
   CHECK(fair.systematic_most < 0.05);
@@ -66,7 +65,7 @@ TEST_CASE("what is no bias is not taken for one") {
   CHECK(same.largest < 1e-9);
 }
 
-TEST_CASE("doubles pay where the systematic error is what more samples would take away") {
+TEST_CASE("float64 breaks even where the systematic error equals the noise that float32 saves") {
   CHECK(break_even_samples(1, 2) == Approx(unit_samples / 2));
   CHECK(break_even_samples(0.01, 10) == Approx(unit_samples * 0.9 * 1e4));
   CHECK(break_even_samples(0, 2) == std::numeric_limits<double>::infinity());

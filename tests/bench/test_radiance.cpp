@@ -1,5 +1,5 @@
-// What `phlux bench sampling` calls exact: quadrature against closed forms, against one-dimensional
-// integrals, and against what the device samples.
+// The exact values of `phlux bench sampling`: quadrature against closed forms, one-dimensional integrals and
+// means of samples from the device.
 #include <cmath>
 #include <numbers>
 
@@ -35,7 +35,7 @@ double simpson(const Function& function, double to) {
 
 } // namespace
 
-TEST_CASE("Quadrature of constant light is the closed form of the reflectivity") {
+TEST_CASE("Quadrature of constant light gives the closed form of the reflectivity") {
   for (const double exponent : {0., 1., 10., 90., 1e3, 1e4, 1e6})
     for (const double degrees : {0., 30., 60., 85., 89.9}) {
       CAPTURE(exponent, degrees);
@@ -61,8 +61,7 @@ TEST_CASE("At normal incidence the reflected radiance is an integral over one an
     }
 }
 
-TEST_CASE(
-    "A diffuse surface reflects of the sky the same at every angle, of the disk what its height leaves") {
+TEST_CASE("Diffuse reflection does not depend on the angle for the sky, but on the height of the disk") {
   const double high = reflected_radiance({.5, 0, 1, 10}, Light::horizon_sky);
   CHECK(reflected_radiance({.5, 0, 1, 80}, Light::horizon_sky) == Approx(high).epsilon(1e-9));
   // A disk that is above the horizon has the irradiance of its centre's direction times (1 + cos(radius))
@@ -72,19 +71,19 @@ TEST_CASE(
     CHECK(reflected_radiance({.5, 0, 1, degrees}, Light::mirror_disk) ==
           Approx(.5 / pi * wide * std::cos(degrees * pi / 180)).epsilon(1e-9));
   CHECK(reflected_radiance({.5, 0, 1, 88}, Light::mirror_disk) >
-        1.01 * .5 / pi * wide * std::cos(88 * pi / 180)); // half of it, but the half that is higher
+        1.01 * .5 / pi * wide * std::cos(88 * pi / 180)); // the lower half of the disk is below the horizon
 }
 
-TEST_CASE("The kernel's constants are those of the definitions") {
+TEST_CASE("The constants of the kernel agree with the definitions") {
   CHECK(double(MIRROR_DISK_CHORD2) == Approx(4 * std::pow(std::sin(disk_angle / 2), 2)).epsilon(1e-7));
   CHECK(double(MIRROR_DISK_RADIANCE) == Approx(disk(0)).epsilon(1e-7));
   CHECK(double(HORIZON_SKY_SCALE) / (1 + double(HORIZON_SKY_HEIGHT)) == Approx(sky(0)).epsilon(1e-7));
   CHECK(double(HORIZON_SKY_SCALE) / double(HORIZON_SKY_HEIGHT) == Approx(sky(pi / 2)).epsilon(1e-7));
 }
 
-TEST_CASE("The device's means are the exact values, for every kind of light") {
+TEST_CASE("Means of device samples agree with the exact values, for every kind of light") {
   const device::Device device = device::open_devices({}).front();
-  // 48 questions at 4.3 sigma: a false alarm in 1200 runs, were the seeds not fixed.
+  // 48 comparisons at 4.3 sigma: with random seeds, one run in 1200 would fail.
   constexpr double sigmas = 4.3;
   for (const std::string strategy : {"theta-phi", "cosine", "mixture", "exact"}) {
     Sampler sampler(device, {}, strategy, 0);

@@ -12,7 +12,7 @@
 using namespace phlux;
 using namespace phlux::bench;
 
-TEST_CASE("A remedy's two renders differ in that remedy and in nothing else") {
+TEST_CASE("The renders before and after a remedy differ only in that remedy") {
   RemediesOptions options;
   options.lanes = 4;
   options.seed = 7;
@@ -27,7 +27,7 @@ TEST_CASE("A remedy's two renders differ in that remedy and in nothing else") {
     CHECK(selection == (one.remedy == "light-selection"));
     CHECK(connections == (one.remedy == "connections"));
     CHECK(strategy == (one.remedy == "exact-lobe"));
-    CHECK(after.light_selection == render::Settings().light_selection); // what is measured is the default
+    CHECK(after.light_selection == render::Settings().light_selection); // after: the defaults
     CHECK(after.connections == render::Settings().connections);
     CHECK(after.strategy == render::Settings().strategy);
     for (const render::Settings& settings : {before, after}) {
@@ -44,14 +44,14 @@ TEST_CASE("A remedy's two renders differ in that remedy and in nothing else") {
   CHECK(std::ranges::all_of(some, [](const RemedyCase& one) { return one.remedy == "connections"; }));
 }
 
-TEST_CASE("The gain is that of variance x time, with the errors of both variances") {
+TEST_CASE("The gain is the ratio of variance x time, with the standard errors of both variances") {
   const Efficiency before{{8, 0.4}, 3e-6, 10}, after{{2, 0.2}, 6e-6, 5};
-  const Figure gain = gain_of(before, after);
+  const Estimate gain = gain_of(before, after);
   CHECK(gain.value == Approx(2));
   CHECK(gain.standard_error == Approx(2 * std::hypot(0.05, 0.1)));
 }
 
-TEST_CASE("The scene of many lights has as many, the same ones each time") {
+TEST_CASE("The scene of many lights has the requested number, reproducibly") {
   const scene::Scene scene = many_lights_scene(64, 8), again = many_lights_scene(64, 8);
   REQUIRE(scene.patches.size() == 65);
   CHECK(scene.area_emitters.size() == 64);

@@ -46,11 +46,11 @@ const std::string& value_of(const ResultTable::Values& row, const std::string& c
 
 } // namespace
 
-TEST_CASE("A method has only those figures in the table that its verdict allows") {
+TEST_CASE("The table contains only the values that the verdict of a method allows") {
   const auto sound = values(result_with(Verdict::sound));
   CHECK(sound.size() == result_columns().size());
   CHECK(value_of(sound, "variance_per_sample") == "2");
-  CHECK(value_of(sound, "variance_times_seconds") == "0.5"); // of the processor's
+  CHECK(value_of(sound, "variance_times_seconds") == "0.5"); // processor time
   CHECK(value_of(sound, "device") == "a CPU  of some kind");
   CHECK(value_of(sound, "image") == "3x2");
   const auto suspect = values(result_with(Verdict::suspect_variance));
@@ -65,7 +65,7 @@ TEST_CASE("A method has only those figures in the table that its verdict allows"
   CHECK(value_of(refused, "seconds_per_sample").empty());
 }
 
-TEST_CASE("What a table of results lacks is what is measured next") {
+TEST_CASE("Missing methods are those without a row of the same settings") {
   const TemporaryFolder folder;
   {
     ResultTable table = open(folder);
@@ -76,19 +76,19 @@ TEST_CASE("What a table of results lacks is what is measured next") {
   }
   ResultTable table = open(folder);
   CHECK_FALSE(table.empty());
-  CHECK(table.missing(key, {none, mis}, "s").empty()); // a refusal alone is no reason to measure
+  CHECK(table.missing(key, {none, mis}, "s").empty()); // only refused methods are missing
   CHECK(table.missing(key, {none, mis, light}, "s") == std::vector<Method>{none, light});
   CHECK(table.missing(key, {mis}, "other settings") == std::vector<Method>{mis});
   CHECK(table.missing(other_key, {mis}, "s") == std::vector<Method>{mis});
-  table.forget(key, {none}, "s");
+  table.remove(key, {none}, "s");
   CHECK(table.missing(key, {none, mis}, "s") == std::vector<Method>{none});
-  table.forget(other_key, {mis}, "other settings");
+  table.remove(other_key, {mis}, "other settings");
   CHECK(table.missing(key, {mis}, "s").empty());
-  table.forget(key, {}, "other settings");
+  table.remove(key, {}, "other settings");
   CHECK(table.empty());
 }
 
-TEST_CASE("A fingerprint tells texts apart that run into each other") {
+TEST_CASE("Fingerprints of \"ab\", \"c\" and \"a\", \"bc\" differ") {
   Fingerprint a, b;
   a.add("ab"), a.add("c");
   b.add("a"), b.add("bc");

@@ -1,5 +1,4 @@
-// What `phlux bench sampling` reports is right: variances known by quadrature, errors that mean what they
-// say.
+// `phlux bench sampling` against variances known by quadrature; coverage of its standard errors.
 #include <catch2/catch.hpp>
 
 #include "bench/sampling/sampler.h"
@@ -51,7 +50,7 @@ TEST_CASE("Variances agree with quadrature") {
     }
 }
 
-TEST_CASE("exact: the variance is that of its roulette alone, and every ray carries the same") {
+TEST_CASE("exact: the variance is that of the roulette, and all rays have weight 1") {
   Sampler sampler(test_device(), {}, "exact", 0);
   for (const Case& one :
        {Case{.4, .05, 50, 85}, Case{.4, .4, 10, 80}, Case{.1, .8, 1e4, 60}, Case{0, .9, 1, 30}}) {
@@ -65,7 +64,7 @@ TEST_CASE("exact: the variance is that of its roulette alone, and every ray carr
   }
 }
 
-TEST_CASE("A standard error of the mean covers the true value as often as it should") {
+TEST_CASE("The standard error of the mean has the right coverage") {
   constexpr int seeds = 200;
   const Case one{.4, .4, 10, 60};
   const double exact = exact_reflectivity(one);
@@ -99,7 +98,7 @@ TEST_CASE("Samples of later launches continue the sequence; another seed is anot
   CHECK(sampler.run(one, 1, {{5, 6}}).sums.d != half.sums.d);
 }
 
-TEST_CASE("The printed estimate is seen to be biased, the guarded one is not") {
+TEST_CASE("The printed estimate is biased, the corrected one is not") {
   const Case one{.4, .4, 10, 80}; // MATH.md 2.4: loses 28.5% of the specular part
   const double specular = exact_reflectivity(one) - one.diffuse;
   Sampler printed(test_device(), {}, "lobe-estimate-printed", 0),
@@ -112,7 +111,7 @@ TEST_CASE("The printed estimate is seen to be biased, the guarded one is not") {
   CHECK(std::abs(bias_in_sigmas(g, exact_reflectivity(one))) < sigmas);
 }
 
-TEST_CASE("Every strategy is there, and no other") {
+TEST_CASE("Every strategy can be built, an unknown one is an error") {
   for (const std::string& strategy : render::strategy_names())
     CHECK(Sampler(test_device(), {}, strategy, 0).run({.4, .4, 10, 60}, 1, {{1, 1}}).defects == 0);
   CHECK_THROWS_WITH(Sampler(test_device(), {}, "magic", 0), Catch::Contains("magic"));

@@ -1,5 +1,4 @@
-// The tables of `phlux bench sampling`: what is in them, what is left out of them, and that a run that was
-// stopped goes on.
+// The tables of `phlux bench sampling`: rows, marks, and resuming an interrupted run.
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -49,7 +48,7 @@ double number(CsvRow row, const std::string& column) {
 
 } // namespace
 
-TEST_CASE("The printed estimate's loss is that of MATH.md 2.4") {
+TEST_CASE("The loss of the printed estimate agrees with MATH.md 2.4") {
   CHECK(printed_loss({0, 1, 50, 85}) == Approx(.27).margin(.005));
   CHECK(printed_loss({0, 1, 50, 80}) == Approx(.107).margin(.0005));
   CHECK(printed_loss({0, 1, 50, 75}) == Approx(.031).margin(.0005));
@@ -57,7 +56,7 @@ TEST_CASE("The printed estimate's loss is that of MATH.md 2.4") {
   CHECK(printed_loss({0, 1, 10, 0}) == 0);
 }
 
-TEST_CASE("The density of the printed estimate just above 0 is that of the lobe's heights") {
+TEST_CASE("The density of the printed estimate at height 0 agrees with samples of the lobe") {
   const Case one{0, 1, 10, 80};
   const double angle = one.degrees * std::numbers::pi / 180, low = 0.01;
   std::mt19937_64 generator(1);
@@ -68,13 +67,13 @@ TEST_CASE("The density of the printed estimate just above 0 is that of the lobe'
     const double z = std::pow(uniform(generator), 1 / (one.exponent + 1));
     const double x = std::sqrt(1 - z * z) * std::cos(2 * std::numbers::pi * uniform(generator));
     const double height = z * std::cos(angle) - x * std::sin(angle);
-    inside += std::abs(height) < low ? 1 : 0; // on both sides: the slope drops out
+    inside += std::abs(height) < low ? 1 : 0; // on both sides of 0, so that the slope cancels
   }
   const double expected = 2 * low * count * printed_density_at_horizon(one);
   CHECK(std::abs(inside - expected) < 4 * std::sqrt(expected) + 1e-3 * expected);
 }
 
-TEST_CASE("A biased strategy is marked, and so is one whose variance diverges, which is given none") {
+TEST_CASE("A biased strategy and a divergent variance are marked, and a divergent variance is nan") {
   const TemporaryFolder folder;
   SamplingOptions options = options_for(folder);
   options.samples = 1 << 18;
@@ -105,7 +104,7 @@ TEST_CASE("A biased strategy is marked, and so is one whose variance diverges, w
         -10);
 }
 
-TEST_CASE("Too few samples to tell are no small variance") {
+TEST_CASE("Too few samples are marked as unresolved") {
   const TemporaryFolder folder;
   SamplingOptions options = options_for(folder);
   options.cases = {{0, .9, 1e6, 30}};
@@ -117,7 +116,7 @@ TEST_CASE("Too few samples to tell are no small variance") {
   CHECK(row_of(rows, "exact", "constant")["marks"].empty());
 }
 
-TEST_CASE("A worse strategy has more variance, and more variance x cost") {
+TEST_CASE("A less efficient strategy has more variance and more variance x cost") {
   const TemporaryFolder folder;
   SamplingOptions options = options_for(folder);
   options.samples = 1 << 18;
@@ -135,16 +134,17 @@ TEST_CASE("A worse strategy has more variance, and more variance x cost") {
       CHECK(cosine > 30 * exact);
       CHECK(exact > number(row_of(bare, "exact", light), column)); // roulette costs variance
     }
-  // A sample of `exact` takes about twice as long, and what else a machine does changes that by less than 15.
+  // A sample of `exact` takes about twice as long; other load on the machine changes that by a factor
+  // below 15.
   for (const std::string& light : light_names())
     CHECK(number(row_of(rows, "cosine", light), "variance_times_cost") >
           number(row_of(rows, "exact", light), "variance_times_cost"));
-  // Without roulette and cosine, `exact` has nothing left to vary; `lobe-rho` has.
+  // Without roulette `exact` has no variance under constant light; `lobe-rho` has.
   CHECK(number(row_of(bare, "exact", "constant"), "variance") < 1e-10);
   CHECK(number(row_of(bare, "lobe-rho", "constant"), "variance") > 1e-4);
 }
 
-TEST_CASE("A run that was stopped goes on, and ends with what it would have had") {
+TEST_CASE("An interrupted run resumes and ends with the same rows as a whole run") {
   const TemporaryFolder whole, stopped;
   SamplingOptions options = options_for(whole);
   options.cases = {{.4, .4, 10, 60}, {.1, .8, 90, 30}};
@@ -158,7 +158,7 @@ TEST_CASE("A run that was stopped goes on, and ends with what it would have had"
   const std::string kept = TemporaryFolder::read(stopped / "sampling.csv");
   CHECK(rows_of(stopped, "sampling.csv").size() == 6);
   CHECK(rows_of(stopped, "sampling-no-roulette.csv").size() == 3);
-  stopped.write("sampling.csv", kept + "cosine,0.1,0.8,90,30,81"); // killed while it wrote
+  stopped.write("sampling.csv", kept + "cosine,0.1,0.8,90,30,81"); // killed while writing a row
 
   options.interrupted = {};
   REQUIRE(write_sampling_tables(options));
@@ -172,13 +172,13 @@ TEST_CASE("A run that was stopped goes on, and ends with what it would have had"
         CHECK(found[i].at(column) == expected[i].at(column));
   }
 
-  // Complete: nothing is measured again. Other settings, or --fresh: everything is.
+  // A complete table is not measured again, unless the settings differ or `fresh` is set.
   const std::string complete = TemporaryFolder::read(stopped / "sampling.csv");
   REQUIRE(write_sampling_tables(options));
   CHECK(TemporaryFolder::read(stopped / "sampling.csv") == complete);
   options.fresh = true;
   REQUIRE(write_sampling_tables(options));
-  CHECK(TemporaryFolder::read(stopped / "sampling.csv") != complete); // the times at least
+  CHECK(TemporaryFolder::read(stopped / "sampling.csv") != complete); // at least the times differ
   CHECK(rows_of(stopped, "sampling.csv").front().at("mean") ==
         rows_of(whole, "sampling.csv").front().at("mean"));
   options.fresh = false;

@@ -8,7 +8,7 @@
 
 using namespace phlux::bench;
 
-TEST_CASE("A saved table goes on where it was") {
+TEST_CASE("A saved table is read back and continued") {
   const TemporaryFolder folder;
   {
     SavedTable table(folder.path(), "t.csv", {"name", "value"});
@@ -27,7 +27,7 @@ TEST_CASE("A saved table goes on where it was") {
   CHECK(SavedTable(folder.path(), "t.csv", {"name", "other"}).rows().empty());
 }
 
-TEST_CASE("A saved table forgets a line that was cut off, and others' lines") {
+TEST_CASE("A saved table drops rows that are incomplete or have other columns") {
   const TemporaryFolder folder;
   folder.write("t.csv", "name,value\na,1\nb,2,3\nc,4");
   const SavedTable table(folder.path(), "t.csv", {"name", "value"});
@@ -35,11 +35,11 @@ TEST_CASE("A saved table forgets a line that was cut off, and others' lines") {
   CHECK(table.rows()[0][0] == "a");
 }
 
-TEST_CASE("A table in a folder that cannot be written is an error") {
+TEST_CASE("A table in a read-only folder is an error") {
   CHECK_THROWS_AS(SavedTable("/proc/phlux", "t.csv", {"a"}).write(), phlux::WriteError);
 }
 
-TEST_CASE("References are read back for the same settings alone") {
+TEST_CASE("References are read back only for the same settings") {
   const TemporaryFolder folder;
   phlux::scene::Camera camera;
   camera.width = 2, camera.height = 1;
@@ -57,7 +57,7 @@ TEST_CASE("References are read back for the same settings alone") {
   CHECK_THROWS_WITH(read_reference(folder / "s.exr", "abc"), Catch::Contains("delete it"));
 }
 
-TEST_CASE("Arrays are in NumPy's format") {
+TEST_CASE("Arrays have the format of NumPy") {
   const TemporaryFolder folder;
   write_array(folder / "a.npy", {2, 1}, {1.0, -0.5});
   const std::string bytes = TemporaryFolder::read(folder / "a.npy");

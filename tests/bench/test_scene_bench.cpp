@@ -31,7 +31,7 @@ ImageEstimate pixel_of(const ImageEstimate& image, std::size_t pixel) {
   return {{first, first + 3}, {image.samples[pixel]}};
 }
 
-// A furnace: what is there is known, and all methods but one have little variance.
+// The reference of a furnace, whose radiance is known.
 ReferenceImage furnace_reference(const scene::Scene& scene, double radiance) {
   ReferenceImage reference;
   reference.radiance.assign(3 * static_cast<std::size_t>(scene.camera.width * scene.camera.height), radiance);
@@ -44,8 +44,8 @@ const Method none{"path", "exact", "none"}, mis{"path", "exact", "mis"};
 
 } // namespace
 
-// 200 seeds in groups of ten; each pixel of a group is an experiment of its own, since pixels are drawn
-// independently. The number of intervals that hold the truth is binomial: a false alarm in 1 of 1000 runs.
+// 200 seeds in groups of ten. Pixels are independent, so each pixel of a group is one experiment. The number
+// of intervals that cover the radiance is binomial; the test fails with probability 1e-3 for random seeds.
 TEST_CASE("The standard error of the mean covers the radiance of a furnace at the stated rate") {
   const scene::Scene furnace = shipped("furnace-box", 6);
   const render::Settings settings = settings_of(none, furnace.defaults);
@@ -59,7 +59,7 @@ TEST_CASE("The standard error of the mean covers the radiance of a furnace at th
     for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
       std::vector<ImageEstimate> of_pixel;
       for (const ImageEstimate& image : images) of_pixel.push_back(pixel_of(image, pixel));
-      const Figure mean = image_mean(of_pixel);
+      const Estimate mean = image_mean(of_pixel);
       covered += std::abs(mean.value - 2.0) < t_95 * mean.standard_error ? 1 : 0;
     }
   }
@@ -68,7 +68,7 @@ TEST_CASE("The standard error of the mean covers the radiance of a furnace at th
   CHECK(std::abs(covered - 0.95 * experiments) < 3.29 * std::sqrt(experiments * 0.95 * 0.05));
 }
 
-TEST_CASE("The variance between renders is that within them") {
+TEST_CASE("The variance between renders agrees with the variance estimated by the films") {
   const scene::Scene scene = shipped("cornell-box", 12);
   const render::Settings settings = settings_of(mis, scene.defaults);
   constexpr int samples = 256;
@@ -87,15 +87,15 @@ TEST_CASE("The variance between renders is that within them") {
       for (const double variance : film.variance_of_mean(pixel))
         of_films += variance * samples / 1.0001 / static_cast<double>(ones.size()) / 10;
   }
-  const Figure between = variance_per_sample(images, ones);
+  const Estimate between = variance_per_sample(images, ones);
   CAPTURE(between.value, between.standard_error, of_films);
   CHECK(p_value(between, of_films, images.size()) > 1e-3);
 }
 
-TEST_CASE("Measured in turns: what is worse comes out worse") {
+TEST_CASE("Methods that alternate are ranked correctly, and biased and refused ones are detected") {
   const scene::Scene furnace = shipped("furnace-sphere", 16);
   SceneBenchSettings settings;
-  settings.seconds = 16; // a quarter of it has enough samples on a machine without other work
+  settings.seconds = 16; // 4 s would be enough on an idle machine
   SceneBench bench(furnace, settings);
   const Method plain{"path", "uniform", "none"}, printed{"path", "lobe-estimate-printed", "none"},
       impossible{"none such", "exact", "-"};
@@ -109,7 +109,7 @@ TEST_CASE("Measured in turns: what is worse comes out worse") {
   // MATH.md 2.6: `exact` has the least variance of all.
   CHECK(results[1].variance.value - 4 * results[1].variance.standard_error > 2 * results[0].variance.value);
   CHECK(results[2].verdict == Verdict::biased);
-  CHECK(results[2].mean_bias_sigma < -4); // it loses light, and that is measured, too
+  CHECK(results[2].mean_bias_sigma < -4); // the loss of light is also measured
   CHECK(results[3].verdict == Verdict::refused);
   CHECK_THAT(results[3].reason, Catch::Contains("none such"));
   for (std::size_t i = 0; i < 3; ++i) {
@@ -122,7 +122,7 @@ TEST_CASE("Measured in turns: what is worse comes out worse") {
   }
 }
 
-TEST_CASE("A mean that differs from the reference's is a bias, and its error has a floor") {
+TEST_CASE("A mean that differs from that of the reference is a bias, and the error converges to it") {
   const scene::Scene furnace = shipped("furnace-box", 8);
   SceneBenchSettings settings;
   settings.seconds = 2;
@@ -140,7 +140,7 @@ TEST_CASE("A mean that differs from the reference's is a bias, and its error has
   }
 }
 
-TEST_CASE("A scene that no method renders has no reference") {
+TEST_CASE("A scene that no method can render has no reference") {
   const scene::Scene scene = shipped("point-light", 8);
   SceneBenchSettings settings;
   settings.seconds = 1;
@@ -150,21 +150,21 @@ TEST_CASE("A scene that no method renders has no reference") {
   CHECK_THROWS_AS(bench.reference(), SceneError);
 }
 
-TEST_CASE("A render for a time keeps images on the way") {
+TEST_CASE("A render for a given time keeps intermediate images") {
   const scene::Scene scene = shipped("cornell-box", 16);
   const render::Settings settings = settings_of(mis, scene.defaults);
   TimedRender render;
-  // Where the machine has other work, no launch may end between two of the times: then once more.
-  for (int attempt = 0; attempt < 20 && render.on_the_way.size() < 2; ++attempt)
+  // On a busy machine there may be no launch that ends between the two times: then repeats the render.
+  for (int attempt = 0; attempt < 20 && render.intermediate.size() < 2; ++attempt)
     render = render_for(scene, settings, 0.2, {0.05, 0.1}, {});
-  REQUIRE(render.on_the_way.size() == 2);
-  CHECK(render.on_the_way[0].seconds >= 0.05);
-  CHECK(render.on_the_way[1].image.samples[0] > render.on_the_way[0].image.samples[0]);
+  REQUIRE(render.intermediate.size() == 2);
+  CHECK(render.intermediate[0].seconds >= 0.05);
+  CHECK(render.intermediate[1].image.samples[0] > render.intermediate[0].image.samples[0]);
   CHECK(render.last.seconds >= 0.2);
-  CHECK(render.samples_per_pixel() >= render.on_the_way[1].image.samples[0]);
+  CHECK(render.samples_per_pixel() >= render.intermediate[1].image.samples[0]);
   REQUIRE(render.one_sample);
   CHECK(render.one_sample->radiance == render_one_sample(scene, settings).radiance);
-  // Too short for one sample of every pixel: still an image.
+  // A time that is too short for one sample per pixel still gives an image.
   const TimedRender shortest = render_for(shipped("cornell-box", 256), settings, 1e-6, {}, {});
   CHECK(shortest.samples_per_pixel() >= 1);
   CHECK_THROWS_AS(render_for(scene, settings, 10, {}, [] { return true; }), Interrupted);

@@ -34,7 +34,7 @@ double power(const scene::Scene& scene) {
   return std::numbers::pi * area * scene.area_emitters[0].radiance.x;
 }
 
-// Whether a point is within the camera's pyramid.
+// Whether a point is in the view frustum of the camera.
 bool in_view(const scene::Camera& camera, const scene::Vec3& point) {
   const scene::Vec3 d = point - camera.position;
   const double depth = glm::dot(d, camera.forward), reach = depth * camera.tan_half_fov_x;
@@ -43,7 +43,7 @@ bool in_view(const scene::Camera& camera, const scene::Vec3& point) {
 
 } // namespace
 
-TEST_CASE("The lamp of the atlas has the same power in every cell, and is never in view") {
+TEST_CASE("The light has the same power in every cell and is never visible") {
   for (const StabilityCell& cell : stability_cells(false)) {
     const scene::Scene scene = stability_scene(cell.exponent, cell.light_radius, 8);
     CHECK(power(scene) == Approx(20));
@@ -57,15 +57,15 @@ TEST_CASE("The lamp of the atlas has the same power in every cell, and is never 
   }
 }
 
-TEST_CASE("The quick cells of the atlas are some of the others") {
+TEST_CASE("The quick cells are a subset of the default cells") {
   const auto all = stability_cells(false), quick = stability_cells(true);
   CHECK(all.size() == 36);
   CHECK(quick.size() == 9);
   for (const StabilityCell& cell : quick) CHECK(std::ranges::count(all, cell) == 1);
 }
 
-// A path meets a lamp of this size once in 10^9 samples or so.
-TEST_CASE("A method that never meets the light is suspect, and no reference") {
+// A path hits a light of this size about once in 10^9 samples.
+TEST_CASE("A method that never hits the light is suspect and does not render the reference") {
   const scene::Scene scene = stability_scene(100, 1e-4, 8);
   SceneBenchSettings settings;
   settings.seconds = 0.5;
@@ -77,23 +77,23 @@ TEST_CASE("A method that never meets the light is suspect, and no reference") {
   CHECK(reference.method == mis.name());
   const auto results = bench.measure(reference);
   CHECK(results[0].verdict == Verdict::suspect_variance);
-  CHECK_THAT(results[0].reason, Catch::Contains("never met"));
+  CHECK_THAT(results[0].reason, Catch::Contains("never drawn"));
 }
 
-// Directions meet a lamp of this size once in 10^7 samples; a hundred would have to be met.
-TEST_CASE("Where the light is tiny, hitting it by chance is suspect and sampling it is sound") {
+// Directions hit a light of this size once in 10^7 samples; about a hundred hits would be needed.
+TEST_CASE("With a tiny light, hitting it by chance is suspect and next-event estimation is sound") {
   const Method light_samples{"path", "exact", "light"};
   const auto results = measured(stability_scene(1, .001, 8), {none, light_samples}, 1);
   CHECK(results[0].verdict == Verdict::suspect_variance);
   CHECK(results[1].verdict == Verdict::sound);
 }
 
-// MATH.md 2.6: of all strategies `exact` has the least variance where lights are hit by directions alone.
-TEST_CASE("In the atlas a method that is made worse comes out worse") {
+// MATH.md 2.6: `exact` has the least variance of all strategies if lights are only hit by directions.
+TEST_CASE("A method with a worse strategy has more variance in a cell") {
   const Method plain{"path", "uniform", "none"};
   const auto results = measured(stability_scene(10, .3, 8), {none, plain}, 2);
   REQUIRE(results[0].verdict == Verdict::sound);
-  const Figure a = results[0].variance, b = results[1].variance;
+  const Estimate a = results[0].variance, b = results[1].variance;
   CAPTURE(a.value, a.standard_error, b.value, b.standard_error);
   CHECK(b.value - a.value > 4 * std::hypot(a.standard_error, b.standard_error));
 }

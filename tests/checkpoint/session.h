@@ -26,12 +26,12 @@ inline void go_on(Broken& broken, int launches = -1) {
   events.progress = [&](const render::Progress& progress) {
     if (launches-- != 0) return true;
     then = broken;
-    then->session.standing = progress.standing();
+    then->session.state = progress.state();
     return false;
   };
   broken.session.settings.kernel_dir = test::tested_kernels();
   const render::Statistics statistics =
-      render::render(small_box(), broken.session.settings, broken.film, events, broken.session.standing);
-  broken.session.standing = statistics;
+      render::render(small_box(), broken.session.settings, broken.film, events, broken.session.state);
+  broken.session.state = statistics;
   if (then) broken = *then;
 }

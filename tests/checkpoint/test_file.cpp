@@ -25,14 +25,14 @@ film::Film small_film() {
 
 checkpoint::Session small_session() {
   checkpoint::Session session{
-      .scene = "box.xml", .scene_digest = "1234", .choices = {}, .settings = {}, .standing = {}};
+      .scene = "box.xml", .scene_digest = "1234", .choices = {}, .settings = {}, .state = {}};
   session.choices.definitions["a"] = "b";
   session.choices.choose(settings::named("seed"), "7");
   session.settings.seed = 7;
-  session.standing.paths = 12;
-  session.standing.first_nonfinite = {3, 1, 2};
-  session.standing.place = {16, 2, 16, {{0, 2, 0, 16}}};
-  session.standing.seconds_render = 2.5;
+  session.state.paths = 12;
+  session.state.first_nonfinite = {3, 1, 2};
+  session.state.position = {16, 2, 16, {{0, 2, 0, 16}}};
+  session.state.seconds_render = 2.5;
   return session;
 }
 
@@ -65,8 +65,8 @@ TEST_CASE("A checkpoint comes back from its file whole") {
   CHECK(read.film.has_variance() == small_film().has_variance());
   CHECK(read.session.choices.texts == small_session().choices.texts);
   CHECK(read.session.choices.definitions == small_session().choices.definitions);
-  CHECK(read.session.standing.place.missing.size() == 1);
-  CHECK(read.session.standing.first_nonfinite->pixel == 3);
+  CHECK(read.session.state.position.missing.size() == 1);
+  CHECK(read.session.state.first_nonfinite->pixel == 3);
 }
 
 TEST_CASE("The format is that of its version: who changes one raises the other, and then this length") {

@@ -21,7 +21,7 @@ Broken begun(const std::string& integrator, int samples, double launch_seconds =
 
 // All that there is to know of it.
 std::string bytes_of(Broken broken) {
-  broken.session.standing.seconds_render = 0.0;
+  broken.session.state.seconds_render = 0.0;
   return checkpoint::encode(broken.session, broken.film);
 }
 
@@ -53,16 +53,16 @@ TEST_CASE("A render that was broken off, and again, has the film and counts of o
   CAPTURE(integrator);
   Broken whole = begun(integrator, 180, 0.05);
   go_on(whole);
-  REQUIRE(whole.session.standing.place.end() == 180);
+  REQUIRE(whole.session.state.position.end() == 180);
 
   Broken broken = begun(integrator, 180);
   go_on(broken, 2);
-  CHECK_FALSE(broken.session.standing.place.missing.empty()); // a launch that was in flight
+  CHECK_FALSE(broken.session.state.position.missing.empty()); // a launch that was in flight
   through_a_file(broken);
-  const std::uint64_t paths = broken.session.standing.paths;
+  const std::uint64_t paths = broken.session.state.paths;
   go_on(broken, 3);
-  CHECK(broken.session.standing.paths > paths);
-  CHECK(broken.session.standing.paths < whole.session.standing.paths);
+  CHECK(broken.session.state.paths > paths);
+  CHECK(broken.session.state.paths < whole.session.state.paths);
   through_a_file(broken);
   go_on(broken);
   CHECK((bytes_of(broken) == bytes_of(whole))); // too long to print
@@ -78,8 +78,8 @@ TEST_CASE("A render goes on to more samples, and from one that time was to end")
   broken.session.settings.time_limit.reset();
   broken.session.settings.samples_per_pixel = 100;
   go_on(broken);
-  CHECK(broken.session.standing.paths == whole.session.standing.paths);
-  CHECK(broken.session.standing.rays == whole.session.standing.rays); // the same samples
+  CHECK(broken.session.state.paths == whole.session.state.paths);
+  CHECK(broken.session.state.rays == whole.session.state.rays); // the same samples
   CHECK(difference(broken.film, whole.film) < rounding);
 }
 
@@ -87,6 +87,6 @@ TEST_CASE("Samples from a number on are those that come after that many") {
   Broken whole = begun("path", 40), first = begun("path", 20), second = begun("path", 20);
   second.session.settings.first_sample = 20;
   for (Broken* broken : {&whole, &first, &second}) go_on(*broken);
-  CHECK(first.session.standing.rays + second.session.standing.rays == whole.session.standing.rays);
-  CHECK(first.session.standing.rays != second.session.standing.rays);
+  CHECK(first.session.state.rays + second.session.state.rays == whole.session.state.rays);
+  CHECK(first.session.state.rays != second.session.state.rays);
 }

@@ -1,11 +1,17 @@
+#define CATCH_CONFIG_EXTERNAL_INTERFACES // listeners, in Catch2 2
 #include "cli/program.h"
 
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
+#include <iostream>
+#include <mutex>
+#include <sstream>
 #include <stdexcept>
 #include <thread>
+
+#include <catch2/catch.hpp>
 
 #include <fcntl.h>
 #include <sys/resource.h>
@@ -15,6 +21,49 @@
 #include "temporary_folder.h"
 
 namespace {
+
+// What the program was asked and said in the test case that runs.
+class Record {
+public:
+  void forget() {
+    const std::lock_guard lock(mutex_);
+    runs_.clear();
+  }
+  void add(const Invocation& invocation, const Outcome& outcome) {
+    std::ostringstream text;
+    text << "phlux";
+    for (const std::string& argument : invocation.arguments) text << ' ' << argument;
+    text << "\n  exit code " << outcome.exit_code
+         << ", standard error: " << (outcome.err.empty() ? "nothing\n" : "\n" + outcome.err);
+    const std::lock_guard lock(mutex_);
+    runs_.push_back(text.str());
+  }
+  void print() {
+    const std::lock_guard lock(mutex_);
+    for (const std::string& each : runs_) std::cerr << each;
+  }
+
+private:
+  std::mutex mutex_;
+  std::vector<std::string> runs_;
+};
+
+Record record;
+
+// Shows every run of a test case that failed, whichever of its assertions did.
+struct ShowRuns : Catch::TestEventListenerBase {
+  using Catch::TestEventListenerBase::TestEventListenerBase;
+
+  void testCaseStarting(const Catch::TestCaseInfo& info) override {
+    Catch::TestEventListenerBase::testCaseStarting(info);
+    record.forget();
+  }
+  void testCaseEnded(const Catch::TestCaseStats& stats) override {
+    if (!stats.totals.assertions.allOk()) record.print();
+    Catch::TestEventListenerBase::testCaseEnded(stats);
+  }
+};
+CATCH_REGISTER_LISTENER(ShowRuns)
 
 void redirect(int descriptor, const std::filesystem::path& file) {
   const int opened = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
@@ -82,5 +131,8 @@ Outcome run(const Invocation& invocation) {
   int status = 0;
   if (::waitpid(process, &status, 0) != process) throw std::runtime_error("the program is lost");
   const int exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  return {exit_code, TemporaryFolder::read(streams / "out"), TemporaryFolder::read(streams / "err")};
+  const Outcome outcome{exit_code, TemporaryFolder::read(streams / "out"),
+                        TemporaryFolder::read(streams / "err")};
+  record.add(invocation, outcome);
+  return outcome;
 }

@@ -1,4 +1,5 @@
-// The built program as a user runs it: arguments in, exit code, output and errors out.
+// The built program as a user runs it: arguments in, exit code, output and errors out. A test case that fails
+// shows what the program's runs in it were asked, ended with and wrote to standard error.
 #pragma once
 
 #include <chrono>

@@ -151,6 +151,7 @@ TEST_CASE("phlux bench: bad input is one line and its exit code") {
     int exit_code;
     std::string message;
   };
+  const std::string retro = PHLUX_SOURCE_DIR "/scenes/lobes/retro.cl";
   const std::vector<Bad> bad = {
       {{}, 2, "bench: no command"},
       {{"ray"}, 2, "did you mean rays?"},
@@ -178,6 +179,12 @@ TEST_CASE("phlux bench: bad input is one line and its exit code") {
       {{"sampling", "--case", ".4,.05,-1,30"}, 2, "--case -1: must be a number from 0 to"},
       {{"sampling", "--case", ".4,.05,50,90"}, 2, "--case 90"},
       {{"sampling", "--integrand", "moon"}, 2, "--integrand moon: must be one of constant"},
+      {{"sampling", "--lobe", "none.cl"}, 3, "none.cl"},
+      {{"sampling", "--lobe", "exact.cl"}, 2, "is a strategy"},
+      {{"sampling", "--set", "exponent=2"}, 2, "--set: needs --lobe"},
+      {{"sampling", "--lobe", retro, "--set", "exponent"}, 2, "--set exponent: must be NAME=VALUE"},
+      {{"sampling", "--lobe", retro, "--set", "exponent=0"}, 2, "must be from 1 to"},
+      {{"sampling", "--lobe", retro, "--strategy", "exact"}, 2, "--lobe: excludes --strategy"},
       {{"sampling", "--out", "/proc/phlux"}, 5, "/proc/phlux"},
       {{"sampling", "--device", "none such"}, 4, "none such"},
       {{"stability", "--cell", "10"}, 2, "--cell 10: must be N,RADIUS"},
@@ -201,6 +208,8 @@ TEST_CASE("phlux bench: bad input is one line and its exit code") {
   const TemporaryFolder folder;
   folder.write("file", "");
   folder.write("broken.xml", "<scene version=");
+  folder.write("exact.cl", "#define EXACT_PARAMETERS(COLOUR, NUMBER) NUMBER(n, 1, 0, 2, \"\")\n"
+                           "// exact_evaluate exact_sample exact_reflectivity\n");
   for (const auto& [arguments, exit_code, message] : bad) {
     std::vector<std::string> all = {"bench"};
     all.insert(all.end(), arguments.begin(), arguments.end());

@@ -88,3 +88,44 @@ TEST_CASE("phlux devices lists every device and marks the default") {
   }
   CHECK(defaults >= 1);
 }
+
+namespace {
+
+constexpr const char* system_vendors = "/etc/OpenCL/vendors";
+
+// Where the loader finds a driver without devices, and those of the system beside it if wanted.
+void write_vendors(const TemporaryFolder& folder, bool with_system) {
+  folder.write("nothing.icd", PHLUX_DRIVER_OF_NOTHING "\n");
+  if (with_system)
+    for (const auto& entry : std::filesystem::directory_iterator(system_vendors))
+      std::filesystem::copy_file(entry.path(), folder / entry.path().filename());
+}
+
+} // namespace
+
+TEST_CASE("A platform without devices is listed, and no command warns of it") {
+  if (!std::filesystem::exists(system_vendors)) return; // drivers are elsewhere
+  const TemporaryFolder vendors, folder;
+  write_vendors(vendors, true);
+  const std::map<std::string, std::string> environment = {{"OCL_ICD_VENDORS", vendors.path()}};
+  const Outcome devices = run({{"devices"}, folder.path(), environment, {}});
+  CHECK(devices.exit_code == 0);
+  CHECK(devices.err.empty());
+  CHECK_THAT(devices.out, Catch::Contains(", Driver of nothing, has no devices\n"));
+  CHECK(run({{"devices", "--json"}, folder.path(), environment, {}}).err.empty());
+  const Outcome version = run({{"--version"}, folder.path(), environment, {}});
+  CHECK_THAT(version.out, Catch::Contains(" Driver of nothing, OpenCL 1.2 nothing, 0 devices"));
+  const Outcome wrong = run({{"verify", "--device", "no such device"}, folder.path(), environment, {}});
+  CHECK(wrong.exit_code == 4);
+  CHECK(wrong.is_one_line_error());
+  CHECK_THAT(wrong.err, Catch::EndsWith("; Driver of nothing has no devices\n"));
+}
+
+TEST_CASE("Where no platform has devices, the error names the platforms") {
+  const TemporaryFolder vendors, folder;
+  write_vendors(vendors, false);
+  const Outcome outcome = run({{"devices"}, folder.path(), {{"OCL_ICD_VENDORS", vendors.path()}}, {}});
+  CHECK(outcome.exit_code == 4);
+  CHECK(outcome.is_one_line_error());
+  CHECK_THAT(outcome.err, Catch::Contains("no OpenCL device: Driver of nothing has no devices: install"));
+}

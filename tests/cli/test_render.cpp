@@ -130,6 +130,25 @@ TEST_CASE("Every width and traversal renders, and --stats says which") {
     }
 }
 
+// A macro makes a builtin that is there impossible to use.
+TEST_CASE("Where the compiler refuses the processor's own instructions, portable lanes make the same image") {
+  const phlux::device::DeviceInfo device = phlux::device::open_devices({}).front().info;
+  if (device.platform != "Portable Computing Language" || device.native_float_width != 16)
+    return; // no AVX-512
+  const Renders place;
+  place.render({"-o", "a.exr", "--width", "16", "--stats", "a.json"});
+  CHECK(place.json("a.json")["portable_lanes"] == false);
+  const Outcome portable =
+      run({{"render", "scene.xml", "-o", "b.exr", "--width", "16", "--stats", "b.json", "--verbose"},
+           place.path(),
+           {{"PHLUX_KERNEL_OPTIONS", "-D__builtin_ia32_gathersiv16sf(a,b,c,d,e)=nowhere"}},
+           {}});
+  REQUIRE(portable.exit_code == 0);
+  CHECK_THAT(portable.err, Catch::Contains("portable lanes on ") && Catch::Contains("'nowhere'"));
+  CHECK(place.json("b.json")["portable_lanes"] == true);
+  CHECK(place.image("a.exr").channels == place.image("b.exr").channels);
+}
+
 TEST_CASE("--precision double renders the same image but for rounding, and --stats says so") {
   if (!phlux::device::open_devices({}).front().info.doubles) return;
   const Renders place;

@@ -1,3 +1,5 @@
+#include <sstream>
+
 #include <catch2/catch.hpp>
 
 #include "cli/program.h"
@@ -96,6 +98,50 @@ TEST_CASE("Help and version are no errors") {
                              "--device",    "--moments",    "--png",      "--stats",   "--quiet", "--width",
                              "--traversal", "--kernel-dir", "--precision"})
     CHECK_THAT(of_render.out, Catch::Contains(option));
+}
+
+// CLI11 2.4 throws for others, whatever the command.
+TEST_CASE("The name of what a command takes is one word") {
+  const TemporaryFolder folder;
+  for (const char* command : {"render", "compare", "merge"}) {
+    const Outcome help = run({{command, "--help"}, folder.path(), {}, {}});
+    const std::size_t list = help.out.find("Positionals:\n");
+    REQUIRE(list != std::string::npos);
+    std::istringstream lines(help.out.substr(list));
+    std::string line;
+    std::getline(lines, line);
+    for (; std::getline(lines, line) && !line.empty();) {
+      CAPTURE(command, line);
+      CHECK_THAT(line, Catch::Matches("  [^ ]+( [.][.][.])?(  .*)?"));
+    }
+  }
+}
+
+TEST_CASE("The version says what a report should") {
+  const TemporaryFolder folder;
   const Outcome version = run({{"--version"}, folder.path(), {}, {}});
-  CHECK(version.out == "phlux " PHLUX_VERSION "\n");
+  CHECK(version.exit_code == 0);
+  CHECK(version.err.empty());
+  CHECK_THAT(version.out, Catch::StartsWith("phlux " PHLUX_VERSION "\n"));
+  for (const char* text : {"\ncommit     ", "\ncompiler   ", "\nlibraries  OpenEXR ", "Embree ", "fmt ",
+                           "spdlog ", "pugixml ", "CLI11 ", "\nOpenCL     ", "\nplatform 0 "})
+    CHECK_THAT(version.out, Catch::Contains(text));
+  CHECK_THAT(version.out, !Catch::Contains("unknown version"));
+  // Which commit, cli/commit.sh tests: this build may be older than the latest, or made without git.
+  CHECK_THAT(version.out, Catch::Matches("(.|\\n)*\\ncommit     ([0-9a-f]{7,} of 20|unknown\\n)(.|\\n)*"));
+}
+
+TEST_CASE("Without a platform the version says so") {
+  const TemporaryFolder folder;
+  const Outcome version = run({{"--version"}, folder.path(), {{"OCL_ICD_VENDORS", folder.path()}}, {}});
+  CHECK(version.exit_code == 0);
+  CHECK_THAT(version.out, Catch::EndsWith("\nplatform   none\n"));
+}
+
+// ctest runs it, and looks for the program's standard error in what a failure shows.
+TEST_CASE("A run whose failure is shown", "[.fails]") {
+  const TemporaryFolder folder;
+  const Outcome outcome = run({{"paint"}, folder.path(), {}, {}});
+  CHECK(outcome.out.empty());
+  CHECK(outcome.exit_code == 0);
 }

@@ -171,6 +171,24 @@ TEST_CASE("a failed build names the kernel file and line") {
                     StartsWith("extra:2: "));
 }
 
+TEST_CASE("a compiler that refuses the processor's own instructions gets portable lanes") {
+  const TemporaryFolder folder;
+  folder.write("lanes.h", "#if !defined(LANES_PORTABLE) && !defined(__NO_COMPILER__)\n"
+                          "static inline float own(float x) { return nowhere(x); }\n"
+                          "#else\n"
+                          "static inline float own(float x) { return 5 * x; }\n"
+                          "#endif\n");
+  const sources::KernelFiles files(folder.path());
+  const std::string kernel = "__kernel void twice(__global float* x) { x[0] = own(x[0]); }\n";
+  const auto device = test_device();
+  CHECK_THROWS_WITH(build(device, files, {"lanes.h", {}, {}, "__kernel void f(void) { wrong(); }\n"}),
+                    StartsWith("extra:1: ") && Contains("wrong"));
+  CHECK_FALSE(portable_lanes(device));
+  CHECK(run(device, build(device, files, {"lanes.h", {}, {}, kernel}).program, 2.0f) == 10.0f);
+  CHECK(portable_lanes(device));
+  CHECK(run(device, build(device, files, {"lanes.h", {}, {}, kernel}).program, 3.0f) == 15.0f);
+}
+
 TEST_CASE("the first error of compilers' logs") {
   const std::string text =
       "#define A 1\n#line 1 \"path.cl\"\none\n#line 5 \"wide/lanes.h\"\nfive\nsix\n#line 2 \"path.cl\"\n";

@@ -30,6 +30,17 @@ TEST_CASE("what is listed can be used") {
   }
 }
 
+TEST_CASE("platforms are listed with those that have no devices") {
+  const auto platforms = list_platforms();
+  std::size_t devices = 0;
+  for (const auto& each : platforms) {
+    CAPTURE(each.name);
+    CHECK_THAT(each.version, Catch::StartsWith("OpenCL "));
+    devices += static_cast<std::size_t>(each.devices);
+  }
+  CHECK(devices == list_devices().size());
+}
+
 TEST_CASE("a device by its indices, type and parts of its names") {
   const auto wanted = list_devices().front();
   const auto is_among = [&](const std::vector<Device>& devices) {

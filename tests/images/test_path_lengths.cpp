@@ -9,7 +9,7 @@ using namespace phlux::test;
 TEST_CASE("roulette changes no expectation, whenever it begins") {
   const scene::Scene scene = shipped("cornell-box", 16, 16);
   const auto image = [&](int rr_depth) {
-    render::Settings with = settings(512);
+    render::Settings with = settings_for(512);
     with.rr_depth = rr_depth;
     with.seed = static_cast<std::uint64_t>(rr_depth + 10);
     return tiles(estimate_of(render_of(scene, with).film), 2);
@@ -25,7 +25,7 @@ TEST_CASE("a path has as many edges as it may, and no more") {
   const scene::Scene scene = shipped("furnace-box", 16, 16);
   for (const int depth : {1, 2, 7}) {
     CAPTURE(depth);
-    render::Settings with = settings(16, depth);
+    render::Settings with = settings_for(16, depth);
     with.rr_depth = -1; // without roulette no path of a closed box ends earlier
     const Render image = render_of(scene, with);
     CHECK(image.statistics.paths == 4096);
@@ -37,7 +37,7 @@ TEST_CASE("a path has as many edges as it may, and no more") {
 TEST_CASE("a closed room that absorbs nothing ends all the same") {
   scene::Scene scene = shipped("furnace-box", 4, 4);
   for (scene::Material& material : scene.materials) material = diffuse({1, 1, 1});
-  const Render image = render_of(scene, settings(16));
+  const Render image = render_of(scene, settings_for(16));
   CHECK(image.statistics.paths == 256);
   CHECK(image.statistics.nonfinite == 0);
   // Roulette lets a path live with 0.999 at most: 1000 edges on average, 256 paths of them.

@@ -1,10 +1,10 @@
 // The same seed gives the same image bit for bit; another seed another one.
 #include <algorithm>
-#include <cstdlib>
 #include <ranges>
 
 #include <catch2/catch.hpp>
 
+#include "cli/program.h"
 #include "images/scenes.h"
 #include "temporary_folder.h"
 
@@ -24,13 +24,6 @@ bool same_bits(const film::Film& a, const film::Film& b) {
   return std::ranges::equal(a.pixels(), b.pixels(), [](const film::Pixel& x, const film::Pixel& y) {
     return x.sum == y.sum && x.sum_of_squares == y.sum_of_squares && x.samples == y.samples;
   });
-}
-
-// Runs the program in `folder`, in a shell; its exit code.
-int run(const TemporaryFolder& folder, const std::string& environment, const std::string& arguments) {
-  const std::string command = "cd '" + folder.path().string() + "' && " + environment +
-                              " '" PHLUX_PROGRAM "' " + arguments + " >out 2>err";
-  return std::system(command.c_str());
 }
 
 } // namespace
@@ -91,9 +84,16 @@ TEST_CASE("seeds differ in all of their 64 bits") {
 
 TEST_CASE("the number of PoCL's threads does not change a bit") {
   const TemporaryFolder folder;
-  const std::string render = "render '" PHLUX_SOURCE_DIR "/scenes/cornell-box.xml' --size 24x24 -n 20 -q -o ";
-  REQUIRE(run(folder, "POCL_MAX_PTHREAD_COUNT=1", render + "one.exr") == 0);
-  REQUIRE(run(folder, "POCL_MAX_PTHREAD_COUNT=3", render + "three.exr") == 0);
-  REQUIRE(run(folder, "", "compare one.exr three.exr --json") == 0);
-  CHECK_THAT(TemporaryFolder::read(folder / "out"), Catch::Contains("\"rmse\": 0.0,"));
+  const auto render = [&](const std::string& threads, const std::string& image) {
+    return run({{"render", PHLUX_SOURCE_DIR "/scenes/cornell-box.xml", "--size", "24x24", "-n", "20", "-q",
+                 "-o", image},
+                folder.path(),
+                {{"POCL_MAX_PTHREAD_COUNT", threads}},
+                {}});
+  };
+  REQUIRE(render("1", "one.exr").exit_code == 0);
+  REQUIRE(render("3", "three.exr").exit_code == 0);
+  const Outcome compared = run({{"compare", "one.exr", "three.exr", "--json"}, folder.path(), {}, {}});
+  REQUIRE(compared.exit_code == 0);
+  CHECK_THAT(compared.out, Catch::Contains("\"rmse\": 0.0,"));
 }

@@ -1,10 +1,10 @@
 // Splats repeat bit for bit, none is lost, and the film says how much they scatter.
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include <catch2/catch.hpp>
 
+#include "cli/program.h"
 #include "images/integrators.h"
 #include "images/prepared_render.h"
 #include "images/room.h"
@@ -28,12 +28,6 @@ bool same_bits(const film::Film& a, const film::Film& b) {
   for (std::size_t i = 0; i < a.pixels().size(); ++i)
     if (a.mean(i) != b.mean(i) || a.variance_of_mean(i) != b.variance_of_mean(i)) return false;
   return a.pixels().size() == b.pixels().size();
-}
-
-int run(const TemporaryFolder& folder, const std::string& environment, const std::string& arguments) {
-  const std::string command = "cd '" + folder.path().string() + "' && " + environment +
-                              " '" PHLUX_PROGRAM "' " + arguments + " >out 2>err";
-  return std::system(command.c_str());
 }
 
 // Closed, and shining everywhere: paths are as long as roulette lets them be.
@@ -76,12 +70,18 @@ TEST_CASE("light and bidir: the number of PoCL's threads does not change a bit")
   const TemporaryFolder folder;
   for (const Method& method : both) {
     CAPTURE(name_of(method));
-    const std::string render = "render '" PHLUX_SOURCE_DIR "/scenes/cornell-box.xml' -i " +
-                               method.integrator + " --size 24x24 -n 20 -q -o ";
-    REQUIRE(run(folder, "POCL_MAX_PTHREAD_COUNT=1", render + "one.exr") == 0);
-    REQUIRE(run(folder, "POCL_MAX_PTHREAD_COUNT=3", render + "three.exr") == 0);
-    REQUIRE(run(folder, "", "compare one.exr three.exr --json") == 0);
-    CHECK_THAT(TemporaryFolder::read(folder / "out"), Catch::Contains("\"rmse\": 0.0,"));
+    const auto render = [&](const std::string& threads, const std::string& image) {
+      return run({{"render", PHLUX_SOURCE_DIR "/scenes/cornell-box.xml", "-i", method.integrator, "--size",
+                   "24x24", "-n", "20", "-q", "-o", image},
+                  folder.path(),
+                  {{"POCL_MAX_PTHREAD_COUNT", threads}},
+                  {}});
+    };
+    REQUIRE(render("1", "one.exr").exit_code == 0);
+    REQUIRE(render("3", "three.exr").exit_code == 0);
+    const Outcome compared = run({{"compare", "one.exr", "three.exr", "--json"}, folder.path(), {}, {}});
+    REQUIRE(compared.exit_code == 0);
+    CHECK_THAT(compared.out, Catch::Contains("\"rmse\": 0.0,"));
   }
 }
 

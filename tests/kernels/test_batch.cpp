@@ -47,7 +47,7 @@ std::map<std::pair<int, int>, int> take_all(const Program& program, Variant v, c
 TEST_CASE("batches: every sample of every pixel is taken once") {
   for (const Variant v : variants) {
     CAPTURE(v);
-    const Program& program = program_of("batch.cl", v);
+    const auto program = program_of("batch.cl", v);
     for (const Sizes& sizes :
          {Sizes{1, 64, 16, 4, 4}, Sizes{1, 40, 1, 7, 21}, Sizes{2, 96, 16, 9, 9}, Sizes{3, 30, 5, 64, 64},
           Sizes{5, 7, 1, 4, 12}, Sizes{17, 48, 16, 8, 24}, Sizes{100, 4, 2, 64, 128},

@@ -39,7 +39,7 @@ __kernel void leave(SCENE_PARAMETERS, __global const Ray* ray, __global const Ve
   const SurfacePoint point = surface_point(&scene, ray[i], hit);
   Ray next;
   next.direction = from_frame(frame_about(point.normal), given[i]);
-  next.origin = step_off(point.position, point.normal, point.error, next.direction);
+  next.origin = offset_origin(point.position, point.normal, point.error, next.direction);
   const Hit next_hit = scene_intersect(&scene, next, ALL_LANES);
   Left to;
   to.material = material_of(&scene, hit);

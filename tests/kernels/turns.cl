@@ -1,3 +1,4 @@
+#include "math/angles.h"
 #include "lanes/lanes.h"
 
 __kernel void turns(__global const Real* turns, __global Real* cosine, __global Real* sine) {

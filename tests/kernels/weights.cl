@@ -1,4 +1,4 @@
-#include "transport/weights.cl"
+#include "transport/mis_weights.cl"
 
 // A path of x_0 (on a light) to x_edges (the eye), by the densities and cosines at its vertices (per solid angle):
 // `forward` is that of the direction to the next vertex for a path that comes from the light, `backward` that of the
@@ -23,20 +23,20 @@ __kernel void weigh(__global const GivenPath* paths, int edges, __global Techniq
   const Mask hittable = p->hittable != 0;
   for (int s = 0; s <= MOST_EDGES; ++s) w[s] = (Real)(0.0f);
   if (edges == 1) {
-    w[0] = weight_of_hit(ratios_from_eye(p->film), p->chosen, p->emission);
+    w[0] = weight_of_hit(mis_from_eye(p->film), p->chosen, p->emission);
     w[1] = weight_of_seen_light(p->film, p->chosen);
     return;
   }
-  Ratios light[MOST_EDGES + 1], eye[MOST_EDGES + 1];
-  light[1] = ratios_from_light(p->chosen, p->emission, p->cosine_before[1], hittable);
+  MisQuantities light[MOST_EDGES + 1], eye[MOST_EDGES + 1];
+  light[1] = mis_from_light(p->chosen, p->emission, p->cosine_before[1], hittable);
   for (int i = 1; i + 1 < edges; ++i)
-    light[i + 1] = ratios_arrived(
-        ratios_reflected(light[i], p->forward[i], p->backward[i], p->cosine_after[i], p->delta[i] != 0),
+    light[i + 1] = mis_arrived(
+        mis_scattered(light[i], p->forward[i], p->backward[i], p->cosine_after[i], p->delta[i] != 0),
         p->distance2[i], p->cosine_before[i + 1]);
-  Ratios leaving = ratios_from_eye(p->film);
+  MisQuantities leaving = mis_from_eye(p->film);
   for (int i = edges - 1; i >= 1; --i) {
-    eye[i] = ratios_arrived(leaving, p->distance2[i], p->cosine_after[i]);
-    leaving = ratios_reflected(eye[i], p->backward[i], p->forward[i], p->cosine_before[i], p->delta[i] != 0);
+    eye[i] = mis_arrived(leaving, p->distance2[i], p->cosine_after[i]);
+    leaving = mis_scattered(eye[i], p->backward[i], p->forward[i], p->cosine_before[i], p->delta[i] != 0);
   }
   w[0] = hittable ? weight_of_hit(leaving, p->chosen, p->emission) : (Real)(0.0f);
   w[1] = weight_of_light_sample(eye[1], p->chosen, p->emission, p->backward[1], p->forward[1], p->cosine_before[1],
@@ -46,7 +46,7 @@ __kernel void weigh(__global const GivenPath* paths, int edges, __global Techniq
         connection_side(light[s - 1], p->backward[s], p->backward[s - 1], p->distance2[s - 1], p->cosine_after[s - 1]),
         connection_side(eye[s], p->forward[s - 1], p->forward[s], p->distance2[s - 1], p->cosine_before[s]));
   // A technique that ends a subpath at a delta event cannot make the path.
-  for (int s = 1; s < edges; ++s) w[s] = (p->delta[s - 1] != 0) | (p->delta[s] != 0) ? (Real)(0.0f) : w[s];
+  for (int s = 1; s < edges; ++s) w[s] = ((p->delta[s - 1] != 0) | (p->delta[s] != 0)) ? (Real)(0.0f) : w[s];
   const int last = edges - 1;
   w[edges] = weight_of_seen_vertex(light[last], p->film, p->backward[last], p->distance2[last], p->cosine_after[last]);
   w[edges] = p->delta[last] != 0 ? (Real)(0.0f) : w[edges];

@@ -10,6 +10,7 @@
 
 #include "images/welch.h"
 #include "random/repeated_render.h"
+#include "random/twin.h"
 #include "sidak.h"
 
 namespace phlux::test {
@@ -18,7 +19,7 @@ namespace {
 constexpr int renders = 16;
 // What fails the first stage is only looked at more closely; of methods with doubts, much does.
 constexpr std::array<double, 3> false_alarms = {0.05, 0.01, 1e-4};
-constexpr double false_alarms_with_doubts = 1e-4;
+constexpr double false_alarms_of_tails = 1e-4;
 // Of the brightest light: what float's rounding may let through where surfaces cross or meet.
 constexpr double negligible_radiance = 1e-9;
 constexpr int growth = 8; // of the samples from one stage to the next
@@ -28,6 +29,16 @@ struct Worst {
   std::size_t quantity = 0;
 };
 
+// Of a quantity's mean over all renders. Samples none of which brought light say nothing of their variance:
+// what brings light is then as good as Poisson's events of the image's mean contribution, sum of squares over
+// sum, and of the light that is `expected` a mean has the variance expected x contribution / samples.
+double variance_of_mean(const RepeatedMeans& means, std::size_t quantity, double expected) {
+  const std::size_t image = quantity % 3; // its channel
+  if (means.mean[quantity] > 0 || means.mean[image] <= 0) return means.variance[quantity] / means.renders;
+  const double contribution_per_sample = means.variance[image] * means.pixels[image] / means.mean[image];
+  return expected * contribution_per_sample / means.pixels[quantity] / means.renders;
+}
+
 // The least p of all tests of two methods, as it would be of one test of the scene. The few tests of the
 // image as a whole and the many of its tiles have each half of the false alarms.
 Worst worst_of(const RepeatedMeans& a, const RepeatedMeans& b, std::size_t pairs, double negligible) {
@@ -35,7 +46,8 @@ Worst worst_of(const RepeatedMeans& a, const RepeatedMeans& b, std::size_t pairs
   Worst worst;
   for (std::size_t q = 0; q < a.mean.size(); ++q) {
     if (std::max(a.mean[q], b.mean[q]) < negligible) continue;
-    const double p = welch_p(a.mean[q], a.variance[q] / renders, b.mean[q], b.variance[q] / renders, renders);
+    const double p = welch_p(a.mean[q], variance_of_mean(a, q, b.mean[q]), b.mean[q],
+                             variance_of_mean(b, q, a.mean[q]), renders);
     const std::size_t alike = q < of_image ? of_image : a.mean.size() - of_image;
     const double of_all = least_p_of(p, 2 * alike * pairs);
     if (of_all < worst.p) worst = {of_all, q};
@@ -62,11 +74,7 @@ public:
              int samples)
       : scene_(scene), facts_(facts_of(scene)), methods_(std::move(methods)), seed_(1'000'000 * seed),
         samples_(samples) {
-    for (render::Settings& m : methods_) {
-      m = possible(m, facts_);
-      m.max_depth = scene.defaults.max_depth;
-      m.rr_depth = scene.defaults.rr_depth;
-    }
+    for (render::Settings& m : methods_) m = for_scene(m, scene, facts_);
   }
 
   SceneAgreement run() {
@@ -137,11 +145,18 @@ private:
       pair.worst = fmt::format("{}: {:.5g} +- {:.2g}, {:.5g} +- {:.2g}", a.names[worst.quantity],
                                a.mean[worst.quantity], std::sqrt(a.variance[worst.quantity] / renders),
                                b.mean[worst.quantity], std::sqrt(b.variance[worst.quantity] / renders));
-      pair.outcome =
-          outcome_of(question, worst, pair.doubts.empty() ? false_alarms[stage] : false_alarms_with_doubts);
+      pair.outcome = outcome_of(question, worst, level_of(question, stage));
       question.open = pair.outcome == Outcome::disagree || (stage == 0 && pair.outcome != Outcome::agree);
       look_closer_ |= question.open;
     }
+  }
+
+  [[nodiscard]] bool in_doubt(std::size_t method) const { return !doubts(methods_[method], facts_).empty(); }
+
+  [[nodiscard]] double level_of(const Question& question, std::size_t stage) const {
+    for (const std::size_t i : {question.first, question.second})
+      if (in_doubt(i) || has_infinite_variance(methods_[i])) return false_alarms_of_tails;
+    return false_alarms[stage];
   }
 
   [[nodiscard]] Outcome outcome_of(const Question& question, const Worst& worst, double level) const {
@@ -149,7 +164,9 @@ private:
     const bool first_is_darker =
         means_[question.first].mean[worst.quantity] < means_[question.second].mean[worst.quantity];
     const std::size_t darker = first_is_darker ? question.first : question.second;
-    return doubts(methods_[darker], facts_).empty() ? Outcome::disagree : Outcome::not_comparable;
+    const std::size_t brighter = first_is_darker ? question.second : question.first;
+    if (!in_doubt(darker)) return Outcome::disagree;
+    return in_doubt(brighter) ? Outcome::undecided : Outcome::not_comparable;
   }
 
   const scene::Scene& scene_;
@@ -171,6 +188,8 @@ const char* name_of(Outcome outcome) {
     return "agree";
   case Outcome::not_comparable:
     return "not comparable";
+  case Outcome::undecided:
+    return "undecided";
   default:
     return "disagree";
   }
@@ -182,6 +201,17 @@ bool SceneAgreement::holds() const {
          });
 }
 
+int SceneAgreement::excused() const {
+  return static_cast<int>(std::ranges::count_if(pairs, [](const PairOfMethods& pair) {
+    return pair.outcome == Outcome::not_comparable || pair.outcome == Outcome::undecided;
+  }));
+}
+
+double most_excused(std::size_t families) {
+  constexpr double usual = 0.046, scatter = 0.086, most = 0.125;
+  return std::min(most, usual + 3 * scatter / std::sqrt(static_cast<double>(families)));
+}
+
 std::string SceneAgreement::message() const {
   std::string text;
   for (const std::string& defect : defects) text += defect + "\n";
@@ -189,7 +219,7 @@ std::string SceneAgreement::message() const {
     if (pair.outcome == Outcome::disagree)
       text += fmt::format("{} and {} disagree at {} samples a pixel: {}, p {:.2g}\n", pair.first, pair.second,
                           pair.samples_per_pixel, pair.worst, pair.p);
-  return text;
+  return text.empty() ? "" : "scene " + name + ":\n" + text;
 }
 
 SceneAgreement agreement_of_methods(const scene::Scene& scene, const std::vector<render::Settings>& methods,
@@ -199,6 +229,20 @@ SceneAgreement agreement_of_methods(const scene::Scene& scene, const std::vector
   SceneAgreement failed;
   failed.defects.push_back(error.what());
   return failed;
+}
+
+std::vector<SceneAgreement> agreement_with_twin(const SceneNumber& number, int methods,
+                                                int samples_per_pixel) {
+  const std::vector<render::Settings> by = methods_of_family(number.family, methods);
+  const std::uint64_t seed = 1000 * number.family + number.member;
+  std::vector<SceneAgreement> result;
+  const auto compare = [&](const std::optional<Twin>& twin) {
+    result.push_back(agreement_of_methods(load_random_scene(number, twin), by, seed, samples_per_pixel));
+    result.back().name = name_of(number) + (twin ? " twin" : "");
+  };
+  compare({});
+  if (const std::optional<Twin> twin = twin_of(number, by)) compare(twin);
+  return result;
 }
 
 } // namespace phlux::test

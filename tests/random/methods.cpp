@@ -226,8 +226,10 @@ std::vector<Settings> methods_of_family(std::uint64_t family, int count) {
   return methods;
 }
 
-Settings possible(Settings method, const SceneFacts& facts) {
+Settings for_scene(Settings method, const scene::Scene& scene, const SceneFacts& facts) {
   if (method.connect == Connect::none && facts.lights_without_area) method.connect = Connect::mis;
+  method.max_depth = scene.defaults.max_depth;
+  method.rr_depth = scene.defaults.rr_depth;
   return method;
 }
 
@@ -243,9 +245,11 @@ std::string doubts(const Settings& method, const SceneFacts& facts) {
     return "lobes found by chance";
   if (path && method.connect == Connect::none && facts.smallest_light < small_light) return "small light hit";
   if (path && facts.in_small_spots > little_power) return "small spot hit";
-  if (method.integrator == "bidir" && method.weights == Weights::uniform)
-    return "connections without weights";
   return "";
+}
+
+bool has_infinite_variance(const Settings& method) {
+  return method.integrator == "bidir" && method.weights == Weights::uniform;
 }
 
 std::string name_of(const Settings& method) {

@@ -30,8 +30,14 @@ struct SceneFacts {
 /// families with sharp lobes all do.
 [[nodiscard]] std::vector<render::Settings> methods_of_family(std::uint64_t family, int count);
 
-/// The method, without what the renderer refuses for this scene.
-[[nodiscard]] render::Settings possible(render::Settings method, const SceneFacts& facts);
+/// The method with the scene's depths, and without what the renderer refuses for this scene.
+[[nodiscard]] render::Settings for_scene(render::Settings method, const scene::Scene& scene,
+                                         const SceneFacts& facts);
+
+/// Whether contributions have no variance in any scene with edges: connections that are weighted alike,
+/// whatever their density. Their means take more samples than others to be normal; unlike where there are
+/// doubts(), tests have time for them.
+[[nodiscard]] bool has_infinite_variance(const render::Settings& method);
 
 /// Why rare samples may carry much of the image, so that no number of samples that a test has time for shows
 /// their mean and variance: some paths' contributions are not bounded by a small multiple of the mean. Empty

@@ -40,23 +40,32 @@ public:
   }
 
   [[nodiscard]] std::vector<double> means(const film::Film& film) const {
-    const auto tiles = static_cast<std::size_t>(across_ * down_);
-    std::vector<double> sums(3 * (tiles + 1)), pixels(tiles + 1);
+    std::vector<double> means =
+        sums([&](int x, int y) { return film.mean(static_cast<std::size_t>(y * width_ + x)); });
+    const std::vector<double> pixels = this->pixels();
+    for (std::size_t i = 0; i < means.size(); ++i) means[i] /= pixels[i];
+    return means;
+  }
+
+  [[nodiscard]] std::vector<double> pixels() const {
+    return sums([](int, int) { return std::array<double, 3>{1, 1, 1}; });
+  }
+
+private:
+  template<class ValueAt>
+  [[nodiscard]] std::vector<double> sums(const ValueAt& value_at) const {
+    std::vector<double> sums(3 * static_cast<std::size_t>(across_ * down_ + 1));
     for (int y = 0; y < height_; ++y)
       for (int x = 0; x < width_; ++x) {
         const auto tile =
             static_cast<std::size_t>(part_of(y, height_, down_) * across_ + part_of(x, width_, across_)) + 1;
-        const std::array<double, 3> value = film.mean(static_cast<std::size_t>(y * width_ + x));
-        for (const std::size_t into : {std::size_t{0}, tile}) {
-          ++pixels[into];
+        const std::array<double, 3> value = value_at(x, y);
+        for (const std::size_t into : {std::size_t{0}, tile})
           for (std::size_t c = 0; c < 3; ++c) sums[3 * into + c] += value[c];
-        }
       }
-    for (std::size_t i = 0; i < sums.size(); ++i) sums[i] /= pixels[i / 3];
     return sums;
   }
 
-private:
   int width_, height_, across_, down_;
 };
 
@@ -77,6 +86,7 @@ RepeatedMeans RepeatedRender::means(std::uint64_t seed, int renders, int samples
   const Tiles tiles(width_, height_);
   RepeatedMeans result;
   result.names = tiles.names();
+  result.pixels = tiles.pixels();
   result.renders = renders;
   std::vector<std::vector<double>> all;
   for (int i = 0; i < renders; ++i) {

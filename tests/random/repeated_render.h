@@ -13,6 +13,7 @@ namespace phlux::test {
 struct RepeatedMeans {
   std::vector<std::string> names;
   std::vector<double> mean, variance; ///< of one render
+  std::vector<double> pixels;         ///< that a quantity is the mean of
   int renders = 0;
   std::string defect; ///< what no image may have: values that are not numbers, or negative
 };

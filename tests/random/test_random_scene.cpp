@@ -1,4 +1,5 @@
 // The generator of random scenes: what it makes is valid, repeatable, and all that scene files may say.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -6,10 +7,12 @@
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
+#include <glm/common.hpp>
 #include <spdlog/spdlog.h>
 
 #include "random/methods.h"
 #include "random/random_scene.h"
+#include "random/twin.h"
 #include "scene_file/load.h"
 #include "temporary_folder.h"
 
@@ -93,6 +96,35 @@ TEST_CASE("random scenes can be loaded, and together say all that a scene file m
     CAPTURE(part);
     CHECK(all.find(part) != std::string::npos);
   }
+}
+
+TEST_CASE("random scenes: twins have blunt lobes and large lamps, and are else the same", "[second]") {
+  int twins = 0;
+  for (std::uint64_t family = 0; family < 10; ++family) {
+    const SceneNumber number{family, 0};
+    const std::vector<render::Settings> methods = methods_of_family(family, 4);
+    const std::optional<Twin> twin = twin_of(number, methods);
+    const scene::Scene original = load_random_scene(number), other = load_random_scene(number, twin);
+    const SceneFacts facts = facts_of(other);
+    CAPTURE(name_of(number));
+    for (const render::Settings& method : methods) {
+      CAPTURE(name_of(method));
+      CHECK(doubts(for_scene(method, other, facts), facts).empty());
+    }
+    REQUIRE(original.materials.size() == other.materials.size());
+    for (std::size_t i = 0; i < original.materials.size(); ++i) {
+      const scene::Material &a = original.materials[i], &b = other.materials[i];
+      REQUIRE(a.model == b.model);
+      for (std::size_t k = 0; k < a.values.size(); ++k) {
+        const bool is_exponent = a.model->parameters[k].name.starts_with("exponent");
+        const double most = twin && is_exponent ? twin->most_exponent : INFINITY;
+        CHECK(b.values[k] == glm::min(a.values[k], scene::Rgb(most)));
+      }
+    }
+    twins += twin ? 1 : 0;
+  }
+  CHECK(twins > 0);
+  CHECK(twins < 10);
 }
 
 TEST_CASE("random scenes: facts of views and lights", "[second]") {

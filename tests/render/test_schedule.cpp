@@ -54,7 +54,7 @@ TEST_CASE("a schedule goes on where another stopped with the jobs that were to c
       CAPTURE(samples.value_or(0), length, launches);
       Schedule first(pixels, samples);
       std::vector<Job> jobs = jobs_of(first, length, launches);
-      Schedule second(pixels, samples, first.place());
+      Schedule second(pixels, samples, first.position());
       const std::vector<Job> rest = jobs_of(second, length, most);
       jobs.insert(jobs.end(), rest.begin(), rest.end());
       jobs.resize(std::min(jobs.size(), all.size())); // without an end the two were stopped at different jobs
@@ -64,8 +64,8 @@ TEST_CASE("a schedule goes on where another stopped with the jobs that were to c
 }
 
 TEST_CASE("what is missing is handed out first, however it is cut") {
-  Place place{32, 5, samples_per_block, {{3, 10, 16, 16}, {6, 2, 32, 16}}};
-  Schedule schedule(pixels, 64, place);
+  SchedulePosition position{32, 5, samples_per_block, {{3, 10, 16, 16}, {6, 2, 32, 16}}};
+  Schedule schedule(pixels, 64, position);
   const std::vector<Job> jobs = jobs_of(schedule, 4);
   CHECK(jobs.front() == Job{3, 16, 16});
   CHECK(jobs[4] == Job{0, 32, 16});
@@ -74,9 +74,9 @@ TEST_CASE("what is missing is handed out first, however it is cut") {
   CHECK(jobs[12] == Job{5, 32, 16});
   CHECK(jobs.size() == 12 + 2 + pixels);
 
-  Schedule begun(pixels, 64, place);
+  Schedule begun(pixels, 64, position);
   CHECK(jobs_of(begun, 4, 2).size() == 8);
-  const Place later = begun.place();
+  const SchedulePosition later = begun.position();
   REQUIRE(later.missing.size() == 2);
   CHECK(later.missing[0].first_job == 4);
   CHECK(later.missing[0].jobs == 2);
@@ -92,16 +92,16 @@ TEST_CASE("a schedule with another number of samples goes on without a gap and w
       CAPTURE(before.value_or(0), after, launches);
       Schedule first(pixels, before);
       std::vector<Job> jobs = jobs_of(first, 4, launches);
-      const Place place = first.place();
-      if (place.end() > after) continue;
-      Schedule second(pixels, after, place);
+      const SchedulePosition position = first.position();
+      if (position.end() > after) continue;
+      Schedule second(pixels, after, position);
       const std::vector<Job> rest = jobs_of(second, 5);
       jobs.insert(jobs.end(), rest.begin(), rest.end());
       const std::vector<int> once(static_cast<std::size_t>(after), 1);
       CHECK(samples_in(jobs) == std::vector<std::vector<int>>(pixels, once));
       // Whole blocks again as soon as there can be.
       for (const Job& job : rest)
-        CHECK((job.samples == samples_per_block || job.first_sample == place.sample ||
+        CHECK((job.samples == samples_per_block || job.first_sample == position.sample ||
                job.first_sample % samples_per_block != 0 || job.first_sample + job.samples == after));
     }
 }

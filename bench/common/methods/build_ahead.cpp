@@ -25,7 +25,7 @@ constexpr int failed = 255;
   std::size_t built = 0;
   try {
     for (std::size_t i = first; i < jobs.size(); i += step) built += jobs[i]();
-  } catch (...) { // the parent will meet it, too
+  } catch (...) { // the parent process will get the same error
     ::_exit(failed);
   }
   ::_exit(static_cast<int>(std::min<std::size_t>(built, failed - 1)));

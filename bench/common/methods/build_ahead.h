@@ -1,5 +1,5 @@
-// Kernels of many scenes and methods, built on every processor before anything is timed: drivers build in one
-// thread of a process.
+// Builds the kernels of many scenes and methods on all processors, before anything is timed. Child processes
+// are used because drivers build in one thread of a process.
 #pragma once
 
 #include <cstddef>
@@ -10,14 +10,13 @@
 
 namespace phlux::bench {
 
-/// Runs each job in one of as many child processes as there are processors, and waits for them all. A job
-/// says how many programs it built; the sum is returned, less those of children that failed, whose jobs are
-/// simply not done. Only for a process that has not used OpenCL yet: its drivers' threads do not live on in a
-/// child.
+/// Distributes the jobs to one child process per processor, and waits for all. A job returns how many
+/// programs it built; returns the sum over the children that did not fail. Only for a process that has not
+/// used OpenCL yet: threads of the drivers do not exist in a child process.
 [[nodiscard]] std::size_t run_in_children(const std::vector<std::function<std::size_t()>>& jobs);
 
-/// Builds, in children, the programs of every scene and method or finds them in the cache; returns how many
-/// were built. A method that refuses a scene has none.
+/// Builds the programs of every scene and method that are not in the cache, in child processes; returns how
+/// many were built. Skips methods that cannot render a scene.
 [[nodiscard]] std::size_t build_programs(const std::vector<std::function<scene::Scene()>>& scenes,
                                          const std::vector<Method>& methods,
                                          const SceneBenchSettings& settings);

@@ -13,16 +13,16 @@
 namespace phlux::bench {
 namespace {
 
-constexpr double darkness = 1e-4; // as in files::compare
-constexpr std::size_t top_one_in = 1000;
+constexpr double squared_floor = 1e-4;   // added to the squared reference, as in files::compare
+constexpr std::size_t top_one_in = 1000; // the largest 0.1%
 
 double weight_of(double reference) {
-  return 1.0 / (reference * reference + darkness);
+  return 1.0 / (reference * reference + squared_floor);
 }
 
-// f(left out) for each repeat, and f(nothing) as the value.
+// f(i) is the estimate without repeat i, f(nullopt) that from all.
 using LeavesOut = std::function<double(std::optional<std::size_t>)>;
-Figure jackknife(std::size_t repeats, const LeavesOut& f) {
+Estimate jackknife(std::size_t repeats, const LeavesOut& f) {
   std::vector<double> values;
   for (std::size_t i = 0; i < repeats; ++i) values.push_back(f(i));
   const double n = static_cast<double>(repeats);
@@ -32,10 +32,10 @@ Figure jackknife(std::size_t repeats, const LeavesOut& f) {
   return {f(std::nullopt), std::sqrt((n - 1) / n * squares)};
 }
 
-// A value of a pixel over the repeats but one.
+// One channel of one pixel over the repeats, with or without one of them.
 struct Values {
   double mean = 0;
-  double samples = 0;         // of all
+  double samples = 0;         // sum over the repeats
   double weighted_square = 0; // sum of n (x - mean)^2
   int count = 0;
 };
@@ -80,7 +80,7 @@ double unexplained_without(Repeats repeats, const Reference& reference, std::opt
 
 } // namespace
 
-// Light tracing begins no sample in a pixel: each has the image's paths per pixel.
+// Pixels of a light-traced image have no samples of their own: each counts the paths per pixel of the image.
 ImageEstimate estimate_of(const film::Film& film) {
   ImageEstimate image;
   const std::size_t pixels = film.pixels().size();
@@ -116,14 +116,14 @@ double relative_mse(const ImageEstimate& image, const Reference& reference) {
   return total / static_cast<double>(reference.size());
 }
 
-Figure variance_per_sample(Repeats repeats, const Reference& reference) {
+Estimate variance_per_sample(Repeats repeats, const Reference& reference) {
   assert(repeats.size() >= 2);
   if (repeats.size() == 2) return {variance_without(repeats, reference, std::nullopt), INFINITY};
   return jackknife(repeats.size(),
                    [&](auto left_out) { return variance_without(repeats, reference, left_out); });
 }
 
-Figure image_mean(Repeats repeats) {
+Estimate image_mean(Repeats repeats) {
   assert(repeats.size() >= 2);
   std::vector<double> means;
   for (const ImageEstimate& image : repeats)
@@ -136,7 +136,7 @@ Figure image_mean(Repeats repeats) {
   });
 }
 
-Figure unexplained_mse(Repeats repeats, const Reference& reference) {
+Estimate unexplained_mse(Repeats repeats, const Reference& reference) {
   assert(repeats.size() >= 2);
   if (repeats.size() == 2) return {unexplained_without(repeats, reference, std::nullopt), INFINITY};
   return jackknife(repeats.size(),
@@ -160,7 +160,7 @@ double top_share(Repeats one_sample_images, const Reference& reference) {
   return all > 0 ? std::accumulate(errors.begin(), errors.begin() + top, 0.0) / all : 0;
 }
 
-Figure log_growth(Repeats many, Repeats few, const Reference& reference) {
+Estimate log_growth(Repeats many, Repeats few, const Reference& reference) {
   assert(many.size() == few.size() && many.size() >= 3);
   const double a = variance_without(many, reference, std::nullopt),
                b = variance_without(few, reference, std::nullopt);
@@ -170,7 +170,7 @@ Figure log_growth(Repeats many, Repeats few, const Reference& reference) {
   });
 }
 
-double p_value(const Figure& figure, double expected, std::size_t repeats) {
+double p_value(const Estimate& figure, double expected, std::size_t repeats) {
   const double d = std::abs(figure.value - expected);
   if (!(figure.standard_error > 0)) return d > 0 ? 0 : 1;
   if (!std::isfinite(figure.standard_error)) return 1;

@@ -1,11 +1,13 @@
-// What repeats of a render with different seeds say of its estimator. Everything is relative to a reference
-// image in the measure of files::compare: squared error / (reference^2 + 1e-4), its mean over pixels and
-// channels. So an image with n samples per pixel has an expected relative MSE of (variance per sample) / n,
-// and the variance times the seconds of a sample is the time to unit variance of a pixel.
+// Variance, bias and tail of an estimator from repeated renders with different seeds. Errors are relative to
+// a reference image, in the measure of files::compare: squared error / (reference^2 + 1e-4), averaged over
+// pixels and channels. An image with n samples per pixel has the expected relative MSE
+// (variance per sample) / n. Variance per sample times seconds per sample is the time to unit variance of a
+// pixel, the inverse of the efficiency (Veach 1997, chapter 2).
 //
-// Only means over independent renders are used, which is right for every integrator, whatever its samples
-// share. Standard errors are jackknifed over the repeats (Efron and Stein 1981): with R repeats, value +- t
-// standard errors covers the truth as Student's t with R - 1 degrees of freedom says.
+// Only means of independent renders are used, so the estimates also hold where the samples of one render are
+// correlated. Standard errors are jackknifed over the repeats (Efron and Stein 1981). With R repeats,
+// value +- t standard errors is a confidence interval of Student's t distribution with R - 1 degrees of
+// freedom.
 #pragma once
 
 #include <span>
@@ -15,49 +17,50 @@
 
 namespace phlux::bench {
 
-/// One render.
+/// The image of one render.
 struct ImageEstimate {
-  std::vector<double> radiance; ///< three a pixel
+  std::vector<double> radiance; ///< three values per pixel
   std::vector<double> samples;  ///< of each pixel
 };
 
-struct Figure {
+struct Estimate {
   double value = 0, standard_error = 0;
 };
 
-using Reference = std::vector<double>; ///< radiance, three a pixel
+using Reference = std::vector<double>; ///< radiance, three values per pixel
 using Repeats = std::span<const ImageEstimate>;
 
 [[nodiscard]] ImageEstimate estimate_of(const film::Film& film);
 
-/// The mean of the repeats, each pixel weighted by its samples.
+/// The mean of the repeats; the pixels of each image are weighted by their samples.
 [[nodiscard]] ImageEstimate pooled(Repeats repeats);
 
 [[nodiscard]] double relative_mse(const ImageEstimate& image, const Reference& reference);
 
-/// Relative variance of one sample per pixel: that of the repeats about their own mean, times their samples.
-/// At least two repeats.
-[[nodiscard]] Figure variance_per_sample(Repeats repeats, const Reference& reference);
+/// Relative variance per sample: variance of the repeats about their mean, times their samples. Requires two
+/// repeats or more.
+[[nodiscard]] Estimate variance_per_sample(Repeats repeats, const Reference& reference);
 
-/// Mean radiance of the image over pixels and channels. At least two repeats.
-[[nodiscard]] Figure image_mean(Repeats repeats);
+/// Mean radiance over pixels and channels. Requires two repeats or more.
+[[nodiscard]] Estimate image_mean(Repeats repeats);
 
-/// The part of the pooled image's relative MSE that its variance does not explain: squared bias, or the
-/// reference's own error. At least two repeats. Without a bias the standard error is too large: the jackknife
-/// of a difference of squares is careful there.
-[[nodiscard]] Figure unexplained_mse(Repeats repeats, const Reference& reference);
+/// The relative MSE of the pooled image minus the part that its variance explains. What remains is squared
+/// bias, or the error of the reference. Requires two repeats or more. Without bias the jackknife of this
+/// difference of squares overestimates the standard error.
+[[nodiscard]] Estimate unexplained_mse(Repeats repeats, const Reference& reference);
 
-/// Of images with one sample per pixel: the share that the largest thousandth of the pixels holds in the sum
-/// of all relative squared errors. 0.011 for a normal distribution; near 1 a variance rests on a few samples,
-/// and may be infinite.
+/// From images with one sample per pixel: the share of the largest 0.1% of the pixels in the sum of all
+/// relative squared errors. 0.006 for normally distributed channels. Near 1 the variance is dominated by a
+/// few samples and may be infinite.
 [[nodiscard]] double top_share(Repeats one_sample_images, const Reference& reference);
 
-/// Logarithm of (variance per sample from `many`) / (from `few`), two sets of repeats with more and with
-/// fewer samples: near 0 where the variance exists and was met; an infinite one grows with what was sampled.
-[[nodiscard]] Figure log_growth(Repeats many, Repeats few, const Reference& reference);
+/// log(variance per sample estimated from `many` / from `few`), for repeats with more and with fewer samples.
+/// Near 0 for a finite variance whose largest samples were drawn; an infinite variance grows with the number
+/// of samples.
+[[nodiscard]] Estimate log_growth(Repeats many, Repeats few, const Reference& reference);
 
-/// Two-sided p-value of value = expected under Student's t for so many repeats; 1 where the standard error is
-/// 0 and the value as expected.
-[[nodiscard]] double p_value(const Figure& figure, double expected, std::size_t repeats);
+/// Two-sided p-value of the hypothesis value = expected, by Student's t distribution with repeats - 1 degrees
+/// of freedom. With a standard error of 0: 1 if the value is as expected, else 0.
+[[nodiscard]] double p_value(const Estimate& figure, double expected, std::size_t repeats);
 
 } // namespace phlux::bench

@@ -1,4 +1,4 @@
-// The ways to render a scene that are compared: an integrator, its variant and a directional strategy.
+// The rendering methods that are compared: integrator, variant of it, and directional strategy.
 #pragma once
 
 #include <string>
@@ -10,22 +10,22 @@ namespace phlux::bench {
 
 struct Method {
   std::string integrator; ///< path, light or bidir
-  std::string strategy;   ///< how directions are sampled
-  std::string variant;    ///< path: --connect; bidir: --weights; light, which has none: "-"
+  std::string strategy;   ///< for sampling directions
+  std::string variant;    ///< of path: connect; of bidir: weights; "-" for light
 
-  /// "path mis"; "path mis, fold" where the strategy is not the default.
+  /// "path mis", or "path mis, fold" if the strategy is not the default one.
   [[nodiscard]] std::string name() const;
   bool operator==(const Method&) const = default;
 };
 
-/// Every integrator and variant with each strategy, in the order in which tables and charts list them. Of
-/// bidir's weights `quick` takes the default alone.
+/// Every integrator and variant with each strategy, in the order of tables and charts. If `quick`, bidir only
+/// with its default weights.
 [[nodiscard]] std::vector<Method> all_methods(const std::vector<std::string>& strategies, bool quick);
 
-/// What render() needs to be told; depths are the scene's.
+/// Settings of render() for the method, with the depths of the scene.
 [[nodiscard]] render::Settings settings_of(const Method& method, const scene::RenderDefaults& defaults);
 
-/// Why the method's mean is known to be wrong, in words; empty where it is right.
+/// Why the method is known to be biased, as text; empty if it is unbiased.
 [[nodiscard]] std::string known_bias(const Method& method, const scene::Scene& scene);
 
 } // namespace phlux::bench

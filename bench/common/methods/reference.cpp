@@ -15,7 +15,7 @@
 namespace phlux::bench {
 namespace {
 
-constexpr int repeats_of_reference = 4; // what its own error is estimated from
+constexpr int repeats_of_reference = 4; // from which its own error is estimated
 constexpr std::uint64_t first_seed = 2'000'000;
 
 constexpr std::array<const char*, 3> channel_names = {"R", "G", "B"};
@@ -70,9 +70,9 @@ std::optional<ReferenceImage> read_reference(const std::filesystem::path& file, 
     json.at("seconds").get_to(reference.seconds);
     json.at("samples_per_pixel").get_to(reference.samples_per_pixel);
     return reference;
-  } catch (const std::exception& error) { // of the EXR file, the JSON text or a key that it lacks
-    throw FileError(fmt::format("{}: is a damaged reference ({}): delete it, and it is made anew",
-                                file.string(), error.what()));
+  } catch (const std::exception& error) { // from the EXR file, the JSON parser or a missing key
+    throw FileError(fmt::format("{}: is a damaged reference ({}): delete it, and it will be rendered again",
+                                 file.string(), error.what()));
   }
 }
 

@@ -1,4 +1,4 @@
-// The image that errors are measured against.
+// Reference images.
 #pragma once
 
 #include <filesystem>
@@ -12,24 +12,25 @@ namespace phlux::bench {
 
 struct ReferenceImage {
   Reference radiance;
-  double relmse = 0; ///< expected, of its own noise
-  Figure mean;       ///< of the image, over `repeats` renders
+  double relmse = 0; ///< expected, from its own noise
+  Estimate mean;     ///< of the image; from `repeats` renders
   int repeats = 0;
-  std::string method; ///< that made it
+  std::string method; ///< that rendered it
   double seconds = 0, samples_per_pixel = 0;
 };
 
-/// Renders it with `method` in `seconds`, from seeds of its own. @throws Interrupted, and as render()
+/// Renders a reference by `method` for `seconds`, with seeds from settings.seed + 2,000,000 on.
+/// @throws Interrupted, and as render()
 [[nodiscard]] ReferenceImage make_reference(const scene::Scene& scene, const Method& method,
                                             render::Settings settings, double seconds,
                                             const std::function<bool()>& interrupted);
 
-/// `file` (EXR, with a .json beside it) made with these settings; nothing where there is none, or one of
-/// others. @throws FileError for files that are damaged, saying to delete them
+/// Reads `file` (EXR, with a .json file beside it) if it exists and was made with these settings.
+/// @throws FileError if a file is damaged
 [[nodiscard]] std::optional<ReferenceImage> read_reference(const std::filesystem::path& file,
                                                            const std::string& settings);
 
-/// @throws WriteError
+/// Writes what read_reference() reads. @throws WriteError
 void write_reference(const std::filesystem::path& file, const std::string& settings,
                      const ReferenceImage& reference, const scene::Camera& camera);
 

@@ -52,9 +52,9 @@ std::vector<Method> ResultTable::missing(const Values& key, const std::vector<Me
   return only_refusals ? std::vector<Method>{} : without;
 }
 
-void ResultTable::forget(const Values& key, const std::vector<Method>& again, const std::string& settings) {
+void ResultTable::remove(const Values& key, const std::vector<Method>& methods, const std::string& settings) {
   table_.remove_if([&](const SavedTable::Row& row) {
-    return is_of(row, key) && (row.back() != settings || std::ranges::count(again, method_of(row)) > 0);
+    return is_of(row, key) && (row.back() != settings || std::ranges::count(methods, method_of(row)) > 0);
   });
 }
 
@@ -76,7 +76,7 @@ const std::vector<std::string>& result_columns() {
                                                    "variance_standard_error",
                                                    "top_share",
                                                    "seconds_per_sample",
-                                                   "variance_times_seconds", // the contract's end here
+                                                   "variance_times_seconds", // last column of the contract
                                                    "verdict",
                                                    "reason",
                                                    "variance_measured",
@@ -98,38 +98,38 @@ const std::vector<std::string>& result_columns() {
 }
 
 std::vector<std::string> result_values(const MethodResult& result, const ReferenceImage& reference,
-                                       const scene::Camera& camera, const Measured& measured) {
-  Values row = {csv_value(measured.device)};
+                                       const scene::Camera& camera, const CommonValues& common) {
+  Values row = {csv_value(common.device)};
   const bool refused = result.verdict == Verdict::refused, sound = result.verdict == Verdict::sound;
-  const auto figure = [&](double value, bool earned = true) {
-    row.push_back(refused || !earned ? "" : number_text(value));
+  const auto add = [&](double value, bool valid = true) {
+    row.push_back(refused || !valid ? "" : number_text(value));
   };
   const ConvergencePoint end = refused ? ConvergencePoint{} : result.convergence.back();
-  figure(end.samples_per_pixel);
-  figure(end.seconds);
-  figure(end.relmse);
+  add(end.samples_per_pixel);
+  add(end.seconds);
+  add(end.relmse);
   const bool variance_known = result.verdict != Verdict::suspect_variance;
-  figure(result.variance.value, variance_known);
-  figure(result.variance.standard_error, variance_known);
-  figure(result.top_share);
-  figure(result.seconds_per_sample);
+  add(result.variance.value, variance_known);
+  add(result.variance.standard_error, variance_known);
+  add(result.top_share);
+  add(result.seconds_per_sample);
   const double seconds =
-      measured.processor_time ? result.processor_seconds_per_sample : result.seconds_per_sample;
-  figure(result.variance.value * seconds, sound);
+      common.processor_time ? result.processor_seconds_per_sample : result.seconds_per_sample;
+  add(result.variance.value * seconds, sound);
   row.emplace_back(word_of(result.verdict));
   row.push_back(csv_value(result.reason));
-  figure(result.variance.value);
-  figure(result.variance.standard_error);
-  figure(result.seconds_per_sample_least);
-  figure(result.seconds_per_sample_most);
-  figure(result.processor_seconds_per_sample);
-  figure(result.mean.value);
-  figure(result.mean.standard_error);
-  figure(result.mean_bias_sigma);
+  add(result.variance.value);
+  add(result.variance.standard_error);
+  add(result.seconds_per_sample_least);
+  add(result.seconds_per_sample_most);
+  add(result.processor_seconds_per_sample);
+  add(result.mean.value);
+  add(result.mean.standard_error);
+  add(result.mean_bias_sigma);
   for (const std::string& text :
-       {fmt::format("{}", result.rounds), fmt::format("{}", measured.seed),
+       {fmt::format("{}", result.rounds), fmt::format("{}", common.seed),
         fmt::format("{}x{}", camera.width, camera.height), csv_value(reference.method),
-        number_text(reference.relmse), number_text(reference.seconds), fmt::format("{}", measured.lanes)})
+        number_text(reference.relmse), number_text(reference.seconds), fmt::format("{}", common.lanes)})
     row.push_back(text);
   return row;
 }

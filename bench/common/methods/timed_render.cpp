@@ -10,9 +10,9 @@
 namespace phlux::bench {
 namespace {
 
-constexpr double usual_launch_seconds = 0.05;
+constexpr double longest_launch_seconds = 0.05;
 
-// Light tracing begins no sample in a pixel, so there the image's paths per pixel count.
+// Pixels of a light-traced image have no samples of their own: there the paths per pixel of the image count.
 bool all_pixels(const film::Film& film, const std::function<bool(double)>& have) {
   if (std::ranges::all_of(film.pixels(), [](const film::Pixel& pixel) { return pixel.samples == 0; }))
     return have(film.samples_per_pixel());
@@ -37,7 +37,7 @@ bool every_pixel_has_some(const film::Film& film) {
   return all_pixels(film, [](double samples) { return samples >= 1; });
 }
 
-// For a time that was too short for one sample of every pixel.
+// For a time that was too short for one sample per pixel.
 TimedRender render_once(const scene::Scene& scene, render::Settings settings, std::size_t time) {
   film::Film film(scene.camera.width, scene.camera.height);
   settings.samples_per_pixel = 1;
@@ -57,7 +57,7 @@ bool runs_to_end(const std::function<void()>& work, const std::function<bool()>&
     work();
   } catch (const Interrupted&) {
     return false;
-  } catch (const DeviceError&) { // a compiler gives up, too, when it is interrupted
+  } catch (const DeviceError&) { // an interrupt also ends a running compiler
     if (interrupted && interrupted()) return false;
     throw;
   }
@@ -69,14 +69,14 @@ TimedRender render_for(const scene::Scene& scene, render::Settings settings, dou
   film::Film film(scene.camera.width, scene.camera.height);
   TimedRender result;
   settings.time_limit = seconds;
-  settings.launch_seconds = std::min(usual_launch_seconds, times.empty() ? seconds / 8 : times.front() / 2);
+  settings.launch_seconds = std::min(longest_launch_seconds, times.empty() ? seconds / 8 : times.front() / 2);
   std::size_t next = 0;
   bool stopped = false;
   std::optional<std::uint64_t> first_paths;
   double first_processor_seconds = 0;
   render::Events events;
   events.progress = [&](const render::Progress& progress) {
-    if (!first_paths) { // setting up is over
+    if (!first_paths) { // the set-up is done
       first_paths = progress.paths;
       first_processor_seconds = processor_seconds();
     }
@@ -85,7 +85,7 @@ TimedRender render_for(const scene::Scene& scene, render::Settings settings, dou
     if (next < times.size() && progress.seconds >= times[next]) {
       while (next < times.size() && progress.seconds >= times[next]) ++next;
       if (every_pixel_has_some(film))
-        result.on_the_way.push_back({estimate_of(film), progress.seconds, next - 1});
+        result.intermediate.push_back({estimate_of(film), progress.seconds, next - 1});
     }
     stopped = interrupted && interrupted();
     return !stopped;

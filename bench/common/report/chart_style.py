@@ -1,6 +1,5 @@
-"""What the charts of `phlux bench` share: colours in light and dark, fonts, files, and how a section of the report is
-made. Charts are drawn by a script beside this one, NAME.py, which begins with `import chart_style as style`; bench/README.md
-says how a script, its charts and its section come together.
+"""Shared by the chart scripts of `phlux bench`: light and dark colours, fonts, output files, and sections of the report.
+See bench/README.md.
 """
 import csv
 import json
@@ -16,7 +15,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-# A role has one colour in light and one in dark. No two roles share a light colour: in an SVG the colour is the role.
+# Each role has a light and a dark colour. No two share a light colour: dark_rules() finds a role in an SVG by it.
 ROLES = {
     #          light      dark
     "paper": ("#ffffff", "#14181d"),
@@ -24,9 +23,9 @@ ROLES = {
     "muted": ("#5d6670", "#a2acb6"),  # notes, ticks
     "axis": ("#9aa3ad", "#626c77"),
     "grid": ("#e6e9ec", "#2a3138"),
-    "wash": ("#f1f4f7", "#1c2229"),  # the ground of what is marked
+    "wash": ("#f1f4f7", "#1c2229"),  # background of marked areas
 }
-# In the order in which series take them: neighbours differ in hue and in lightness.
+# Colours of data series, in order; neighbours differ in hue and in lightness.
 SERIES = (
     ("#1f66a8", "#62aaf0"),  # blue
     ("#cf5f12", "#f79a4f"),  # orange
@@ -44,10 +43,10 @@ SERIES = (
 MARKERS = "osD^vP*Xph<>"
 DASHES = ("-", (0, (5, 1.6)), (0, (1.4, 1.2)))
 
-# Methods in the order in which tables and charts list them, and take colours.
+# Integrators with their variants, in the order of tables, charts and colours.
 VARIANTS = ["path none", "path light", "path mis", "light", "bidir balance", "bidir power", "bidir uniform"]
 
-SEQUENTIAL = "viridis"  # heat maps keep their colours in both themes
+SEQUENTIAL = "viridis"  # colour maps are the same in both themes
 DIVERGING = "RdBu_r"
 DPI = 130
 
@@ -71,7 +70,7 @@ class Theme:
 
     @staticmethod
     def on(rgba):
-        """Black or white, whichever is read better on this colour; the same in both themes."""
+        """Black or white text for a background of this colour, by its luminance; the same in both themes."""
         red, green, blue = (c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in rgba[:3])
         return "#0a0a0a" if 0.2126 * red + 0.7152 * green + 0.0722 * blue > 0.18 else "#fafafa"
 
@@ -95,19 +94,19 @@ LIGHT, DARK = Theme("light"), Theme("dark")
 
 
 def dark_rules(svg):
-    """A style sheet that gives each role's colour in this SVG its dark one, where the viewer prefers dark."""
+    """A style sheet that replaces the light colours in this SVG by the dark ones where the viewer prefers dark."""
     rules = []
     for light, dark in (*ROLES.values(), *SERIES):
         for property in ("fill", "stroke"):
             if f"{property}: {light}" in svg:
                 rules.append(f'[style*="{property}: {light}"]{{{property}:{dark}!important}}')
-            if f'{property}="{light}"' in svg:  # the ground of a hatch
+            if f'{property}="{light}"' in svg:  # background of a hatched area
                 rules.append(f'[{property}="{light}"]{{{property}:{dark}}}')
     return "@media (prefers-color-scheme:dark){" + "".join(rules) + "}"
 
 
 def write(folder, name, text):
-    """Replaces folder/name, whole or not at all."""
+    """Writes folder/name atomically."""
     path = os.path.join(folder, name)
     with open(path + ".tmp", "w", encoding="utf-8") as file:
         file.write(text)
@@ -115,8 +114,8 @@ def write(folder, name, text):
 
 
 def save(folder, name, draw):
-    """Writes NAME.svg, which follows the viewer's theme, NAME.png and NAME-dark.png. draw(theme) returns a figure, all of
-    whose colours are the theme's, or a colour map's."""
+    """Writes NAME.svg, which follows the viewer's theme, NAME.png and NAME-dark.png. draw(theme) returns a figure that uses
+    colours of the theme and of colour maps only."""
     for theme in (LIGHT, DARK):
         with plt.rc_context(theme.parameters()):
             figure = draw(theme)
@@ -126,14 +125,14 @@ def save(folder, name, draw):
                 path = os.path.join(folder, name + ".svg")
                 figure.savefig(path, dpi=DPI, metadata={"Date": None})
                 with open(path, encoding="utf-8") as file:
-                    svg = re.sub(r">\s+<", "><", file.read())  # texts are paths: nothing is lost, and a sixth of the size
+                    svg = re.sub(r">\s+<", "><", file.read())  # saves a sixth of the size; text is stored as paths
                 end = re.search(r"<svg\b[^>]*>", svg).end()
                 write(folder, name + ".svg", f"{svg[:end]}\n <style>{dark_rules(svg)}</style>{svg[end:]}")
             plt.close(figure)
 
 
 def save_all(folder, drawings):
-    """save() for each (name, draw), in as many processes as there are processors."""
+    """save() for each (name, draw), with one process per processor."""
     context = multiprocessing.get_context("fork")
 
     def save_some(some):
@@ -151,7 +150,7 @@ def save_all(folder, drawings):
 
 
 def value_of(text):
-    """A number where it is one, NaN where it is empty, else the text."""
+    """The text as a number if it is one; NaN if it is empty; else the text."""
     if text == "":
         return float("nan")
     try:
@@ -161,23 +160,35 @@ def value_of(text):
 
 
 def read(folder, name):
-    """The rows of a table, as objects whose attributes are its columns."""
+    """The rows of a CSV file, as objects with an attribute per column."""
     with open(os.path.join(folder, name), newline="", encoding="utf-8") as file:
         return [SimpleNamespace(**{column: value_of(text) for column, text in row.items()})
                 for row in csv.DictReader(file)]
 
 
 def variant_of(row):
-    """The one of VARIANTS that a row is about."""
+    """The entry of VARIANTS for a row."""
     return row.integrator if row.connect_or_weights == "-" else f"{row.integrator} {row.connect_or_weights}"
 
 
+def set_grid(axes, columns, rows):
+    """Prepares axes for a map with one unit square per cell, labelled by these texts."""
+    axes.set_xlim(-0.5, len(columns) - 0.5)
+    axes.set_ylim(-0.5, len(rows) - 0.5)
+    axes.set_xticks(range(len(columns)), columns)
+    axes.set_yticks(range(len(rows)), rows)
+    axes.tick_params(length=0)
+    for spine in axes.spines.values():
+        spine.set_visible(False)
+
+
 def srgb(linear):
+    """sRGB values for linear ones in [0, 1]."""
     return np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
 
 
 def section(folder, name, *, title, order, text=(), summary=None, charts=(), tables=()):
-    """Writes NAME.section.json, a section of the report: bench/README.md says what is in it."""
+    """Writes NAME.section.json, a section of the report (bench/README.md)."""
     provenance = {"drawn by": f"Python {platform.python_version()}, matplotlib {matplotlib.__version__}"}
     content = {"title": title, "order": order, "text": list(text), "summary": summary, "charts": list(charts),
                "tables": list(tables), "provenance": provenance}

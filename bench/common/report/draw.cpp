@@ -1,13 +1,10 @@
 #include "bench/common/report/draw.h"
 
-#include <string>
-
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
 #include "bench/common/report/python.h"
-#include "bench/common/report/scripts.h"
 #include "errors.h"
 
 namespace phlux::bench {
@@ -18,43 +15,39 @@ std::string last_line(std::string text) {
   return text.substr(text.rfind('\n') + 1);
 }
 
-std::string python_with(const char* module, const char* package, const char* what) {
-  if (const auto python = find_python(module)) return *python;
-  throw WriteError(
-      fmt::format("{} without {}: install the package {}; the tables are written", what, module, package));
+// Runs main() of the module, then of report.py. `import NAME` finds the embedded NAME.py first. JSON strings
+// are valid Python strings.
+std::string python_program(const std::string& module) {
+  nlohmann::json sources;
+  for (const sources::EmbeddedFile& file : embedded_scripts())
+    sources[std::filesystem::path(file.name).stem().string()] = file.text;
+  return fmt::format(R"(import importlib, importlib.abc, importlib.util, sys
+sources = {}
+class Embedded(importlib.abc.MetaPathFinder, importlib.abc.InspectLoader):
+    def find_spec(self, name, path, target=None):
+        return importlib.util.spec_from_loader(name, self) if name in sources else None
+    def get_source(self, name):
+        return sources[name]
+sys.meta_path.insert(0, Embedded())
+for name in ('{}', 'report'):
+    importlib.import_module(name).main()
+)",
+                     sources.dump(-1, ' ', true), module);
 }
-
-void run(const std::string& python, const std::filesystem::path& folder, const std::string& program,
-         const char* what) {
-  const PythonOutcome outcome = run_python(python, {folder.string()}, program);
-  if (outcome.exit_code != 0)
-    throw WriteError(fmt::format("{}: {}: {}", what, python,
-                                 outcome.errors.empty() ? fmt::format("exit code {}", outcome.exit_code)
-                                                        : last_line(outcome.errors)));
-  if (!outcome.errors.empty()) spdlog::info("{}", outcome.errors);
-}
-
-// A program whose `import chart_style` finds the text in this binary. JSON's strings are Python's too.
-std::string with_chart_style(std::string_view script) {
-  return fmt::format("import sys, types\n"
-                     "chart_style = sys.modules['chart_style'] = types.ModuleType('chart_style')\n"
-                     "exec(compile({}, 'chart_style.py', 'exec'), chart_style.__dict__)\n{}",
-                     nlohmann::json(chart_style_script()).dump(-1, ' ', true), script);
-}
-
-constexpr const char* no_charts = "the charts cannot be drawn";
-constexpr const char* no_report = "the report cannot be written";
 
 } // namespace
 
-void write_report(const std::filesystem::path& folder) {
-  run(python_with("json", "python3", no_report), folder, std::string(report_script()), no_report);
-}
-
-void draw_charts(const std::filesystem::path& folder, std::string_view script) {
-  const std::string python = python_with("matplotlib", "python3-matplotlib", no_charts);
-  run(python, folder, with_chart_style(script), no_charts);
-  write_report(folder);
+void draw_charts(const std::filesystem::path& folder, const std::string& module) {
+  const auto python = find_python("matplotlib");
+  if (!python)
+    throw WriteError("the charts cannot be drawn without matplotlib: install the package python3-matplotlib; "
+                     "the tables are written");
+  const PythonOutcome outcome = run_python(*python, {folder.string()}, python_program(module));
+  if (outcome.exit_code != 0)
+    throw WriteError(fmt::format("the charts cannot be drawn: {}: {}", *python,
+                                 outcome.errors.empty() ? fmt::format("exit code {}", outcome.exit_code)
+                                                        : last_line(outcome.errors)));
+  if (!outcome.errors.empty()) spdlog::info("{}", outcome.errors);
 }
 
 } // namespace phlux::bench

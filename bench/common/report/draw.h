@@ -1,17 +1,21 @@
-// Drawings by matplotlib and the report of what a folder holds, made by Python programs in this binary.
+// Charts and the report (index.html), made by the Python programs of bench/, which the build embeds.
 #pragma once
 
 #include <filesystem>
-#include <string_view>
+#include <span>
+#include <string>
+
+#include "sources/embedded.h"
 
 namespace phlux::bench {
 
-/// Runs a script of this folder (scripts.h), which draws charts from the tables in `folder` and writes a
-/// section of the report, then writes the report. @throws WriteError where no Python with matplotlib is
-/// found, naming the package, or where it fails
-void draw_charts(const std::filesystem::path& folder, std::string_view script);
+/// Every Python file of bench/, by its path there. Each is a module by its file's name, whatever its folder.
+[[nodiscard]] std::span<const sources::EmbeddedFile> embedded_scripts();
 
-/// Writes `folder`/index.html from the sections there (README.md). @throws WriteError
-void write_report(const std::filesystem::path& folder);
+/// Runs main() of the Python module `module` ("scenes"), which reads the tables in `folder` and writes its
+/// charts and its section of the report there; then writes `folder`/index.html from all sections
+/// (bench/README.md). @throws WriteError if no Python with matplotlib is installed, or if the program fails;
+/// the tables are complete in either case
+void draw_charts(const std::filesystem::path& folder, const std::string& module);
 
 } // namespace phlux::bench

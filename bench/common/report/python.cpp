@@ -16,13 +16,13 @@ extern char** environ;
 namespace phlux::bench {
 namespace {
 
-// Debian's own comes first: it is the one that python3-matplotlib belongs to.
+// Debian's interpreter first: python3-matplotlib is installed for that one.
 constexpr std::array<const char*, 2> interpreters = {"/usr/bin/python3", "python3"};
 
 class Pipe {
 public:
   Pipe() {
-    if (::pipe2(ends_.data(), O_CLOEXEC) != 0) throw WriteError("no pipe to python3 can be made");
+    if (::pipe2(ends_.data(), O_CLOEXEC) != 0) throw WriteError("no pipe to python3 can be created");
   }
   ~Pipe() {
     close(0);
@@ -37,14 +37,14 @@ public:
   }
 
 private:
-  std::array<int, 2> ends_{-1, -1}; // to read from, to write to
+  std::array<int, 2> ends_{-1, -1}; // read end, write end
 };
 
 void write_all(int descriptor, std::string_view text) {
   while (!text.empty()) {
     const ssize_t written = ::write(descriptor, text.data(), text.size());
     if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return; // it ended early; its exit code says so
+    if (written <= 0) return; // the program has exited early: its exit code tells
     text.remove_prefix(static_cast<std::size_t>(written));
   }
 }
@@ -60,7 +60,7 @@ std::string read_all(int descriptor) {
   }
 }
 
-// Runs a program with `input`; its output is dropped, its errors are kept.
+// Runs a command with `input` on standard input; discards standard output, returns standard error.
 PythonOutcome run(const std::vector<std::string>& command, std::string_view input) {
   Pipe to, from;
   posix_spawn_file_actions_t actions;

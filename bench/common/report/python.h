@@ -1,4 +1,4 @@
-// Python programs that this binary holds, run in a process beside this one.
+// Runs Python programs in a child process.
 #pragma once
 
 #include <optional>
@@ -9,15 +9,15 @@
 namespace phlux::bench {
 
 struct PythonOutcome {
-  int exit_code = 127; ///< of the interpreter; 127: not started, 128 + the signal's number when one ended it
-  std::string errors;
+  int exit_code = 127; ///< 127: not started; 128 + signal number if a signal ended it
+  std::string errors;  ///< standard error
 };
 
-/// An interpreter that can import `module`.
+/// The first interpreter that can import `module`, if there is one.
 [[nodiscard]] std::optional<std::string> find_python(std::string_view module);
 
-/// Runs `program` with these arguments; what it prints is dropped, its errors are kept. @throws WriteError
-/// when there are no pipes left
+/// Runs `program` with these arguments; discards its standard output and returns its standard error.
+/// @throws WriteError if no pipe can be created
 [[nodiscard]] PythonOutcome run_python(const std::string& interpreter,
                                        const std::vector<std::string>& arguments, std::string_view program);
 

@@ -1,8 +1,8 @@
-"""Writes FOLDER/index.html, the report of `phlux bench`, from the sections that its measurements left in FOLDER.
+"""Writes FOLDER/index.html, the report of `phlux bench`, from the section files in FOLDER (bench/README.md).
 
-    python3 - FOLDER < report.py
+    python3 report.py FOLDER
 
-bench/README.md says what a section is. The page needs no network and no file beside it: charts are inside, as SVG.
+The page contains the charts as SVG and needs no other file and no network.
 """
 import csv
 import glob
@@ -43,7 +43,7 @@ code, pre { font-family: "DejaVu Sans Mono", monospace; font-size: .86rem; }
 pre { background: var(--wash); padding: .7rem .9rem; overflow-x: auto; }
 """
 
-# Nothing is fetched: the browser would refuse it.
+# Forbids the browser to fetch anything.
 POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:"
 
 
@@ -63,7 +63,7 @@ def number_of(value):
 
 
 def cell(value):
-    """A cell with four digits of a number; an empty one is a dash."""
+    """A table cell: four digits of a number, a dash for an empty value."""
     if value is None or value == "" or value != value:
         return '<td class="number">–</td>'
     number = number_of(value)
@@ -87,7 +87,7 @@ def table(columns, rows, text_only=False):
 
 
 def inline_svg(path, label, prefix):
-    """The drawing as a part of the page: its ids, which others may have too, begin with `prefix`."""
+    """The SVG as an element of the page; its ids get the prefix, so that they are unique in the page."""
     with open(path, encoding="utf-8") as file:
         svg = file.read()
     svg = svg[svg.index("<svg"):]
@@ -145,7 +145,7 @@ def summaries(sections):
 
 
 def provenance(folder, sections):
-    parts = ['<section id="provenance"><h2>What it was made with</h2>']
+    parts = ['<section id="provenance"><h2>Provenance</h2>']
     made = [(name, content, read_json(os.path.join(folder, name + ".provenance.json"))) for name, content in sections]
     keys = []
     for _, content, values in made:
@@ -157,9 +157,9 @@ def provenance(folder, sections):
     parts.append(table([""] + [name for name, _, _ in made], rows, text_only=True))
     commands = [values["command"] for _, _, values in made if values.get("command")]
     if commands:
-        parts.append("<h3>How to repeat it</h3><pre>" + "\n".join(escape(command) for command in commands) + "</pre>")
-        parts.append("<p>In the folder of Phlux, as <code>./phlux</code>, with <code>--out</code> and this report's "
-                     "folder or another one; in this folder what is measured already is not measured again.</p>")
+        parts.append("<h3>Commands</h3><pre>" + "\n".join(escape(command) for command in commands) + "</pre>")
+        parts.append("<p>Run it in the folder of Phlux as <code>./phlux</code>, with <code>--out DIR</code>. If DIR is the folder of this "
+                     "report, results that it already contains are not measured again.</p>")
     return "\n".join(parts) + "</section>"
 
 
@@ -186,12 +186,12 @@ def page(folder):
 <meta name="color-scheme" content="light dark">
 <meta http-equiv="Content-Security-Policy" content="{POLICY}">
 <link rel="icon" href="data:,">
-<title>Phlux: what was measured</title>
+<title>Phlux: measurements</title>
 <style>{STYLE}</style>
 </head>
 <body>
-<h1>Phlux: what was measured</h1>
-<nav>{links}<a href="#provenance">What it was made with</a></nav>
+<h1>Phlux: measurements</h1>
+<nav>{links}<a href="#provenance">Provenance</a></nav>
 {body}
 </body>
 </html>

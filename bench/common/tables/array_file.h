@@ -1,4 +1,4 @@
-// Arrays for Python, in NumPy's format (NEP 1, version 1.0).
+// Arrays in the file format of NumPy (NEP 1, version 1.0).
 #pragma once
 
 #include <filesystem>
@@ -7,7 +7,7 @@
 
 namespace phlux::bench {
 
-/// float32, C order; `shape` multiplies to the number of values. @throws WriteError
+/// Writes float32 values in C order; the product of `shape` is the number of values. @throws WriteError
 void write_array(const std::filesystem::path& file, const std::vector<std::size_t>& shape,
                  const std::vector<double>& values);
 

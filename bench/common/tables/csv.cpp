@@ -13,10 +13,10 @@ void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error)
-    throw WriteError(fmt::format("{}: cannot be created: {}: --out names another folder", folder.string(),
-                                 error.message()));
+    throw WriteError(
+        fmt::format("{}: cannot be created: {}: choose another folder", folder.string(), error.message()));
   if (!std::filesystem::is_directory(folder))
-    throw WriteError(fmt::format("{}: is no folder: --out names one", folder.string()));
+    throw WriteError(fmt::format("{}: is not a folder: choose another name", folder.string()));
 }
 
 CsvFile::CsvFile(const std::filesystem::path& folder, const std::string& name, const std::string& header,
@@ -29,16 +29,16 @@ CsvFile::CsvFile(const std::filesystem::path& folder, const std::string& name, c
   line(header);
   for (const std::string& one : kept) line(one);
   std::error_code error;
-  std::filesystem::rename(beginning, path_, error); // the open file goes along
+  std::filesystem::rename(beginning, path_, error); // file_ stays open and continues to write to it
   if (error)
-    throw WriteError(fmt::format("{}: cannot be written: {}: --out names another folder", path_.string(),
-                                 error.message()));
+    throw WriteError(
+        fmt::format("{}: cannot be written: {}: choose another folder", path_.string(), error.message()));
 }
 
 void CsvFile::line(const std::string& text) {
   file_ << text << '\n' << std::flush;
   if (!file_)
-    throw WriteError(path_.string() + ": cannot be written: make room, or --out names another folder");
+    throw WriteError(path_.string() + ": cannot be written: free disk space or choose another folder");
 }
 
 std::string csv_value(std::string text) {

@@ -1,4 +1,4 @@
-// Tables of figures that grow line by line, so that what was measured before an interruption is kept.
+// CSV tables that are written row by row, so that an interrupted measurement keeps its rows.
 #pragma once
 
 #include <filesystem>
@@ -8,17 +8,17 @@
 
 namespace phlux::bench {
 
-/// Creates `folder`, with those above it, where it is not there. @throws WriteError
+/// Creates `folder` and its parents if they do not exist. @throws WriteError
 void make_folder(const std::filesystem::path& folder);
 
 class CsvFile {
 public:
-  /// Begins `folder`/`name` anew with this line of column names and the lines that are kept of it; they are
-  /// there at every moment. @throws WriteError
+  /// Replaces `folder`/`name` atomically by this header and these rows of its previous content.
+  /// @throws WriteError
   CsvFile(const std::filesystem::path& folder, const std::string& name, const std::string& header,
           const std::vector<std::string>& kept = {});
 
-  /// Adds a line, whose values contain no commas. @throws WriteError
+  /// Appends a row; its values must not contain commas. @throws WriteError
   void line(const std::string& text);
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
@@ -27,7 +27,7 @@ private:
   std::ofstream file_;
 };
 
-/// Fit to be a value of a table: without commas and line ends.
+/// The text with commas and line ends replaced by spaces.
 [[nodiscard]] std::string csv_value(std::string text);
 
 } // namespace phlux::bench

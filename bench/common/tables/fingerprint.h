@@ -1,4 +1,4 @@
-// Names what a figure depends on, so that a second run knows what it need not measure again.
+// A hash of everything that a result depends on. A later run measures again only if it has changed.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace phlux::bench {
 
-/// FNV-1a, 64 bits (Fowler, Noll, Vo), without a claim to be unbreakable.
+/// FNV-1a, 64 bits (Fowler, Noll, Vo); not cryptographic.
 class Fingerprint {
 public:
   void add(const void* bytes, std::size_t size);

@@ -1,4 +1,4 @@
-// What a measurement was made with, for the report.
+// How a measurement was made, for the report: command, device, versions, seeds.
 #pragma once
 
 #include <filesystem>
@@ -9,14 +9,15 @@
 namespace phlux::bench {
 
 struct Provenance {
-  std::string command; ///< repeats it: "phlux bench sampling --quick --seed 1"
+  std::string command; ///< that repeats it: "phlux bench sampling --quick --seed 1"
   device::DeviceInfo device;
   int lanes = 0;            ///< WIDTH
-  std::string kernel_cache; ///< in words: whether kernels were built in this run, and that timings exclude it
-  std::string seeds;        ///< in words: "1 to 10"
+  std::string kernel_cache; ///< text: whether kernels were built in this run, and that timings exclude it
+  std::string seeds;        ///< text: "1 to 10"
 };
 
-/// Writes `folder`/`name`.provenance.json, with the version of phlux and the date. @throws WriteError
+/// Writes `folder`/`name`.provenance.json; adds the versions of Phlux and the compiler, and the date.
+/// @throws WriteError
 void write_provenance(const std::filesystem::path& folder, const std::string& name,
                       const Provenance& provenance);
 

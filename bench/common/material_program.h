@@ -1,4 +1,4 @@
-// A program of kernels/ that works on one Phong material without a scene (kernels/only_material.cl).
+// An OpenCL program for one material without a scene (kernels/measure/only_material.cl).
 #pragma once
 
 #include <filesystem>
@@ -8,35 +8,44 @@
 
 #include "device/program.h"
 #include "device/work_groups.h"
+#include "lobes/models.h"
 
 namespace phlux::bench {
 
-/// A colourless material and the angle of the direction that is known.
+/// A material, a grey Phong unless it is given, and the angle of the fixed direction.
 struct Case {
   double diffuse = 0, specular = 0, exponent = 0; ///< kd, ks, n
-  double degrees = 0;                             ///< from the normal, below 90
+  double degrees = 0;                             ///< between the fixed direction and the normal; below 90
+  std::shared_ptr<const scene::Material> given;   ///< of another model; null: the Phong material
   bool operator==(const Case&) const = default;
 };
 
-/// The reflectivity rho = rho_d + rho_s, in closed form and double precision.
+/// The reflectivity rho = rho_d + rho_s of the Phong material for the fixed direction, in closed form and
+/// double precision.
 [[nodiscard]] double exact_reflectivity(const Case& one);
 
-/// The kernels to use: the embedded ones where `folder` is empty.
+[[nodiscard]] scene::Material material_of(const Case& one);
+
+/// The kernels in `folder`; the embedded ones if it is empty.
 [[nodiscard]] sources::KernelFiles kernel_files(const std::filesystem::path& folder);
 
-class PhongProgram {
+class MaterialProgram {
 public:
-  /// The text that is built for these arguments of the constructor.
+  /// The source that the constructor builds for the same arguments.
   [[nodiscard]] static std::string text(const sources::KernelFiles& files, const std::string& root,
                                         const std::string& strategy, int lanes,
-                                        std::map<std::string, std::string> more_defines = {});
+                                        std::map<std::string, std::string> more_defines = {},
+                                        const lobes::ModelPointer& model = lobes::shipped("phong"));
 
-  /// Builds kernels/`root` for a strategy (render::strategy_names()) and a WIDTH (0: what suits the device).
+  /// Builds kernels/`root` for materials of a model, a strategy of the Phong model (render::strategy_names())
+  /// and WIDTH `lanes` (0: the device's default).
   /// @throws UsageError for an unknown strategy, DeviceError
-  PhongProgram(const device::Device& device, const sources::KernelFiles& files, const std::string& root,
-               const std::string& strategy, int lanes, std::map<std::string, std::string> more_defines = {});
+  MaterialProgram(const device::Device& device, const sources::KernelFiles& files, const std::string& root,
+                  const std::string& strategy, int lanes,
+                  std::map<std::string, std::string> more_defines = {},
+                  const lobes::ModelPointer& model = lobes::shipped("phong"));
 
-  /// The material of the launches to come; its tables go to the device where it is another one than before.
+  /// Sets the material of later launches. Uploads its tables if it has changed.
   void set_material(const Case& one);
 
   template<typename T>
@@ -45,8 +54,8 @@ public:
             const_cast<T*>(table.data())};
   }
 
-  /// Launches a kernel of (material, reflectivities, `arguments`..., floats that it fills) with one lane for
-  /// each of `elements`; returns the `values` floats. @throws DeviceError
+  /// Launches a kernel with the arguments (material, reflectivities, `arguments`..., output), one lane per
+  /// element. Returns the output, `values` floats. @throws DeviceError
   template<typename... Arguments>
   [[nodiscard]] std::vector<float> run(const std::string& name, std::size_t elements, std::size_t values,
                                        const Arguments&... arguments) const try {
@@ -65,20 +74,20 @@ public:
     fail(error);
   }
 
-  /// Sets the first arguments; returns the index of the next.
+  /// Sets the arguments for the material, the first ones; returns the index of the next argument.
   cl_uint bind_material(cl::Kernel& kernel) const;
   [[nodiscard]] const cl::Program& program() const { return program_; }
   [[nodiscard]] const device::Device& device() const { return device_; }
   [[nodiscard]] int lanes() const { return lanes_; }
-  [[noreturn]] void fail(const cl::Error& error) const; ///< as a DeviceError
+  [[noreturn]] void fail(const cl::Error& error) const; ///< @throws DeviceError
 
 private:
   device::Device device_;
   std::string strategy_;
   int lanes_;
   cl::Program program_;
-  Case material_{-1, 0, 0, 0};
-  cl::Buffer records_, reflectivity_;
+  Case material_{-1, 0, 0, 0, nullptr};
+  cl::Buffer records_, tables_;
 };
 
 } // namespace phlux::bench

@@ -1,0 +1,66 @@
+#include "bench/sampling/sampling_summary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "bench/common/moments.h"
+#include "bench/sampling/sampling_table.h"
+
+namespace phlux::bench {
+namespace {
+
+struct Summary {
+  double largest_bias = 0; // in standard errors
+  int defects = 0, rows = 0, marked = 0, best = 0;
+  std::vector<double> relative_times; // to lobe-ks in the same case
+};
+
+std::map<std::string, Summary> summaries_of(const SavedTable& table) {
+  const auto number = [&](const SavedTable::Row& row, const char* column) {
+    return std::stod(table.value(row, column));
+  };
+  std::map<std::string, Summary> summaries;
+  for (const auto& [integral, rows] : rows_by_integral(table)) {
+    const auto lobe_ks =
+        std::ranges::find_if(rows, [](const SavedTable::Row& row) { return row.front() == "lobe-ks"; });
+    const SavedTable::Row* best = nullptr;
+    for (const SavedTable::Row& row : rows) {
+      Summary& summary = summaries[row.front()];
+      const double bias = number(row, "bias_sigma");
+      const std::string& marks = table.value(row, "marks");
+      if (std::abs(bias) > std::abs(summary.largest_bias) && marks.find("unresolved") == std::string::npos)
+        summary.largest_bias = bias;
+      summary.defects += number(row, "defects") > 0 ? 1 : 0;
+      ++summary.rows;
+      if (lobe_ks != rows.end())
+        summary.relative_times.push_back(number(row, "ns_per_sample") / number(*lobe_ks, "ns_per_sample"));
+      if (!marks.empty())
+        ++summary.marked;
+      else if (best == nullptr || number(row, "variance_times_cost") < number(*best, "variance_times_cost"))
+        best = &row;
+    }
+    if (best != nullptr) ++summaries[best->front()].best;
+  }
+  return summaries;
+}
+
+} // namespace
+
+void print_sampling_summary(const std::vector<std::string>& strategies, const SavedTable& table) {
+  const auto summaries = summaries_of(table);
+  fmt::print("{:<22} {:>6} {:>7} {:>20} {:>8} {:>24} {:>26}\n", "strategy", "rows", "marked",
+             "largest bias / sigma", "defects", "time / lobe-ks (median)", "least variance x time in");
+  for (const std::string& strategy : strategies) {
+    const auto found = summaries.find(strategy);
+    if (found == summaries.end()) continue;
+    const Summary& s = found->second;
+    fmt::print("{:<22} {:>6} {:>7} {:>20.2f} {:>8} {:>24} {:>26}\n", strategy, s.rows, s.marked,
+               s.largest_bias, s.defects,
+               s.relative_times.empty() ? "" : fmt::format("{:.2f}", median(s.relative_times)), s.best);
+  }
+}
+
+} // namespace phlux::bench

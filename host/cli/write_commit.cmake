@@ -1,0 +1,33 @@
+# Writes the commit of SOURCE to OUTPUT, a header, where that is another than before.
+cmake_minimum_required(VERSION 3.25)
+
+# git refuses a clone of another user's unless told that it is safe; nothing of it is run here.
+function(ask_git result)
+  set(${result} "" PARENT_SCOPE)
+  if(NOT GIT)
+    return()
+  endif()
+  execute_process(COMMAND ${GIT} -c safe.directory=${SOURCE} -C ${SOURCE} ${ARGN}
+    OUTPUT_VARIABLE answer OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+  set(${result} "${answer}" PARENT_SCOPE)
+endfunction()
+
+ask_git(folder rev-parse --show-toplevel) # SOURCE may lie in a repository of something else
+get_filename_component(source "${SOURCE}" REALPATH)
+set(commit unknown)
+if(folder STREQUAL source)
+  ask_git(commit log -1 --format=%h\ of\ %cs)
+  ask_git(changes status --porcelain -- host kernels bench CMakeLists.txt CMakePresets.json)
+  if(NOT commit)
+    set(commit unknown)
+  elseif(changes)
+    string(APPEND commit ", with changes")
+  endif()
+endif()
+set(text "#pragma once\n#define PHLUX_COMMIT \"${commit}\"\n")
+if(EXISTS ${OUTPUT})
+  file(READ ${OUTPUT} before)
+endif()
+if(NOT text STREQUAL "${before}")
+  file(WRITE ${OUTPUT} "${text}")
+endif()

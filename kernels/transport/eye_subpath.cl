@@ -1,0 +1,108 @@
+// Eye subpaths: how they start at the camera, and the light that they find, by hits and by light samples. Path tracing
+// and bidirectional path tracing share them; only the weights differ.
+#ifndef PHLUX_EYE_SUBPATH_CL
+#define PHLUX_EYE_SUBPATH_CL
+
+#include "scene/camera.cl"
+#include "scene/lights.cl"
+#include "transport/subpath.cl"
+
+// Starts a subpath at the camera for its pixel and sample, in every lane.
+static inline void start_at_camera(const Scene* scene, Subpath* s) {
+  const RandomWords words = random_words(s->sequence, (Uint)(0), 0);
+  s->ray = camera_ray(scene, s->sequence.pixel, uniform_real(words.x), uniform_real(words.y));
+  s->throughput = vec_all((Real)(1.0f));
+  s->edges = (Int)(0);
+  s->delta = NO_LANES;
+  if (IS_BIDIR)
+    s->mis = mis_from_eye(film_density(scene, vec_dot(s->ray.direction, broadcast_vec(scene->camera->forward))));
+}
+
+// Radiance that reaches the camera along a path: value x weight, in the lanes of `found`.
+typedef struct {
+  Vec3 value;
+  Real weight;
+  Mask found;
+} FoundLight;
+
+// Lanes where a light sample at the vertex before could have found what the ray hits: there is such a vertex, and its
+// event was no delta event.
+static inline Mask light_sample_possible(const Subpath* s) {
+  const Mask scattered = s->edges > 1;
+  return HAS_DELTA ? scattered & !s->delta : scattered;
+}
+
+// The weight of hitting a light (s = 0). `light_sample` is the density with which a light sample at the vertex before
+// would have found it, `from_camera` that with which a light path would have been connected to the camera.
+static inline Real weight_of_hit_light(const Subpath* s, Real light_sample, Real from_camera, Real emission) {
+  if (IS_BIDIR) return weight_of_hit(s->mis, s->edges == 1 ? from_camera : light_sample, emission);
+  if (CONNECT != CONNECT_MIS) return (Real)(1.0f);
+  return light_sample_possible(s) ? s->density / (s->density + light_sample) : (Real)(1.0f);
+}
+
+// Lanes of m whose hits count: without weights, where no light sample is possible.
+static inline Mask hits_count(const Subpath* s, Mask m) {
+  const int light_samples_alone = !IS_BIDIR & (CONNECT == CONNECT_LIGHT);
+  return light_samples_alone ? m & !light_sample_possible(s) : m;
+}
+
+// The light that the subpaths of m have hit.
+static inline FoundLight hit_light(const Scene* scene, const Subpath* s, SurfacePoint point, Real distance, Mask m) {
+  FoundLight found;
+  found.value = vec_all((Real)(0.0f));
+  found.weight = (Real)(1.0f);
+  found.found = NO_LANES;
+  if (!HAS_AREA_LIGHTS) return found;
+  const Mask emits = m & point.front & (point.light >= 0);
+  if (!any_lane(emits)) return found;
+  const Int light = max(point.light, (Int)(0));
+  const Real cosine = -vec_dot(point.normal, s->ray.direction);
+  const Real emission = LIGHT_REAL(scene, light, emission_density);
+  const Real choice = probability_for(scene, s->ray.origin, s->normal, light, emits & light_sample_possible(s));
+  const Real light_sample = light_density(scene, s->ray.origin, light, choice, distance, cosine);
+  found.value = vec_mul(s->throughput, LIGHT_VEC3(scene, light, radiance));
+  found.weight = weight_of_hit_light(s, light_sample, PI * emission * distance * distance / cosine, emission);
+  found.found = hits_count(s, emits);
+  return found;
+}
+
+// The constant light, for the subpaths of m whose rays left the scene.
+static inline FoundLight hit_sky(const Scene* scene, const Subpath* s, int sky_light, Mask m) {
+  FoundLight found;
+  const __global LightRecord* sky = scene->lights + sky_light;
+  found.value = vec_mul(s->throughput, broadcast_vec(sky->radiance));
+  found.weight = weight_of_hit_light(s, sky->probability * s->cosine_density,
+                                     (Real)(0.25f * INV_PI * sky->probability), (Real)(sky->emission_density));
+  found.found = hits_count(s, m);
+  return found;
+}
+
+// The weight of a light sample (s = 1).
+static inline Real weight_of_sampled_light(const Scene* scene, const Subpath* s, LightSample light, LobeValue lobe,
+                                           Real cosine) {
+  if (IS_BIDIR)
+    return weight_of_light_sample(s->mis, light.density, LIGHT_REAL(scene, light.light, emission_density), lobe.density,
+                                  lobe.reverse, cosine, light.hittable);
+  if ((CONNECT != CONNECT_MIS) | !HAS_HITTABLE_LIGHTS) return (Real)(1.0f);
+  return light.hittable ? light.density / (light.density + lobe.density) : (Real)(1.0f);
+}
+
+// A light sample at the vertices of m: unoccluded light along light.ray, before light.distance.
+static inline FoundLight sample_light(const Scene* scene, const Subpath* s, Vertex v, LightSample* light, Mask m) {
+  *light = light_sample(scene, v.point, random_words(s->sequence, DIMENSION_LIGHT_SAMPLE(s->edges), 0));
+  const Vec3 generated = to_frame(v.point.frame, light->ray.direction);
+  const Real cosine = vec_dot(v.point.normal, light->ray.direction);
+  FoundLight found;
+  found.value = vec_all((Real)(0.0f));
+  found.weight = (Real)(1.0f);
+  found.found = m & light->valid & leaves(generated, cosine);
+  if (!any_lane(found.found)) return found;
+  const LobeValue lobe = material_evaluate(v.material, v.fixed, generated);
+  const Vec3 reflected = vec_mul(s->throughput, lobe.value);
+  found.value = vec_scale(generated.z / light->density, vec_mul(light->radiance, reflected));
+  found.weight = weight_of_sampled_light(scene, s, *light, lobe, cosine);
+  if (HAS_DELTA) found.found &= vec_max(lobe.value) > 0.0f;
+  return found;
+}
+
+#endif

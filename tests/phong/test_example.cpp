@@ -1,0 +1,154 @@
+// The Phong module by itself: kernels/phong/example.cl and its reflectivity without a table, without a scene.
+#include <cmath>
+#include <numbers>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <boost/math/distributions/normal.hpp>
+#include <catch2/catch.hpp>
+
+#include "device/kernel.h"
+#include "phong/reflectivity.h"
+#include "sidak.h"
+#include "tested_kernels.h"
+
+using namespace phlux;
+
+namespace {
+
+const device::Device& test_device() {
+  static const auto& device = *new device::Device(device::open_devices({}).front());
+  return device;
+}
+
+sources::KernelFiles kernel_files() {
+  const auto folder = test::tested_kernels();
+  return folder.empty() ? sources::KernelFiles() : sources::KernelFiles(folder);
+}
+
+device::ProgramSource source(const std::string& root, const std::string& strategy, int width) {
+  return {root,
+          {{"WIDTH", std::to_string(width)},
+           {"PHONG_TABLE_INTERVALS", std::to_string(phong::reflectivity_intervals)},
+           {"PHONG_STRATEGY", "\"phong/strategies/" + strategy + ".cl\""}},
+          {},
+          ""};
+}
+
+template<typename T>
+cl::Buffer upload(std::vector<T> values) {
+  return {test_device().context, CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR, values.size() * sizeof(T),
+          values.data()};
+}
+
+struct Plain {
+  float kd, ks, exponent, cosine;
+};
+
+// Mean weight of each lane of 64 work-items.
+std::vector<float> mean_weights(const device::BuiltProgram& program, int width, const Plain& model,
+                                int samples) {
+  constexpr std::size_t items = 64;
+  std::vector<float> row, means(items * static_cast<std::size_t>(width));
+  (void)phong::append_reflectivities(static_cast<double>(model.exponent), row);
+  const cl::Buffer table = upload(row);
+  const cl::Buffer result(test_device().context, CL_MEM_WRITE_ONLY, means.size() * sizeof(float));
+  device::Kernel kernel(program, "mean_weight");
+  cl_uint index = 0;
+  const auto set = [&](const auto&... arguments) { (kernel.set(index++, arguments), ...); };
+  set(model.kd, model.ks, model.exponent, table, model.cosine, cl_uint2{{7, 0}}, cl_int{samples}, result);
+  const cl::CommandQueue& queue = test_device().queue;
+  queue.enqueueNDRangeKernel(kernel.ready(), cl::NullRange, cl::NDRange(items), cl::NDRange(1));
+  queue.enqueueReadBuffer(result, CL_TRUE, 0, means.size() * sizeof(float), means.data());
+  return means;
+}
+
+// Two-sided p of the mean of independent values. Of a constant: 1 where it is right but for the rounding and
+// the table, 0 elsewhere.
+double mean_p(const std::vector<float>& values, double expected) {
+  constexpr double table_error = 1e-4; // relative
+  const auto count = static_cast<double>(values.size());
+  double sum = 0, squares = 0;
+  for (const float value : values) sum += static_cast<double>(value);
+  for (const float value : values) squares += std::pow(static_cast<double>(value) - sum / count, 2);
+  const double off = std::max(0.0, std::abs(sum / count - expected) - table_error * expected);
+  if (off == 0) return 1;
+  const boost::math::normal_distribution<double> normal;
+  const double error = std::sqrt(squares / (count - 1) / count);
+  return error > 0 ? 2 * cdf(complement(normal, std::min(off / error, 30.0))) : 0;
+}
+
+} // namespace
+
+TEST_CASE("example.cl compiles of lanes, math, lobes/lobe.h and phong alone") {
+  const std::string text = device::expand(kernel_files(), source("phong/example.cl", "exact", 1));
+  const std::regex line("#line [0-9]+ \"([^\"]+)\"");
+  const std::regex allowed("(lanes|math|phong)/.*|lobes/lobe\\.h");
+  std::set<std::string> files;
+  for (std::sregex_iterator each(text.begin(), text.end(), line), end; each != end; ++each)
+    files.insert((*each)[1]);
+  CHECK(files.contains("phong/phong.cl"));
+  CHECK(files.contains("lobes/lobe.h"));
+  for (const std::string& file : files) {
+    CAPTURE(file);
+    CHECK(std::regex_match(file, allowed));
+  }
+}
+
+// All of them together raise a false alarm with a chance of 1e-4.
+TEST_CASE("example.cl: the mean weight is the reflectivity") {
+  const std::vector<Plain> models = {{.4f, .4f, 10, .5f}, {.4f, .05f, 50, .0872f}, {.1f, .8f, 90, .866f}};
+  const std::vector<std::string> strategies = {"exact", "lobe-ks", "cosine", "fold"};
+  const std::vector<int> widths = {1, 16};
+  const double level = test::level_of_each(1e-4, models.size() * strategies.size() * widths.size());
+  for (const std::string& strategy : strategies)
+    for (const int width : widths) {
+      const auto program =
+          device::build(test_device(), kernel_files(), source("phong/example.cl", strategy, width));
+      for (const Plain& m : models) {
+        CAPTURE(strategy, width, m.exponent);
+        const double exact =
+            static_cast<double>(m.kd) +
+            static_cast<double>(m.ks) *
+                phong::lobe_reflectivity(static_cast<double>(m.exponent), static_cast<double>(m.cosine));
+        CHECK(mean_p(mean_weights(program, width, m, 4096), exact) > level);
+      }
+    }
+}
+
+TEST_CASE("phong_reflectivity_of agrees with the closed form to the error that it states") {
+  device::ProgramSource with_formula = source("phong/reflectivity.h", "exact", 1);
+  with_formula.extra = R"(
+__kernel void evaluate(const __global float* exponents, const __global float* cosines, __global float* values) {
+  const size_t i = get_global_id(0);
+  values[i] = phong_reflectivity_of(exponents[i], cosines[i]);
+})";
+  const auto program = device::build(test_device(), kernel_files(), with_formula);
+  constexpr int angles = 900;
+  std::vector<float> exponents, cosines;
+  for (const float n : {0.f, .3f, 1.f, 1.5f, 2.f, 5.f, 10.f, 50.f, 300.f, 1e4f, 1e6f})
+    for (int i = 0; i <= angles; ++i) {
+      exponents.push_back(n);
+      cosines.push_back(std::max(0.f, static_cast<float>(std::cos(i * std::numbers::pi / 2 / angles))));
+    }
+  std::vector<float> values(exponents.size());
+  const cl::Buffer result(test_device().context, CL_MEM_WRITE_ONLY, values.size() * sizeof(float));
+  device::Kernel kernel(program, "evaluate");
+  kernel.set(0, upload(exponents));
+  kernel.set(1, upload(cosines));
+  kernel.set(2, result);
+  test_device().queue.enqueueNDRangeKernel(kernel.ready(), cl::NullRange, cl::NDRange(values.size()),
+                                           cl::NullRange);
+  test_device().queue.enqueueReadBuffer(result, CL_TRUE, 0, values.size() * sizeof(float), values.data());
+  double worst = 0, worst_below_one = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double exact =
+        phong::lobe_reflectivity(static_cast<double>(exponents[i]), static_cast<double>(cosines[i]));
+    double& error = exponents[i] < 1 ? worst_below_one : worst;
+    error = std::max(error, std::abs(static_cast<double>(values[i]) / exact - 1));
+  }
+  CHECK(worst < 2e-5);
+  CHECK(worst_below_one < 3e-4);
+}

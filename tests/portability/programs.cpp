@@ -1,0 +1,186 @@
+#include "portability/programs.h"
+
+#include <algorithm>
+#include <sstream>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "lobes/models.h"
+
+namespace phlux::test {
+namespace {
+
+using render::Connect;
+using render::Integrator;
+using render::Parts;
+using render::Weights;
+
+const std::vector<lobes::ModelPointer>& models() {
+  static const lobes::Library shipped;
+  return shipped.models();
+}
+
+// Reflectance models are parts like others.
+void set(Parts& parts, const std::string& name, bool on) {
+  const auto model = std::ranges::find(models(), name, [](const auto& m) { return m->name; });
+  if (model == models().end()) return parts.set(name, on);
+  std::erase(parts.models, *model);
+  if (on) parts.models.push_back(*model);
+}
+
+Parts parts_of(const std::string& names, const std::string& strategy) {
+  Parts parts;
+  parts.models.clear();
+  parts.strategy = strategy;
+  std::istringstream list(names);
+  for (std::string name; list >> name;) set(parts, name, true);
+  return parts;
+}
+
+// A part that cannot be without another.
+constexpr std::pair<const char*, const char*> needs[] = {
+    {"triangles", "planars"},      {"parallelograms", "planars"}, {"ellipses", "planars"},
+    {"light_planar", "planars"},   {"light_planar", "emission"},  {"light_sphere", "spheres"},
+    {"light_sphere", "emission"},  {"smooth_normals", "planars"}, {"smooth_normals", "triangles"},
+    {"light_tree", "light_choice"}};
+
+Parts without(Parts parts, const std::string& name) {
+  set(parts, name, false);
+  for (const auto& [part, needed] : needs)
+    if (name == needed) parts = without(parts, part);
+  return parts;
+}
+
+// A diffuse material is a phong without a lobe where there is a phong. No scene has both an ambient term and
+// an anisotropic lobe, whose reflectivity has no closed form.
+Parts everything(Integrator integrator = Integrator::path) {
+  Parts parts = parts_of(fmt::format("{}", fmt::join(all_parts(), " ")), "exact");
+  parts.integrator = integrator;
+  parts.connect = integrator == Integrator::light ? Connect::none : Connect::mis;
+  return without(without(parts, "diffuse"), "ambient");
+}
+
+Parts by(Integrator integrator, Parts parts, Weights weights = Weights::balance) {
+  parts.integrator = integrator;
+  parts.weights = weights;
+  parts.connect = integrator == Integrator::light ? Connect::none : Connect::mis;
+  return parts;
+}
+
+Parts connecting(Parts parts, Connect connect) {
+  parts.connect = connect;
+  return parts;
+}
+
+Parts in_double(Parts parts) {
+  parts.double_precision = true;
+  return parts;
+}
+
+Parts with_techniques(Parts parts) {
+  parts.techniques = true;
+  return parts;
+}
+
+Parts with_clamp(Parts parts) {
+  parts.clamp = 10;
+  return parts;
+}
+
+Parts with_roulette_of_connections(Parts parts) {
+  parts.connections = 2;
+  return parts;
+}
+
+Parts few_of_all(Parts parts) {
+  parts.one_light = parts.few_lights = parts.few_materials = parts.few_primitives = true;
+  return parts;
+}
+
+constexpr char diffuse[] = "parallelograms light_planar diffuse";
+constexpr char glossy[] = "parallelograms spheres phong light_planar";
+constexpr char ambient[] = "parallelograms spheres phong black light_sphere ambient";
+constexpr char triangles[] = "hierarchy triangles smooth_normals phong light_planar light_choice light_tree";
+constexpr char sky[] = "spheres phong light_constant";
+
+// A reflectance model alone.
+Program of_model(const std::string& file, const std::string& model, const std::string& strategy, int width) {
+  Parts parts = parts_of(model, strategy);
+  parts.lanes = width;
+  Program program{fmt::format("{}-{}-{}.{}", file, model, strategy, width),
+                  parts.source(fmt::format("measure/{}.cl", file))};
+  program.source.defines["FIXED_DIRECTIONS"] = "16"; // of sampling.cl and figures.cl
+  return program;
+}
+
+} // namespace
+
+const std::vector<SceneProgram>& scene_programs() {
+  static const std::vector<SceneProgram> list = {
+      {"everything", everything()},
+      {"everything-brute-force", without(everything(), "hierarchy")},
+      {"diffuse-box", parts_of(diffuse, "cosine")},
+      {"few-in-diffuse-box", few_of_all(parts_of(diffuse, "cosine"))},
+      {"glossy-spheres", parts_of(glossy, "exact")},
+      {"ambient", with_clamp(parts_of(ambient, "lobe-rho"))},
+      {"mesh", connecting(parts_of(triangles, "lobe-ks"), Connect::light)},
+      {"sphere-in-sky", connecting(parts_of(sky, "mixture"), Connect::none)},
+      {"everything-light", by(Integrator::light, everything())},
+      {"diffuse-box-light", by(Integrator::light, parts_of(diffuse, "cosine"))},
+      {"glossy-spheres-light", by(Integrator::light, parts_of(glossy, "exact"))},
+      {"sky-light", with_techniques(by(Integrator::light, parts_of(sky, "mixture")))},
+      {"everything-bidir", by(Integrator::bidir, everything())},
+      {"diffuse-box-bidir", by(Integrator::bidir, parts_of(diffuse, "cosine"))},
+      {"glossy-spheres-bidir",
+       with_roulette_of_connections(by(Integrator::bidir, parts_of(glossy, "exact"), Weights::power))},
+      {"glossy-spheres-bidir-clamp", with_clamp(by(Integrator::bidir, parts_of(glossy, "exact")))},
+      {"mesh-bidir",
+       with_techniques(by(Integrator::bidir, parts_of(triangles, "lobe-ks"), Weights::uniform))},
+      {"everything-double", in_double(everything())},
+      {"glossy-spheres-bidir-double", in_double(by(Integrator::bidir, parts_of(glossy, "exact")))}};
+  return list;
+}
+
+std::vector<std::string> all_parts() {
+  std::vector<std::string> names = Parts::all_names();
+  for (const auto& model : models()) names.push_back(model->name);
+  return names;
+}
+
+Program program_of(const SceneProgram& scene, int width) {
+  Parts parts = scene.parts;
+  parts.lanes = width;
+  return {fmt::format("{}.{}", scene.name, width), parts.source(parts.file())};
+}
+
+std::vector<Program> programs() {
+  std::vector<Program> list;
+  for (const int width : {1, 4, 8, 16}) {
+    for (const SceneProgram& scene : scene_programs())
+      if (width == 1 || !scene.parts.double_precision) list.push_back(program_of(scene, width));
+    for (const std::string& strategy : render::strategy_names())
+      list.push_back(of_model("sampling", "phong", strategy, width));
+    for (const auto& model : models()) list.push_back(of_model("verify", model->name, "exact", width));
+    list.push_back(of_model("figures", "phong", "exact", width));
+    list.push_back(of_model("arithmetic", "phong", "exact", width));
+    list.push_back(of_model("arithmetic", "phong", "exact", width));
+    list.back().name = fmt::format("arithmetic-native.{}", width);
+    list.back().source.defines["PHLUX_NATIVE"] = "1";
+    list.push_back(program_of({"rays", everything()}, width));
+    list.back().source.root = "measure/rays.cl";
+  }
+  return list;
+}
+
+std::vector<Ablation> ablations(Integrator integrator) {
+  Parts all = everything(integrator);
+  all.ambient = integrator == Integrator::path;
+  all.connections = 2; // a part that only some programs of bidir have
+  std::vector<Ablation> list = {{"", all}};
+  for (const std::string& name : all.names()) list.push_back({name, without(all, name)});
+  return list;
+}
+
+} // namespace phlux::test

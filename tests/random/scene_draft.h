@@ -1,0 +1,57 @@
+// What the parts of a random scene share while it is drawn: random numbers, the scene file's text, and how
+// the scene lies in the world.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "random/random_numbers.h"
+#include "random/random_scene.h"
+#include "random/scene_text.h"
+
+namespace phlux::test {
+
+/// `structure` draws what decides over the kernel, `values` all else. Lengths are in units of the room's half
+/// edge until to_world() or in_world() scales and moves them.
+class SceneDraft {
+public:
+  SceneDraft(const SceneNumber& number, const std::optional<Twin>& twin);
+
+  RandomNumbers structure, values;
+  std::optional<Twin> twin;
+  SceneText text;
+  std::map<std::string, std::string> meshes; ///< bytes by file name
+  double scale = 1;
+  scene::Vec3 offset{0.0};
+  bool closed = false; ///< a room about the camera
+
+  /// What `draw` makes of `values`; in a twin that is placed anew, of numbers of its own. `values` go on
+  /// alike either way.
+  template<class Draw>
+  auto place(const Draw& draw) {
+    const auto first = draw(values);
+    return places_ ? draw(*places_) : first;
+  }
+
+  [[nodiscard]] scene::Vec3 in_world(const scene::Vec3& p) const { return scale * p + offset; }
+  void open_to_world();
+  /// Ends a transform with the step from the room's units to the world.
+  void close_to_world();
+
+private:
+  std::optional<RandomNumbers> places_;
+};
+
+[[nodiscard]] scene::Vec3 triple(RandomNumbers& random, double from, double to);
+[[nodiscard]] scene::Vec3 unit_vector(RandomNumbers& random);
+/// Above the floor and before the objects, between two distances from the origin.
+[[nodiscard]] scene::Vec3 above_floor(RandomNumbers& random, double nearest, double farthest);
+/// A direction across `axis`.
+[[nodiscard]] scene::Vec3 up_for(const scene::Vec3& axis);
+[[nodiscard]] std::string attribute(const char* name, const scene::Vec3& value);
+/// <lookat .../>
+[[nodiscard]] std::string look_at(const char* tag, const scene::Vec3& origin, const scene::Vec3& target,
+                                  const scene::Vec3& up);
+
+} // namespace phlux::test
