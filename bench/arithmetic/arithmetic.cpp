@@ -8,8 +8,8 @@
 #include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
-#include "bench/common/moments.h"
 #include "bench/common/material_program.h"
+#include "bench/common/moments.h"
 #include "bench/common/report/draw.h"
 #include "bench/common/status_line.h"
 #include "bench/common/tables/csv.h"

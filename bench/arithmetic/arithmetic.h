@@ -25,7 +25,8 @@ struct FormulaErrors {
 
 class ArithmeticKernels {
 public:
-  /// Builds kernels/arithmetic.cl, without the native_ functions if the device compiler does not have them.
+  /// Builds kernels/measure/arithmetic.cl, without the native_ functions if the device compiler does not have
+  /// them.
   /// @throws DeviceError
   ArithmeticKernels(const device::Device& device, const sources::KernelFiles& files, int lanes);
 

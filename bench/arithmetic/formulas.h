@@ -1,4 +1,4 @@
-// The formulas of kernels/arithmetic.cl, with random inputs and exact results.
+// The formulas of kernels/measure/arithmetic.cl, with random inputs and exact results.
 #pragma once
 
 #include <functional>

@@ -88,7 +88,7 @@ void write_polar(FigureKernels& kernels, const std::filesystem::path& folder) {
 // ---- Figures 2 to 5: parameters of the hemisphere
 
 struct Space {
-  int figure, number;         // number: SPACE_... of kernels/figures.cl
+  int figure, number;         // number: SPACE_... of kernels/measure/figures.cl
   double first[2], second[2]; // ranges of the parameters in CW 197
   bool unit;                  // the kernel takes parameters scaled to [0, 1]
 };

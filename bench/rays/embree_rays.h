@@ -11,7 +11,7 @@
 
 namespace phlux::bench {
 
-/// The layout that kernels/rays.cl reads.
+/// The layout that kernels/measure/rays.cl reads.
 struct Ray {
   float origin[3], direction[3], distance, unused = 0;
 };

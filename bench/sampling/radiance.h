@@ -9,7 +9,7 @@
 
 namespace phlux::bench {
 
-/// Incident light over the hemisphere; kernels/sampling_radiance.h defines the radiances.
+/// Incident light over the hemisphere; kernels/measure/sampling_radiance.h defines the radiances.
 enum class Light { constant, mirror_disk, horizon_sky };
 
 /// In the order of Light: constant, mirror-disk, horizon-sky.

@@ -10,7 +10,7 @@
 
 namespace phlux::accel {
 
-/// Deepest leaf of a hierarchy; kernels/traverse_bvh.cl sizes its stack by them.
+/// Deepest leaf of a hierarchy; kernels/scene/traverse_bvh.cl sizes its stack by them.
 inline constexpr int max_depth_wide = 24, max_depth_binary = 64;
 
 /// A primitive that emits.

@@ -10,6 +10,19 @@
 namespace phlux::advice {
 namespace {
 
+// Calls visit(kind, index, power) for each light.
+template<class Scene, class Visit>
+void visit_lights(Scene& scene, const Visit& visit) {
+  const auto visit_kind = [&](const char* kind, auto& lights, auto power) {
+    for (std::size_t i = 0; i < lights.size(); ++i) visit(kind, i, lights[i].*power);
+  };
+  visit_kind("area", scene.area_emitters, &scene::AreaEmitter::radiance);
+  visit_kind("point", scene.point_lights, &scene::PointLight::intensity);
+  visit_kind("spot", scene.spot_lights, &scene::SpotLight::intensity);
+  visit_kind("directional", scene.directional_lights, &scene::DirectionalLight::irradiance);
+  if (scene.constant_radiance) visit("constant", std::size_t{0}, *scene.constant_radiance);
+}
+
 struct Light {
   std::string name;
   scene::Rgb* power;
@@ -17,15 +30,10 @@ struct Light {
 
 std::vector<Light> lights_of(scene::Scene& scene) {
   std::vector<Light> lights;
-  const auto add = [&](const char* kind, auto& of_kind, auto power) {
-    for (std::size_t i = 0; i < of_kind.size(); ++i)
-      lights.push_back({fmt::format("{} light {}", kind, i + 1), &(of_kind[i].*power)});
-  };
-  add("area", scene.area_emitters, &scene::AreaEmitter::radiance);
-  add("point", scene.point_lights, &scene::PointLight::intensity);
-  add("spot", scene.spot_lights, &scene::SpotLight::intensity);
-  add("directional", scene.directional_lights, &scene::DirectionalLight::irradiance);
-  if (scene.constant_radiance) lights.push_back({"constant light", &*scene.constant_radiance});
+  visit_lights(scene, [&](const std::string& kind, std::size_t index, scene::Rgb& power) {
+    lights.push_back(
+        {kind == "constant" ? "constant light" : fmt::format("{} light {}", kind, index + 1), &power});
+  });
   return lights;
 }
 
@@ -41,9 +49,8 @@ double variance_of_sample(const film::Film& film) {
 } // namespace
 
 std::size_t lights_told_apart(const scene::Scene& scene) {
-  const std::size_t count = scene.area_emitters.size() + scene.point_lights.size() +
-                            scene.spot_lights.size() + scene.directional_lights.size() +
-                            (scene.constant_radiance ? 1 : 0);
+  std::size_t count = 0;
+  visit_lights(scene, [&](const char*, std::size_t, const scene::Rgb&) { ++count; });
   return count > 1 && count <= most_lights_told_apart ? count : 0;
 }
 

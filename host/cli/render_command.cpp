@@ -86,17 +86,18 @@ render::Statistics run(const scene::Scene& scene, const render::Settings& settin
 files::RenderInfo info_of(const checkpoint::Session& session, const film::Film& film,
                           const render::Statistics& statistics) {
   const render::Settings& settings = session.settings;
-  return {.version = PHLUX_VERSION,
-          .scene = session.scene,
-          .scene_digest = session.scene_digest,
-          .settings = files::stored(settings),
-          .samples = film.samples_per_pixel(),
-          .seed = settings.seed,
-          .ranges = {{settings.seed, settings.first_sample, settings.first_sample + statistics.position.end()}},
-          .device = statistics.device,
-          .driver = statistics.driver,
-          .seconds = statistics.seconds_render,
-          .clamped_share = film.clamped_share()};
+  return {
+      .version = PHLUX_VERSION,
+      .scene = session.scene,
+      .scene_digest = session.scene_digest,
+      .settings = files::stored(settings),
+      .samples = film.samples_per_pixel(),
+      .seed = settings.seed,
+      .ranges = {{settings.seed, settings.first_sample, settings.first_sample + statistics.position.end()}},
+      .device = statistics.device,
+      .driver = statistics.driver,
+      .seconds = statistics.seconds_render,
+      .clamped_share = film.clamped_share()};
 }
 
 void warn_of_moments(const files::Image& image) {

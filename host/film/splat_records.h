@@ -10,7 +10,7 @@
 namespace phlux::film {
 
 /// One batch's records as the device wrote them: arrays of `capacity` words each, of which the first `count`
-/// hold (kernels/scene_data.h, RecordWords).
+/// hold (kernels/scene/scene_data.h, RecordWords).
 struct SplatRecords {
   float* words = nullptr;
   std::size_t capacity = 0, count = 0;

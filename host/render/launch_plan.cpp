@@ -31,7 +31,7 @@ int vertex_words(const Parts& parts) {
          (parts.has_tangents() ? VERTEX_WORDS_OF_TANGENT : 0);
 }
 
-// Of what a bidirectional work-item keeps: kernels/lanes.h's Scalar.
+// Of what a bidirectional work-item keeps: kernels/lanes/lanes.h's Scalar.
 std::size_t scalar_bytes(const Parts& parts) {
   return parts.double_precision ? sizeof(cl_double) : sizeof(cl_float);
 }
@@ -71,7 +71,7 @@ std::int64_t Planner::wanted_jobs(std::int64_t left, int block_samples) const {
   return settings::info_of(parts_.integrator).light_paths ? (jobs + least - 1) / least * least : jobs;
 }
 
-// See divide_scratch in kernels/bidir.cl.
+// See divide_scratch in kernels/transport/bidir.cl.
 std::size_t Planner::scratch_bytes_per_item(const LaunchPlan& plan) const {
   const auto vertices = static_cast<std::size_t>(plan.rows) * static_cast<std::size_t>(parts_.lanes);
   return (2 * vertices * static_cast<std::size_t>(vertex_words(parts_)) +

@@ -15,14 +15,14 @@
 
 namespace phlux::render {
 
-/// Tables of no more entries are few enough to be permuted in the registers of a CPU (kernels/lanes.h).
+/// Tables of no more entries are few enough to be permuted in the registers of a CPU (kernels/lanes/lanes.h).
 inline constexpr std::size_t few_entries = 16;
 
 struct Parts {
   Integrator integrator = Integrator::path;
   int lanes = 1;
   bool hierarchy = false;
-  bool double_precision = false; ///< kernels/lanes.h: Real is a double
+  bool double_precision = false; ///< kernels/lanes/lanes.h: Real is a double
   bool triangles = false, parallelograms = false, ellipses = false, spheres = false;
   bool smooth_normals = false, two_sided = false, black = false;
   std::vector<lobes::ModelPointer> models = {lobes::shipped("diffuse")}; ///< reflectance models

@@ -39,9 +39,9 @@ struct SchedulePosition {
 /// samples), so that a render that is stopped early has seen every pixel.
 class Schedule {
 public:
-  /// Continues `from` a position, whose end() is no more than `samples`: with what is missing first, then where
-  /// a schedule that had not stopped would. A number of samples that is no multiple of samples_per_block is
-  /// filled up to one first.
+  /// Continues `from` a position, whose end() is no more than `samples`: with what is missing first, then
+  /// where a schedule that had not stopped would. A number of samples that is no multiple of
+  /// samples_per_block is filled up to one first.
   Schedule(std::int64_t pixels, std::optional<std::int64_t> samples, const SchedulePosition& from = {});
   /// The next launch; nothing when the work is done. `wanted` says how many jobs (>= 1) a launch should have,
   /// given how many like it are left and the samples of each.

@@ -1,5 +1,5 @@
 // The tree of lights from which light samples choose by what a light is likely to bring
-// (kernels/light_tree.cl).
+// (kernels/scene/light_tree.cl).
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-// The reflectance model as a device computes it, for one strategy: kernels/verify.cl.
+// The reflectance model as a device computes it, for one strategy: kernels/measure/verify.cl.
 #pragma once
 
 #include <array>

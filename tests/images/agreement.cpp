@@ -5,7 +5,6 @@
 #include <limits>
 #include <numbers>
 
-#include <catch2/catch.hpp>
 #include <fmt/format.h>
 
 #include "sidak.h"
@@ -133,10 +132,12 @@ Agreement agreement_of_pixels(const Estimate& image, const Estimate& reference, 
   return worst_of(image, reference, tolerance, false);
 }
 
-void check_agreement(const Estimate& image, const Estimate& reference, double tolerance) {
-  const Agreement result = agreement(image, reference, tolerance);
-  INFO(result.message);
-  CHECK(result.agrees);
+std::vector<Channels> p_of_pixels(const Estimate& image, const Estimate& reference, double tolerance) {
+  std::vector<Channels> p(image.mean.size());
+  for (std::size_t i = 0; i < p.size(); ++i)
+    for (std::size_t c = 0; c < channel_count; ++c)
+      p[i][c] = two_sided_p(z_of(value(image, i, c), value(reference, i, c), tolerance));
+  return p;
 }
 
 } // namespace phlux::test

@@ -50,7 +50,8 @@ struct Agreement {
 [[nodiscard]] Agreement agreement_of_pixels(const Estimate& image, const Estimate& reference,
                                             double tolerance = rounding);
 
-/// CHECKs agreement(), with its message.
-void check_agreement(const Estimate& image, const Estimate& reference, double tolerance = rounding);
+/// Of the tests of pixels, channel by channel, each as if it were the only one.
+[[nodiscard]] std::vector<Channels> p_of_pixels(const Estimate& image, const Estimate& reference,
+                                                double tolerance = rounding);
 
 } // namespace phlux::test

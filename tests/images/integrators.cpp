@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include "images/evidence.h"
 #include "images/prepared_render.h"
 #include "sidak.h"
 
@@ -24,6 +25,10 @@ render::Settings by(const Method& method, render::Settings settings) {
   settings.weights = method.weights;
   settings.connect = method.connect;
   return settings;
+}
+
+render::Settings settings_for(const Method& method, int samples, int max_depth) {
+  return by(method, settings_for(samples, max_depth));
 }
 
 Repeated repeated(const scene::Scene& scene, const Method& method, render::Settings with, int renders) {
@@ -87,18 +92,16 @@ Estimate with_variance_of_faint(Estimate image, const Estimate& expected) {
 
 void check_methods(const Repeated& image, const Repeated& reference, int side, double tolerance) {
   const Estimate tiled = tiles(image.image, side), tiled_reference = tiles(reference.image, side);
-  const Agreement pixels = agreement_of_pixels(with_variance_of_faint(tiled, tiled_reference),
-                                               with_variance_of_faint(tiled_reference, tiled), tolerance);
-  INFO(pixels.message);
-  CHECK(pixels.agrees);
+  check_agreement_of_pixels(with_variance_of_faint(tiled, tiled_reference),
+                            with_variance_of_faint(tiled_reference, tiled), tolerance);
   const double level = level_of_each(false_alarm_rate, 3);
   for (std::size_t c = 0; c < 3; ++c) {
     const double a = image.mean.mean[0][c], b = reference.mean.mean[0][c];
     const double p = welch_p(a, image.mean.variance[0][c], b, reference.mean.variance[0][c], image.renders);
-    INFO(fmt::format("the mean of channel {}: {:.6g} +- {:.2g} where {:.6g} +- {:.2g} is expected, p {:.3g}",
-                     "RGB"[c], a, std::sqrt(image.mean.variance[0][c]), b,
-                     std::sqrt(reference.mean.variance[0][c]), p));
-    CHECK(p >= level);
+    const std::string message = fmt::format(
+        "the mean of channel {}: {:.6g} +- {:.2g} where {:.6g} +- {:.2g} is expected, p {:.3g}", "RGB"[c], a,
+        std::sqrt(image.mean.variance[0][c]), b, std::sqrt(reference.mean.variance[0][c]), p);
+    check({p >= level, message}, tiled, tiled_reference, tolerance);
   }
 }
 

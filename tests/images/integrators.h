@@ -25,6 +25,8 @@ inline const Method path{"path"}, light{"light"}, bidir{"bidir"},
 
 /// The same settings for that method.
 [[nodiscard]] render::Settings by(const Method& method, render::Settings settings);
+/// `samples` samples a pixel by that method.
+[[nodiscard]] render::Settings settings_for(const Method& method, int samples, int max_depth = -1);
 
 /// Means of independent renders. One path may reach several pixels, so that pixels are not independent: the
 /// variance of the image's mean is therefore measured between the renders.

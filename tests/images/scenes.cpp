@@ -102,6 +102,12 @@ scene::Scene placed(scene::Scene scene, double scale, const Vec3& offset) {
   return scene;
 }
 
+bool is_black(const film::Film& film) {
+  for (std::size_t i = 0; i < film.pixels().size(); ++i)
+    if (film.mean(i) != Channels{}) return false;
+  return true;
+}
+
 render::Settings settings_for(int samples, int max_depth) {
   render::Settings result;
   result.samples_per_pixel = samples;

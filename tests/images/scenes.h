@@ -41,6 +41,9 @@ using lobes::phong;
 /// Scales everything about the world's origin and then moves it; lights keep what they do to surfaces.
 [[nodiscard]] scene::Scene placed(scene::Scene scene, double scale, const scene::Vec3& offset);
 
+/// Whether no pixel has any light.
+[[nodiscard]] bool is_black(const film::Film& film);
+
 struct Render {
   film::Film film;
   render::Statistics statistics;

@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "images/evidence.h"
 #include "images/scenes.h"
 
 using namespace phlux;

@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
 
+#include "images/evidence.h"
 #include "images/scenes.h"
 #include "materials.h"
 

@@ -3,9 +3,9 @@
 
 #include <catch2/catch.hpp>
 
+#include "images/evidence.h"
+#include "images/furnaces.h"
 #include "images/integrators.h"
-#include "materials.h"
-#include "phong/reflectivity.h"
 
 using namespace phlux;
 using namespace phlux::test;
@@ -14,38 +14,13 @@ using scene::Vec3;
 
 namespace {
 
-const Rgb kd(0.3, 0.1, 0.0), ks(0.6, 0.2, 0.9), sky(1.0, 0.5, 2.0);
-
-render::Settings with(const Method& method, int samples, int max_depth = -1) {
-  return by(method, settings_for(samples, max_depth));
-}
-
-scene::Scene sphere_furnace(const scene::Material& material) {
-  scene::Scene scene = shipped("furnace-sphere", 6, 6);
-  scene.camera = look_at({0, 0, 4}, {0, 0, 0}, 18, 6, 6); // nothing but the sphere
-  scene.materials.assign(scene.materials.size(), material);
-  scene.constant_radiance = sky;
-  return scene;
-}
-
-Estimate sphere_reference(const scene::Scene& scene, const scene::Material& material) {
-  return expected(
-      scene.camera,
-      [&](const Vec3& direction) {
-        const double along = 4 * direction.z, cosine = std::sqrt(along * along - 15);
-        const Rgb rho = sky * (phlux::test::diffuse_of(material) +
-                               phlux::test::specular_of(material) *
-                                   phong::lobe_reflectivity(phlux::test::exponent_of(material), cosine));
-        return Channels{rho.r, rho.g, rho.b};
-      },
-      8);
-}
+const Rgb kd(0.3, 0.1, 0.0), ks(0.6, 0.2, 0.9);
 
 void check_sphere(const Method& method, double exponent, const std::string& strategy, int samples) {
   CAPTURE(name_of(method), exponent, strategy);
   const scene::Material material = test::phong(kd, ks, exponent);
-  const scene::Scene scene = sphere_furnace(material);
-  render::Settings settings = with(method, samples);
+  const scene::Scene scene = sphere_furnace(18, 6, material);
+  render::Settings settings = settings_for(method, samples);
   settings.strategy = strategy;
   const Render sphere = render_of(scene, settings);
   CHECK(sphere.statistics.nonfinite == 0);
@@ -59,7 +34,7 @@ TEST_CASE("furnace box by light and bidir: 2 at every pixel") {
   const scene::Scene scene = shipped("furnace-box", 8, 8);
   for (const Method& method : {light, bidir, bidir_power}) {
     CAPTURE(name_of(method));
-    const Render box = render_of(scene, with(method, 2048));
+    const Render box = render_of(scene, settings_for(method, 2048));
     check_agreement(estimate_of(box.film), uniform(box.film, {2, 2, 2}));
   }
 }
@@ -71,7 +46,7 @@ TEST_CASE("furnace box by light and bidir: every depth cuts the series where it 
     for (const int rr_depth : {5, 1})
       for (const Method& method : {light, bidir}) {
         CAPTURE(depth, rr_depth, name_of(method));
-        render::Settings settings = with(method, 512, depth);
+        render::Settings settings = settings_for(method, 512, depth);
         settings.rr_depth = rr_depth;
         const Render box = render_of(scene, settings);
         check_agreement(estimate_of(box.film), uniform(box.film, {sum, sum, sum}));
@@ -109,7 +84,7 @@ TEST_CASE("inside a sphere that is turned inwards, and emits, light and bidir fi
   scene.camera = look_at({1.5, 2.5, 2}, {0, 2, 3}, 90, 8, 8);
   for (const Method& method : {light, bidir, bidir_power, bidir_uniform}) {
     CAPTURE(name_of(method));
-    const Render inside = render_of(scene, with(method, 2048));
+    const Render inside = render_of(scene, settings_for(method, 2048));
     check_agreement(estimate_of(inside.film), uniform(inside.film, {1 / 0.8, 1 / 0.6, 1}));
   }
 }

@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
 
+#include "images/evidence.h"
 #include "images/integrators.h"
 
 using namespace phlux;
@@ -19,20 +20,10 @@ namespace {
 constexpr double pi = std::numbers::pi;
 const std::vector<Method> splatting = {light, bidir, bidir_power, bidir_uniform};
 
-render::Settings with(const Method& method, int samples, int max_depth = -1) {
-  return by(method, settings_for(samples, max_depth));
-}
-
 Estimate image_of(const scene::Scene& scene, const render::Settings& settings) {
   const Render render = render_of(scene, settings);
   CHECK(render.statistics.nonfinite == 0);
   return estimate_of(render.film);
-}
-
-bool is_black(const film::Film& film) {
-  for (std::size_t i = 0; i < film.pixels().size(); ++i)
-    if (film.mean(i) != Channels{}) return false;
-  return true;
 }
 
 double brightest(const Estimate& image) {
@@ -60,7 +51,7 @@ TEST_CASE("an emitter that fills the film shows its radiance in every pixel, the
   for (const int max_depth : {1, -1})
     for (const Method& method : splatting) {
       CAPTURE(max_depth, name_of(method));
-      const Render seen = render_of(scene, with(method, 4096, max_depth));
+      const Render seen = render_of(scene, settings_for(method, 4096, max_depth));
       check_agreement(estimate_of(seen.film), uniform(seen.film, {3, 2, 1}));
     }
 }
@@ -71,7 +62,7 @@ TEST_CASE("a plane under the sun is as bright at the film's borders as inside") 
   const double part = 2.0 / 3.0 / pi;
   for (const Method& method : splatting) {
     CAPTURE(name_of(method));
-    const Render lit = render_of(scene, with(method, 4096));
+    const Render lit = render_of(scene, settings_for(method, 4096));
     check_agreement(estimate_of(lit.film), uniform(lit.film, {0.8 * 3 * part, 0.5 * 2 * part, 0.2 * part}));
   }
 }
@@ -112,9 +103,9 @@ TEST_CASE("a surface seen from behind is black, though light falls on its front"
     for (const Method& method : splatting) {
       CAPTURE(two_sided, name_of(method));
       scene.point_lights = {{{0.3, -0.2, 1.5}, {3, 2, 1}}};
-      CHECK(brightest(image_of(scene, with(method, 64))) <= (two_sided ? rounding_squared : 0));
+      CHECK(brightest(image_of(scene, settings_for(method, 64))) <= (two_sided ? rounding_squared : 0));
       scene.point_lights[0].position.z = -1.5; // on the camera's side: the back reflects if it may
-      CHECK((brightest(image_of(scene, with(method, 64))) > 0.1) == two_sided);
+      CHECK((brightest(image_of(scene, settings_for(method, 64))) > 0.1) == two_sided);
     }
   }
 }
@@ -126,13 +117,13 @@ TEST_CASE("an emitter seen from behind is black, and lights what it faces alone"
       square({0, 0, 1}, {1, 0, 0}, {0, 1, 0}, 0.2, {1, 0})); // faces the camera, not the plane
   for (const Method& method : splatting) {
     CAPTURE(name_of(method));
-    const Estimate image = image_of(scene, with(method, 64));
+    const Estimate image = image_of(scene, settings_for(method, 64));
     CHECK(image.mean.front() == Channels{});
     scene::Scene turned = scene;
     turned.patches[1].edge_u = -turned.patches[1].edge_u;
-    const Estimate other = image_of(turned, with(method, 64));
+    const Estimate other = image_of(turned, settings_for(method, 64));
     CHECK(other.mean.front()[0] > 0);
-    CHECK(is_black(render_of(turned, with(method, 64, 1)).film));
+    CHECK(is_black(render_of(turned, settings_for(method, 64, 1)).film));
   }
 }
 
@@ -187,7 +178,7 @@ TEST_CASE("a spot light in closed form: its beam, its fall-off, and dark beyond"
   for (const Method& method : splatting) {
     CAPTURE(name_of(method));
     // In tiles: a pixel that the rim just touches is found by a path or two, whose mean is not normal.
-    check_agreement(tiles(image_of(scene, with(method, 4096)), 4), tiles(reference, 4), 2e-4);
+    check_agreement(tiles(image_of(scene, settings_for(method, 4096)), 4), tiles(reference, 4), 2e-4);
   }
 }
 
@@ -207,7 +198,7 @@ TEST_CASE("no light, lights without power, nothing in view: black, and no crash"
   for (const Method& method : {path, light, bidir, bidir_power, bidir_uniform})
     for (const scene::Scene* scene : {&dark, &unpowered, &looks_away, &absorbs}) {
       CAPTURE(name_of(method), scene->camera.position.z, scene->point_lights.size());
-      const Render black = render_of(*scene, with(method, 8));
+      const Render black = render_of(*scene, settings_for(method, 8));
       CHECK(black.statistics.nonfinite == 0);
       CHECK(black.statistics.paths == 128);
       CHECK(is_black(black.film));
@@ -221,7 +212,7 @@ TEST_CASE("a light without power next to one that has some changes nothing") {
   const double part = 2.0 / 3.0 / pi;
   for (const Method& method : splatting) {
     CAPTURE(name_of(method));
-    const Render lit = render_of(scene, with(method, 2048));
+    const Render lit = render_of(scene, settings_for(method, 2048));
     check_agreement(estimate_of(lit.film), uniform(lit.film, {0.8 * 3 * part, 0.5 * 2 * part, 0.2 * part}));
   }
 }

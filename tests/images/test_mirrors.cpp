@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "images/evidence.h"
 #include "images/integrators.h"
 
 using namespace phlux;

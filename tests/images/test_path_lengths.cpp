@@ -1,6 +1,7 @@
 // When a path ends.
 #include <catch2/catch.hpp>
 
+#include "images/evidence.h"
 #include "images/scenes.h"
 
 using namespace phlux;

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "errors.h"
+#include "images/evidence.h"
 #include "images/integrators.h"
 #include "images/room.h"
 #include "render/parts.h"

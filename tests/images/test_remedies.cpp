@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "film/reliability.h"
+#include "images/evidence.h"
 #include "images/integrators.h"
 #include "images/room.h"
 

@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "errors.h"
+#include "images/evidence.h"
 #include "images/integrators.h"
 #include "images/scenes.h"
 #include "phong/reflectivity.h"

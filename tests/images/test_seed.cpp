@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "cli/program.h"
+#include "images/evidence.h"
 #include "images/scenes.h"
 #include "temporary_folder.h"
 

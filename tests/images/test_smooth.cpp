@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
 
+#include "images/evidence.h"
 #include "images/scenes.h"
 
 using namespace phlux;

@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "cli/program.h"
+#include "images/evidence.h"
 #include "images/integrators.h"
 #include "images/prepared_render.h"
 #include "images/room.h"

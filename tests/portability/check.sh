@@ -10,13 +10,13 @@ folder=$2
 failed=0
 
 # -Weverything, less: padded (structs of scalars and vectors), declaration-after-statement (C99), float-equal (meant),
-# unused-macros, unused-parameter and unreachable-code (of parts that a scene lacks), unsafe-buffer-usage (of C++; clang 15
-# has none), and in double precision double-promotion (of tables and exact constants).
+# unused-macros, unused-parameter, unreachable-code and constant-logical-operand (parts are constants), unsafe-buffer-usage
+# (of C++; clang 15 has none), and in double precision double-promotion (of tables and exact constants).
 compile() {
   "$CLANG" -x cl -cl-std=CL1.2 -O3 -Xclang -finclude-default-header ${WARNINGS-} -Weverything \
     -Wno-padded -Wno-declaration-after-statement -Wno-float-equal -Wno-unused-macros -Wno-unused-parameter \
-    -Wno-unused-function -Wno-unreachable-code -Wno-unreachable-code-return -Wno-unknown-warning-option -Wno-unsafe-buffer-usage \
-    -Wno-linker-warnings -Wno-unused-command-line-argument $more "$@"
+    -Wno-unused-function -Wno-unreachable-code -Wno-unreachable-code-return -Wno-constant-logical-operand \
+    -Wno-unknown-warning-option -Wno-unsafe-buffer-usage -Wno-linker-warnings -Wno-unused-command-line-argument $more "$@"
 }
 
 complain() {

@@ -6,8 +6,8 @@
 A function is live when its code is in the optimised program, inlined or not: each is compiled with a call of a function
 of its own that is defined nowhere, and that call is looked for. Checked of each program of a scene (WIDTH 1):
 
-- It holds no function that only a part needs which the scene lacks. What only a part needs is what is live in the
-  program that has every part and not in the same program without that part.
+- It holds no function that only a part needs which the scene lacks. What only a part needs is what is live in programs
+  that have every part and in none of those that have every part but this one.
 - What its other functions say, those that are not live, does not matter: with their bodies taken out, the compiled code
   is the same. So a part that is added for other scenes leaves this one's code as it was.
 
@@ -112,35 +112,31 @@ def in_parallel(function, arguments):
         return list(pool.map(function, arguments))
 
 
-class Parts:
-    """What only a part needs, by integrator and part."""
-
-    def __init__(self, folder):
-        paths = sorted(folder.glob("*/*.cl"))
-        programs = dict(zip(paths, in_parallel(read, paths)))
-        self.own = {(path.parent.name, path.stem): programs[path.with_name("all.cl")].live - program.live
-                    for path, program in programs.items() if path.stem != "all"}
-
-    def of(self, integrator):
-        return {part: own for (file, part), own in self.own.items() if file == integrator}
+def needed_by_one_part(folder):
+    """By part, the functions that only it needs."""
+    paths = sorted(folder.glob("*/*.cl"))
+    live = dict(zip(paths, in_parallel(lambda path: read(path).live, paths)))
+    def of_all(name):
+        return set().union(*(functions for path, functions in live.items() if path.stem == name))
+    return {part: of_all("all") - of_all(part) for part in sorted({path.stem for path in paths} - {"all"})}
 
 
 def check_scene(line, folder, parts):
     """The program's line of the table, and what is wrong with it."""
-    name, integrator, *present = line.split()
+    name, *present = line.split()
     program = read(folder / f"{name}.cl")
     wrong = [f"{name} lacks {part} and holds {', '.join(sorted(own & program.live))}"
-             for part, own in parts.of(integrator).items() if part not in present and own & program.live]
+             for part, own in parts.items() if part not in present and own & program.live]
     if program.hangs_on_dead_functions():
         wrong.append(f"{name}: functions that are not in the compiled code change it")
     return f"{name:32} {len(program.names):4} {len(program.live):4}", wrong
 
 
 def check(folder):
-    parts = Parts(folder / "ablations")
+    parts = needed_by_one_part(folder / "ablations")
     print("functions that only a part needs:")
-    for (integrator, part), own in parts.own.items():
-        print(f"{integrator:10} {part:18} {' '.join(sorted(own)) or '-'}")
+    for part, own in parts.items():
+        print(f"{part:18} {' '.join(sorted(own)) or '-'}")
     print(f"\n{'program':32}  all live")
     wrong = []
     lines = (folder / "scenes.txt").read_text().splitlines()

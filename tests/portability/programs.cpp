@@ -174,12 +174,20 @@ std::vector<Program> programs() {
   return list;
 }
 
-std::vector<Ablation> ablations(Integrator integrator) {
-  Parts all = everything(integrator);
-  all.ambient = integrator == Integrator::path;
-  all.connections = 2; // a part that only some programs of bidir have
-  std::vector<Ablation> list = {{"", all}};
-  for (const std::string& name : all.names()) list.push_back({name, without(all, name)});
+std::vector<Ablation> ablations() {
+  std::vector<Ablation> list;
+  const auto add = [&](const std::string& base, Parts all) {
+    all.connections = 2; // a part that only some programs of bidir have
+    list.push_back({base, "", all});
+    for (const std::string& name : all.names()) list.push_back({base, name, without(all, name)});
+  };
+  Parts path = everything();
+  path.ambient = true;
+  add("path-exact", path);
+  path.strategy = "mixture";
+  add("path-mixture", path);
+  add("light-exact", everything(Integrator::light));
+  add("bidir-exact", everything(Integrator::bidir));
   return list;
 }
 

@@ -28,11 +28,13 @@ struct SceneProgram {
 /// All programs in all their widths: those of scenes, and those that know none.
 [[nodiscard]] std::vector<Program> programs();
 
-/// A program that has every part, and the same without one part and what cannot be without it.
+/// A program that has every part, or the same without one part and what cannot be without it.
 struct Ablation {
-  std::string part; ///< empty: the program that has every part
+  std::string base; ///< such as "path-exact": programs that differ in their parts alone
+  std::string part; ///< the one that is left out; empty: none
   render::Parts parts;
 };
-[[nodiscard]] std::vector<Ablation> ablations(render::Integrator integrator);
+/// Of all integrators, and of path tracing by a strategy that shares code with other reflectance models.
+[[nodiscard]] std::vector<Ablation> ablations();
 
 } // namespace phlux::test

@@ -1,6 +1,6 @@
 // Writes the text of programs as a device's compiler would get it, for check.sh and live_code.py:
-//   FOLDER/NAME.WIDTH.cl                     all programs
-//   FOLDER/scenes.txt                 a line for each of a scene: name, integrator's file, the parts that are
+//   FOLDER/NAME.WIDTH.cl               all programs
+//   FOLDER/scenes.txt                  a line for each of a scene: name, the parts that are on
 //   on FOLDER/ablations/FILE/PART.cl     WIDTH 1, what an integrator's file is without a part; `all`: with
 //   every part
 #include <filesystem>
@@ -30,26 +30,19 @@ std::string text_of(const Program& program) {
   return device::expand({}, program.source);
 }
 
-std::string integrator_of(const render::Parts& parts) {
-  return std::filesystem::path(parts.file()).stem();
-}
-
 void write_all(const std::filesystem::path& folder) {
   for (const Program& program : test::programs()) write(folder / (program.name + ".cl"), text_of(program));
   std::string scenes;
   for (const SceneProgram& scene : test::scene_programs()) {
-    scenes += test::program_of(scene).name + " " + integrator_of(scene.parts);
+    scenes += test::program_of(scene).name;
     for (const std::string& part : scene.parts.names()) scenes += " " + part;
     scenes += "\n";
   }
   write(folder / "scenes.txt", scenes);
-  for (const auto integrator :
-       {render::Integrator::path, render::Integrator::light, render::Integrator::bidir})
-    for (const Ablation& ablation : test::ablations(integrator)) {
-      const std::string name = (ablation.part.empty() ? "all" : ablation.part) + ".cl";
-      write(folder / "ablations" / integrator_of(ablation.parts) / name,
-            text_of(test::program_of({"", ablation.parts})));
-    }
+  for (const Ablation& ablation : test::ablations()) {
+    const std::string name = (ablation.part.empty() ? "all" : ablation.part) + ".cl";
+    write(folder / "ablations" / ablation.base / name, text_of(test::program_of({"", ablation.parts})));
+  }
 }
 
 } // namespace

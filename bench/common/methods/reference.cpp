@@ -72,7 +72,7 @@ std::optional<ReferenceImage> read_reference(const std::filesystem::path& file, 
     return reference;
   } catch (const std::exception& error) { // from the EXR file, the JSON parser or a missing key
     throw FileError(fmt::format("{}: is a damaged reference ({}): delete it, and it will be rendered again",
-                                 file.string(), error.what()));
+                                file.string(), error.what()));
   }
 }
 

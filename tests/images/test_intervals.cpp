@@ -1,0 +1,69 @@
+// How often the 95% intervals that the film's variances tell hold the right value.
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "images/stability.h"
+
+using namespace phlux;
+using namespace phlux::test;
+
+namespace {
+
+// Part of the 95% intervals of all values that hold the mean of them. Images of other seeds have the same
+// expectation.
+double coverage(const std::vector<Estimate>& images) {
+  int inside = 0, all = 0;
+  for (std::size_t pixel = 0; pixel < images[0].mean.size(); ++pixel) {
+    double mean = 0;
+    for (const Estimate& image : images) mean += image.mean[pixel][1] / static_cast<double>(images.size());
+    if (mean <= 0) continue;
+    for (const Estimate& image : images) {
+      inside += std::abs(image.mean[pixel][1] - mean) <= 1.96 * std::sqrt(image.variance[pixel][1]);
+      ++all;
+    }
+  }
+  return static_cast<double>(inside) / all;
+}
+
+double coverage_of_seeds(const char* name, const Method& method, int samples, int seeds) {
+  const scene::Scene scene = stability(name, {{"width", "6"}, {"height", "4"}});
+  std::vector<Estimate> images;
+  for (int seed = 0; seed < seeds; ++seed)
+    images.push_back(image_by(method, scene, samples, static_cast<std::uint64_t>(seed)));
+  return coverage(images);
+}
+
+// Of 400 streams of random numbers: pixels that all see the same point, which is as good as seeds and takes
+// one render.
+double coverage_of_streams(const char* name, const Method& method, int samples) {
+  scene::Scene scene = stability(name, {{"width", "20"}, {"height", "20"}});
+  scene.camera.tan_half_fov_x *= 1e-4;
+  const Estimate image = image_by(method, scene, samples, 1);
+  std::vector<Estimate> pixels;
+  for (std::size_t i = 0; i < image.mean.size(); ++i)
+    pixels.push_back({1, 1, {image.mean[i]}, {image.variance[i]}});
+  return coverage(pixels);
+}
+
+void check_coverage(double coverage) {
+  CHECK(coverage > 0.93);
+  CHECK(coverage < 0.97);
+}
+
+} // namespace
+
+// 400 intervals of a coverage of 95% leave these bounds with a chance of 7%, and 24 pixels of 60 seeds with
+// one of 1e-3: the seeds are fixed.
+TEST_CASE("the 95% interval holds the right value 93% to 97% of the time") {
+  check_coverage(coverage_of_streams("narrow-view", path, 512));
+  check_coverage(coverage_of_streams("near-light", path, 512));
+  check_coverage(coverage_of_streams("tiny-light", bidir, 512));
+  check_coverage(coverage_of_seeds("caustic", light, 1024, 60));
+}
+
+TEST_CASE("the 95% interval holds the right value for 93% to 97% of 400 seeds", "[.long]") {
+  check_coverage(coverage_of_seeds("narrow-view", path, 512, 400));
+  check_coverage(coverage_of_seeds("corner", bidir, 512, 400));
+  check_coverage(coverage_of_seeds("caustic", light, 1024, 400));
+}
