@@ -24,17 +24,18 @@ Geometry brute_force(const scene::Scene& scene, bool in_double) {
     for (std::size_t axis = 0; axis < 3; ++axis)
       all.high[axis] = std::max({all.high[axis], std::abs(box.low[axis]), std::abs(box.high[axis])});
   };
+  const auto add_planar = [&](Reference reference) {
+    if (!has_area(scene, geometry.origin, reference, in_double)) return;
+    writer.add_planar(reference);
+    include(reference);
+  };
   for (std::uint32_t mesh = 0; mesh < scene.meshes.size(); ++mesh)
-    for (std::uint32_t i = 0; i < scene.meshes[mesh].triangles.size(); ++i) {
-      const Reference triangle{Reference::Kind::mesh, mesh, i};
-      if (writer.add_planar(triangle)) include(triangle);
-    }
+    for (std::uint32_t i = 0; i < scene.meshes[mesh].triangles.size(); ++i)
+      add_planar({Reference::Kind::mesh, mesh, i});
   geometry.triangle_end = writer.finish_planar_block();
   for (const auto region : {scene::Patch::Region::parallelogram, scene::Patch::Region::ellipse}) {
-    for (std::uint32_t i = 0; i < scene.patches.size(); ++i) {
-      const Reference patch{Reference::Kind::patch, i, 0};
-      if (scene.patches[i].region == region && writer.add_planar(patch)) include(patch);
-    }
+    for (std::uint32_t i = 0; i < scene.patches.size(); ++i)
+      if (scene.patches[i].region == region) add_planar({Reference::Kind::patch, i, 0});
     (region == scene::Patch::Region::parallelogram ? geometry.parallelogram_end : geometry.ellipse_end) =
         writer.finish_planar_block();
   }

@@ -42,6 +42,8 @@ struct Geometry {
   double radius = 0.0;               ///< of a sphere about the origin that holds every primitive
 };
 
+// Primitives without an area that single precision can tell from 0 are left out of both: there may be none.
+
 /// Tables for testing every primitive in turn; regions come in the order of PlanarRegions, in blocks of one.
 [[nodiscard]] Geometry brute_force(const scene::Scene& scene, bool in_double = false);
 

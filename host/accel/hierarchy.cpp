@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <span>
 
 #include "accel/geometry.h"
@@ -22,14 +21,17 @@ Reference reference_of(const RTCBuildPrimitive& p) {
   return {Reference::Kind::mesh, p.geomID, p.primID};
 }
 
-std::vector<RTCBuildPrimitive> build_primitives(const scene::Scene& scene, const scene::Vec3& origin) {
+std::vector<RTCBuildPrimitive> build_primitives(const scene::Scene& scene, const scene::Vec3& origin,
+                                                bool in_double) {
   std::vector<RTCBuildPrimitive> primitives;
   primitives.reserve(count_primitives(scene));
   const auto add = [&](unsigned geometry, std::uint32_t element) {
     RTCBuildPrimitive p{};
     p.geomID = geometry;
     p.primID = element;
-    const Box box = bounds(scene, origin, reference_of(p));
+    const Reference reference = reference_of(p);
+    if (!has_area(scene, origin, reference, in_double)) return;
+    const Box box = bounds(scene, origin, reference);
     p.lower_x = box.low[0], p.lower_y = box.low[1], p.lower_z = box.low[2];
     p.upper_x = box.high[0], p.upper_y = box.high[1], p.upper_z = box.high[2];
     primitives.push_back(p);
@@ -48,12 +50,8 @@ public:
       : geometry_(geometry), writer_(scene, geometry),
         children_(static_cast<std::size_t>(std::max(lanes, 2))) {}
 
-  /// The child that refers to the tree: a node, even of nothing but primitives without area.
-  int write(const Tree::Node& root) {
-    if (const auto child = write_node(root)) return *child;
-    const std::size_t index = reserve_node();
-    fill_node(index, {});
-    return static_cast<int>(index);
+  int write(const Tree::Node& node) {
+    return node.children.empty() ? write_leaf(node.primitives) : write_inner(node);
   }
   void finish() { writer_.finish(); }
 
@@ -63,32 +61,26 @@ private:
     RTCBounds box;
   };
 
-  // Nothing for a leaf of primitives without area.
-  std::optional<int> write_node(const Tree::Node& node) {
-    return node.children.empty() ? write_leaf(node.primitives) : write_inner(node);
-  }
   int write_inner(const Tree::Node& node) {
     const std::size_t index = reserve_node();
     std::vector<Child> written;
     for (std::size_t i = 0; i < node.children.size(); ++i)
-      if (const auto child = write_node(*node.children[i])) written.push_back({*child, node.boxes[i]});
+      written.push_back({write(*node.children[i]), node.boxes[i]});
     fill_node(index, written);
     return static_cast<int>(index);
   }
 
   // A leaf holds either flat primitives or spheres; where Embree put both together, a node stands above two
   // leaves.
-  std::optional<int> write_leaf(std::span<const RTCBuildPrimitive> all) {
+  int write_leaf(std::span<const RTCBuildPrimitive> all) {
     const auto first_sphere =
         std::find_if(all.begin(), all.end(), [](const auto& p) { return p.geomID == sphere_geometry; });
     const std::span flats(all.begin(), first_sphere), spheres(first_sphere, all.end());
     if (spheres.empty()) return write_blocks(flats, false);
     if (flats.empty()) return write_blocks(spheres, true);
     const std::size_t index = reserve_node();
-    std::vector<Child> written;
-    if (const auto child = write_blocks(flats, false)) written.push_back({*child, box_of(flats)});
-    if (const auto child = write_blocks(spheres, true)) written.push_back({*child, box_of(spheres)});
-    fill_node(index, written);
+    fill_node(index,
+              {{write_blocks(flats, false), box_of(flats)}, {write_blocks(spheres, true), box_of(spheres)}});
     return static_cast<int>(index);
   }
 
@@ -104,7 +96,7 @@ private:
     return b;
   }
 
-  std::optional<int> write_blocks(std::span<const RTCBuildPrimitive> primitives, bool spheres) {
+  int write_blocks(std::span<const RTCBuildPrimitive> primitives, bool spheres) {
     const int block = geometry_.block;
     const int first = (spheres ? writer_.finish_sphere_block() : writer_.finish_planar_block()) / block;
     for (const RTCBuildPrimitive& p : primitives) {
@@ -115,7 +107,6 @@ private:
     }
     const int end = (spheres ? writer_.finish_sphere_block() : writer_.finish_planar_block()) / block;
     const int blocks = end - first;
-    if (blocks == 0) return std::nullopt; // no primitive has an area
     if (blocks > 16 || first >= 1 << 26)
       throw SceneError("the scene has more primitives than a hierarchy can index");
     return ~(first << 5 | (blocks - 1) << 1 | (spheres ? 1 : 0));
@@ -164,7 +155,8 @@ Geometry hierarchy(const scene::Scene& scene, int lanes, bool in_double) {
   geometry.in_double = in_double;
   geometry.block = lanes;
   geometry.origin = middle(scene);
-  std::vector<RTCBuildPrimitive> primitives = build_primitives(scene, geometry.origin);
+  std::vector<RTCBuildPrimitive> primitives = build_primitives(scene, geometry.origin, in_double);
+  if (primitives.empty() && count_primitives(scene) > 0) return geometry; // none has an area
   geometry.radius = radius_of(primitives);
 
   // One level is left for a node above a leaf of both kinds.

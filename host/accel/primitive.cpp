@@ -127,6 +127,13 @@ Box bounds(const scene::Scene& scene, const Vec3& origin, Reference reference) {
   return box;
 }
 
+bool has_area(const scene::Scene& scene, const Vec3& origin, Reference reference, bool in_double) {
+  if (reference.kind == Reference::Kind::sphere) return true;
+  const Flat f = flat(scene, origin, reference, in_double);
+  const double length = glm::length(glm::cross(f.edge_u, f.edge_v));
+  return length > 0.0 && std::isfinite(static_cast<float>(1.0 / length));
+}
+
 TableWriter::TableWriter(const scene::Scene& scene, Geometry& geometry) : scene_(scene), geometry_(geometry) {
   std::size_t count = 0;
   for (const scene::Mesh& mesh : scene.meshes) {
@@ -170,11 +177,10 @@ void TableWriter::add_corners(Reference reference) {
   }
 }
 
-bool TableWriter::add_planar(Reference reference) {
+void TableWriter::add_planar(Reference reference) {
   const Flat f = flat(scene_, geometry_.origin, reference, geometry_.in_double);
   const Vec3 cross = glm::cross(f.edge_u, f.edge_v);
   const double length = glm::length(cross);
-  if (!(length > 0.0) || !std::isfinite(static_cast<float>(1.0 / length))) return false;
   const Vec3 edge_v = f.edge_v / length, minus_u = -f.edge_u / length, normal = cross / length;
   std::array<double, PLANAR_FLOATS> values{};
   for (int axis = 0; axis < 3; ++axis) {
@@ -196,7 +202,6 @@ bool TableWriter::add_planar(Reference reference) {
   geometry_.has_parallelograms |= f.region == REGION_PARALLELOGRAM;
   geometry_.has_ellipses |= f.region == REGION_ELLIPSE;
   ++geometry_.primitive_count;
-  return true;
 }
 
 int TableWriter::finish_planar_block() {

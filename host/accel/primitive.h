@@ -29,12 +29,16 @@ struct Box {
 /// A box that holds the primitive, in coordinates about `origin`.
 [[nodiscard]] Box bounds(const scene::Scene& scene, const scene::Vec3& origin, Reference reference);
 
+/// Whether the primitive has an area that single precision can tell from 0; spheres have.
+[[nodiscard]] bool has_area(const scene::Scene& scene, const scene::Vec3& origin, Reference reference,
+                            bool in_double);
+
 /// Appends primitives to a geometry's tables, whose `origin`, `block` and `in_double` are set.
 class TableWriter {
 public:
   TableWriter(const scene::Scene& scene, Geometry& geometry);
-  /// A flat primitive; false (and nothing appended) when it has no area in float precision.
-  bool add_planar(Reference reference);
+  /// A flat primitive that has_area().
+  void add_planar(Reference reference);
   /// Flat primitives so far, rounded up to a whole block by fillers that nothing meets.
   int finish_planar_block();
   /// Spheres go to tables of their own until `finish`.

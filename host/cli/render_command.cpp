@@ -13,7 +13,6 @@
 #include "cli/interrupt.h"
 #include "cli/outputs.h"
 #include "cli/progress.h"
-#include "cli/settings.h"
 #include "cli/spelling.h"
 #include "cli/statistics.h"
 #include "errors.h"
@@ -50,6 +49,14 @@ private:
   double value_ = std::numeric_limits<double>::infinity(), samples_ = 0.0;
   std::chrono::steady_clock::time_point next_{};
 };
+
+render::Settings settings_of(const RenderOptions& options, const scene::RenderDefaults& scene) {
+  render::Settings defaults;
+  defaults.techniques = !options.contributions.empty();
+  defaults.devices = options.devices;
+  defaults.kernel_dir = options.kernel_dir;
+  return settings::settings_of(options, scene, defaults);
+}
 
 // The renderer knows no files; the user should read which one is to blame.
 render::Statistics render_scene(const scene::Scene& scene, const render::Settings& settings, film::Film& film,

@@ -43,20 +43,12 @@ void append(const std::string& text, std::string& list) {
 }
 
 // A setting that one of them does not say is not said of both.
-void append(const RenderInfo& info, RenderInfo& all) {
-  for (auto one = all.settings.begin(); one != all.settings.end();) {
-    auto& [name, value] = *one;
-    const auto other = info.settings.find(name);
-    if (other == info.settings.end()) {
-      one = all.settings.erase(one);
-      continue;
-    }
-    if (other->second != value) {
-      std::string list = settings::text_of(value);
-      append(settings::text_of(other->second), list);
-      value = list;
-    }
-    ++one;
+void append(const std::map<std::string, settings::Value>& more, std::map<std::string, settings::Value>& all) {
+  std::erase_if(all, [&](const auto& setting) { return !more.contains(setting.first); });
+  for (auto& [name, value] : all) {
+    std::string list = settings::text_of(value);
+    append(settings::text_of(more.at(name)), list);
+    if (more.at(name) != value) value = list;
   }
 }
 
@@ -89,7 +81,7 @@ void add_info(const RenderInfo& info, RenderInfo& all) {
   all.samples = samples;
   all.seconds += info.seconds;
   all.ranges.insert(all.ranges.end(), info.ranges.begin(), info.ranges.end());
-  append(info, all);
+  append(info.settings, all.settings);
   append(info.device, all.device);
   append(info.driver, all.driver);
 }

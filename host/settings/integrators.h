@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "settings/values.h"
+
 namespace phlux::settings {
 
 enum class Integrator { path, light, bidir };
@@ -16,9 +18,10 @@ struct IntegratorInfo {
   const char* mitsuba_name; ///< of scene files
   const char* kernel_file;
   const char* kernel;
-  bool eye_paths; ///< subpaths from the eye: kernels sum what each pixel gets
-  bool
-      light_paths; ///< subpaths from lights: kernels record contributions to any pixel one by one, in batches
+  /// Subpaths from the eye: kernels sum what each pixel gets.
+  bool eye_paths;
+  /// Subpaths from lights: kernels record contributions to any pixel one by one, in batches.
+  bool light_paths;
 
   /// Connects both kinds of subpaths: there are many ways to make a path, and vertices are kept in memory.
   [[nodiscard]] constexpr bool bidirectional() const { return eye_paths && light_paths; }
@@ -34,8 +37,13 @@ inline constexpr std::array<IntegratorInfo, 3> integrators = {{
 [[nodiscard]] constexpr const IntegratorInfo& info_of(Integrator integrator) {
   return integrators[static_cast<std::size_t>(integrator)];
 }
-/// @throws UsageError where there is no integrator of that name
-[[nodiscard]] const IntegratorInfo& integrator_named(const std::string& name);
-[[nodiscard]] const std::vector<std::string>& integrator_names();
+[[nodiscard]] inline const std::vector<std::string>& integrator_names() {
+  static const std::vector<std::string> names = names_in(integrators);
+  return names;
+}
+/// @throws UsageError where there is none of that name
+[[nodiscard]] inline const IntegratorInfo& integrator_named(const std::string& name) {
+  return integrators[choice(quoted("integrator"), name, integrator_names())];
+}
 
 } // namespace phlux::settings

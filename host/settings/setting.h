@@ -33,17 +33,66 @@ using Value = std::variant<std::monostate, std::string, std::int64_t, std::uint6
 /// What read() takes: numbers with all their digits. Empty where absent.
 [[nodiscard]] std::string text_of(const Value& value);
 
-// What a setting may be.
+// What a setting may be. read() takes what messages call the setting, and its text.
 struct OneOf { ///< of these names: the value is a name, or its index, or for a number what the name says
   std::vector<std::string> names;
+
+  template<class T>
+  [[nodiscard]] T read(const std::string& name, const std::string& text) const {
+    const std::size_t index = choice(name, text, names);
+    if constexpr (std::is_same_v<T, std::string>)
+      return names[index];
+    else if constexpr (std::is_same_v<T, int>)
+      return std::stoi(names[index]);
+    else
+      return static_cast<T>(index);
+  }
+  template<class T>
+  [[nodiscard]] Value value(const T& of) const {
+    if constexpr (std::is_same_v<T, std::string>)
+      return of;
+    else if constexpr (std::is_same_v<T, int>)
+      return of == 0 ? Value() : std::to_string(of);
+    else
+      return names.at(static_cast<std::size_t>(of));
+  }
 };
-struct Whole {
-  std::uint64_t least, most;
-};
-struct Depth {};    ///< 1 or more, or -1 for unbounded
-struct Positive {}; ///< finite, above 0
-struct Switch {     ///< on or off, with no option of its own: the text where it is on
+struct Switch { ///< on or off, with no option of its own: the text where it is on
   const char* on;
+
+  template<class T>
+  [[nodiscard]] T read(const std::string&, const std::string& text) const {
+    return !text.empty();
+  }
+  [[nodiscard]] Value value(bool of) const { return of ? Value(on) : Value(); }
+};
+struct Number {
+  [[nodiscard]] static Value value(const std::optional<double>& of) { return of ? Value(*of) : Value(); }
+  [[nodiscard]] static Value value(std::uint64_t of) { return of; }
+  template<class T>
+  [[nodiscard]] static Value value(const T& of) {
+    return static_cast<std::int64_t>(of);
+  }
+};
+struct Whole : Number {
+  std::uint64_t least, most;
+  Whole(std::uint64_t from, std::uint64_t to) : least(from), most(to) {}
+  template<class T>
+  [[nodiscard]] T read(const std::string& name, const std::string& text) const {
+    return static_cast<T>(whole_number(name, text, least, most));
+  }
+};
+struct Depth : Number { ///< 1 or more, or -1 for unbounded
+  template<class T>
+  [[nodiscard]] T read(const std::string& name, const std::string& text) const {
+    return depth(name, text);
+  }
+};
+struct Positive : Number { ///< finite, above 0
+  template<class T>
+  [[nodiscard]] T read(const std::string& name, const std::string& text) const {
+    return positive_number(name, text);
+  }
 };
 
 struct Setting {
@@ -69,7 +118,14 @@ struct Setting {
 
   template<class T, class Domain>
   Setting(std::string setting_name, Affects what, T Settings::*member, Domain domain,
-          std::string value_placeholder, std::string help_text);
+          std::string value_placeholder, std::string help_text)
+      : name(std::move(setting_name)), affects(what), placeholder(std::move(value_placeholder)),
+        help(std::move(help_text)),
+        read([member, domain, label = settings::quoted(name)](const std::string& text, Settings& to) {
+          to.*member = domain.template read<T>(label, text);
+        }),
+        value([member, domain](const Settings& of) { return domain.value(of.*member); }),
+        copy([member](const Settings& from, Settings& to) { to.*member = from.*member; }) {}
 
   /// The scene says it where the user does not.
   template<class T>
@@ -84,65 +140,5 @@ struct Setting {
 
   [[nodiscard]] std::string text(const Settings& of) const { return text_of(value(of)); }
 };
-
-template<class T>
-T value_in(const OneOf& domain, const std::string& name, const std::string& text) {
-  const std::size_t index = choice(name, text, domain.names);
-  if constexpr (std::is_same_v<T, std::string>)
-    return domain.names[index];
-  else if constexpr (std::is_same_v<T, int>)
-    return std::stoi(domain.names[index]);
-  else
-    return static_cast<T>(index);
-}
-template<class T>
-T value_in(Whole domain, const std::string& name, const std::string& text) {
-  return static_cast<T>(whole_number(name, text, domain.least, domain.most));
-}
-template<class T>
-T value_in(Depth, const std::string& name, const std::string& text) {
-  return depth(name, text);
-}
-template<class T>
-T value_in(Positive, const std::string& name, const std::string& text) {
-  return positive_number(name, text);
-}
-template<class T>
-T value_in(Switch, const std::string&, const std::string& text) {
-  return !text.empty();
-}
-
-template<class T>
-Value value_of(const OneOf& domain, const T& value) {
-  if constexpr (std::is_same_v<T, std::string>)
-    return value;
-  else if constexpr (std::is_same_v<T, int>)
-    return value == 0 ? Value() : std::to_string(value);
-  else
-    return domain.names.at(static_cast<std::size_t>(value));
-}
-inline Value value_of(Switch domain, bool value) {
-  return value ? Value(domain.on) : Value();
-}
-template<class Domain, class T>
-Value value_of(const Domain&, const T& value) {
-  if constexpr (std::is_same_v<T, std::optional<double>>)
-    return value ? Value(*value) : Value();
-  else if constexpr (std::is_signed_v<T>)
-    return static_cast<std::int64_t>(value);
-  else
-    return value;
-}
-
-template<class T, class Domain>
-Setting::Setting(std::string setting_name, Affects what, T Settings::*member, Domain domain,
-                 std::string value_placeholder, std::string help_text)
-    : name(std::move(setting_name)), affects(what), placeholder(std::move(value_placeholder)),
-      help(std::move(help_text)),
-      read([member, domain, label = settings::quoted(name)](const std::string& text, Settings& to) {
-        to.*member = value_in<T>(domain, label, text);
-      }),
-      value([member, domain](const Settings& of) { return value_of(domain, of.*member); }),
-      copy([member](const Settings& from, Settings& to) { to.*member = from.*member; }) {}
 
 } // namespace phlux::settings

@@ -2,9 +2,22 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "errors.h"
 
 namespace phlux::settings {
+
+std::string text_of(const Value& value) {
+  return std::visit(
+      [](const auto& of) -> std::string {
+        if constexpr (std::is_same_v<std::decay_t<decltype(of)>, std::monostate>)
+          return {};
+        else
+          return fmt::format("{}", of);
+      },
+      value);
+}
 
 const std::vector<Setting>& all() {
   static const std::vector<Setting> list = declared_settings();

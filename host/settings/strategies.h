@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "settings/values.h"
+
 namespace phlux::settings {
 
 struct Strategy {
@@ -28,8 +30,13 @@ inline constexpr std::array<Strategy, 12> strategies = {{
     {"exact"},
 }};
 
-/// @throws UsageError where there is no strategy of that name
-[[nodiscard]] const Strategy& strategy_named(const std::string& name);
-[[nodiscard]] const std::vector<std::string>& strategy_names();
+[[nodiscard]] inline const std::vector<std::string>& strategy_names() {
+  static const std::vector<std::string> names = names_in(strategies);
+  return names;
+}
+/// @throws UsageError where there is none of that name
+[[nodiscard]] inline const Strategy& strategy_named(const std::string& name) {
+  return strategies[choice(quoted("strategy"), name, strategy_names())];
+}
 
 } // namespace phlux::settings

@@ -33,6 +33,14 @@ namespace phlux::settings {
 /// "a, b, c"
 [[nodiscard]] std::string joined(const std::vector<std::string>& names);
 
+/// The members `name` of a table's entries.
+template<class Table>
+[[nodiscard]] std::vector<std::string> names_in(const Table& table) {
+  std::vector<std::string> names;
+  for (const auto& entry : table) names.emplace_back(entry.name);
+  return names;
+}
+
 /// The name that `text` was probably meant to be: within two edits, and within half of its length; else
 /// empty.
 [[nodiscard]] std::string nearest(const std::string& text, const std::vector<std::string>& names);

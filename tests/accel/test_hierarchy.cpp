@@ -167,7 +167,6 @@ TEST_CASE("a scene without shapes has no hierarchy, and shapes without area are 
     CAPTURE(lanes);
     const Geometry geometry = accel::hierarchy(shapes.scene, lanes);
     CHECK(geometry.primitive_count == with_area);
-    const auto found = Walk(shapes, geometry).materials;
-    CHECK(std::set<int>(found.begin(), found.end()).size() == with_area);
+    CHECK(Walk(shapes, geometry).materials.size() == with_area);
   }
 }

@@ -1,0 +1,66 @@
+#include "tables/host_scene.h"
+
+#include <glm/geometric.hpp>
+
+#include "errors.h"
+#include "tables/used_materials.h"
+
+namespace phlux::tables {
+namespace {
+
+// Up to so many primitives, testing each in turn is as fast as a hierarchy: where the two rates crossed on
+// bounce rays in a closed room (bench/PERFORMANCE.md).
+std::uint64_t brute_force_limit(int lanes) {
+  switch (lanes) {
+  case 1:
+    return 32;
+  case 4:
+    return 128;
+  case 8:
+    return 160;
+  default:
+    return 240;
+  }
+}
+
+CameraRecord camera_record(const scene::Camera& camera, const scene::Vec3& origin) {
+  CameraRecord record{};
+  const scene::Vec3 position = camera.position - origin;
+  const scene::Vec3 left = camera.left * camera.tan_half_fov_x;
+  const scene::Vec3 up = camera.up * (camera.tan_half_fov_x * camera.height / camera.width);
+  for (int i = 0; i < 3; ++i) {
+    record.position[i] = static_cast<float>(position[i]);
+    record.forward[i] = static_cast<float>(camera.forward[i]);
+    record.left[i] = static_cast<float>(left[i]);
+    record.up[i] = static_cast<float>(up[i]);
+  }
+  record.principal_x = static_cast<float>(camera.principal_x);
+  record.principal_y = static_cast<float>(camera.principal_y);
+  record.film_area = static_cast<float>(4 * glm::length(left) * glm::length(up));
+  record.width = camera.width;
+  record.height = camera.height;
+  return record;
+}
+
+} // namespace
+
+HostScene prepare(const scene::Scene& scene, settings::Traversal traversal, int lanes, bool double_precision,
+                  bool tree_of_lights) {
+  const std::uint64_t primitives = accel::count_primitives(scene);
+  if (primitives == 0) throw SceneError("the scene has no shapes: add at least one that the camera can see");
+  const bool brute = traversal == settings::Traversal::brute_force ||
+                     (traversal == settings::Traversal::automatic && primitives <= brute_force_limit(lanes));
+  HostScene host;
+  host.geometry =
+      brute ? accel::brute_force(scene, double_precision) : accel::hierarchy(scene, lanes, double_precision);
+  if (host.geometry.primitive_count == 0)
+    throw SceneError(
+        "no shape of the scene has an area that single precision can tell from 0: scale them up");
+  host.lights = light_table(scene, host.geometry, tree_of_lights);
+  host.materials =
+      lobes::material_table(scene.materials, lobes::models_of(used_materials(scene, host.geometry)));
+  host.camera = camera_record(scene.camera, host.geometry.origin);
+  return host;
+}
+
+} // namespace phlux::tables

@@ -1,0 +1,24 @@
+// All tables of a scene.
+#pragma once
+
+#include "accel/geometry.h"
+#include "lobes/program.h"
+#include "scene/scene.h"
+#include "settings/settings.h"
+#include "tables/light_table.h"
+
+namespace phlux::tables {
+
+/// Everything that the host computes about a scene for one WIDTH, precision and traversal.
+struct HostScene {
+  accel::Geometry geometry;
+  LightTable lights;
+  lobes::MaterialTable materials;
+  CameraRecord camera{};
+};
+
+/// @throws SceneError when the scene has no shape with an area
+[[nodiscard]] HostScene prepare(const scene::Scene& scene, settings::Traversal traversal, int lanes,
+                                bool double_precision = false, bool tree_of_lights = true);
+
+} // namespace phlux::tables
