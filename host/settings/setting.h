@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "scene/scene.h"
+#include "settings/strategies.h"
 #include "settings/values.h"
 
 namespace phlux::settings {
@@ -40,9 +41,10 @@ struct OneOf { ///< of these names: the value is a name, or its index, or for a 
 struct Whole {
   std::uint64_t least, most;
 };
-struct Depth {};    ///< 1 or more, or -1 for unbounded
-struct Positive {}; ///< finite, above 0
-struct Switch {     ///< on or off, with no option of its own: the text where it is on
+struct Depth {};          ///< 1 or more, or -1 for unbounded
+struct Positive {};       ///< finite, above 0
+struct StrategyOrFile {}; ///< the name of a strategy, or a kernel file of the user's
+struct Switch {           ///< on or off, with no option of its own: the text where it is on
   const char* on;
 };
 
@@ -106,6 +108,10 @@ T value_in(Depth, const std::string& name, const std::string& text) {
 template<class T>
 T value_in(Positive, const std::string& name, const std::string& text) {
   return positive_number(name, text);
+}
+template<class T>
+T value_in(StrategyOrFile, const std::string& name, const std::string& text) {
+  return strategy(name, text);
 }
 template<class T>
 T value_in(Switch, const std::string&, const std::string& text) {
