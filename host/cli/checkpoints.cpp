@@ -1,5 +1,6 @@
 #include "cli/checkpoints.h"
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include "checkpoint/sameness.h"
@@ -21,11 +22,23 @@ auto or_anew(const Function& function) {
   }
 }
 
+// Whoever made the checkpoint must not choose code that runs here.
+void require_own_strategy(const RenderOptions& options, const settings::Choices& earlier) {
+  const auto then = earlier.texts.find("strategy");
+  if (then == earlier.texts.end() || options.has("strategy") || !settings::is_strategy_file(then->second))
+    return;
+  throw UsageError(
+      fmt::format("--resume {}: its render had --strategy {}, and a checkpoint runs no file of yours by "
+                  "itself: give --strategy {} too",
+                  options.resume.string(), then->second, then->second));
+}
+
 } // namespace
 
 std::optional<checkpoint::Checkpoint> resumed(RenderOptions& options) {
   if (options.resume.empty()) return std::nullopt;
   checkpoint::Checkpoint earlier = or_anew([&] { return checkpoint::read(options.resume); });
+  require_own_strategy(options, earlier.session.choices);
   options.complete(earlier.session.choices);
   return earlier;
 }

@@ -26,6 +26,11 @@ void add_settings(CLI::App& app, RenderOptions& options, const std::function<boo
 
 void add_method(CLI::App& app, RenderOptions& options) {
   app.option_defaults()->group("How light is found");
+  add_lobes(app,
+            "a reflectance model of your own: one kernel file, which the scene names as <bsdf "
+            "type=\"NAME\">; may be "
+            "repeated",
+            options.lobes);
   add_settings(app, options, [](Affects affects) {
     return affects == Affects::expectation || affects == Affects::estimate;
   });

@@ -65,6 +65,10 @@ void add_kernel_dir(CLI::App& app, std::filesystem::path& folder) {
             });
 }
 
+void add_lobes(CLI::App& app, const std::string& help, std::vector<std::filesystem::path>& lobes) {
+  add_values(app, "--lobe", "NAME.cl", help, [&lobes](const std::string& text) { lobes.emplace_back(text); });
+}
+
 void add_one_device(CLI::App& app, std::vector<std::string>& devices, int& lanes,
                     std::filesystem::path& kernel_dir) {
   add_value(app, "--device", "SPEC",

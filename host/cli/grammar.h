@@ -54,6 +54,9 @@ void add_width(CLI::App& app, const std::string& what, int& lanes);
 void add_traversal(CLI::App& app, render::Traversal& traversal);
 void add_kernel_dir(CLI::App& app, std::filesystem::path& folder);
 
+// --lobe, which adds reflectance models to those that ship.
+void add_lobes(CLI::App& app, const std::string& help, std::vector<std::filesystem::path>& lobes);
+
 // --device for one device, --width and --kernel-dir.
 void add_one_device(CLI::App& app, std::vector<std::string>& devices, int& lanes,
                     std::filesystem::path& kernel_dir);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "settings/choices.h"
@@ -14,6 +15,7 @@ namespace phlux::cli {
 /// Options of `phlux render`.
 struct RenderOptions : settings::Choices {
   std::filesystem::path scene_file;
+  std::vector<std::filesystem::path> lobes; ///< kernel files of the user's reflectance models
   std::vector<std::string> devices;
   std::filesystem::path kernel_dir;
 
@@ -42,10 +44,13 @@ struct DevicesOptions {
 };
 
 struct VerifyOptions {
-  std::vector<std::string> devices;    ///< one at most
-  std::vector<std::string> strategies; ///< empty: all
-  int lanes = 0;                       ///< 0: what suits the device
-  std::size_t samples = 0;             ///< per case; 0: the default
+  std::vector<std::string> devices;                            ///< one at most
+  std::vector<std::string> strategies;                         ///< names and kernel files; empty: all names
+  std::vector<std::filesystem::path> lobes;                    ///< kernel files of the user's models
+  std::vector<std::string> models;                             ///< names of models that ship
+  std::vector<std::pair<std::string, std::string>> parameters; ///< NAME and VALUE
+  int lanes = 0;                                               ///< 0: what suits the device
+  std::size_t samples = 0;                                     ///< per case; 0: the default
   std::filesystem::path kernel_dir, json;
   bool quick = false;
 };

@@ -156,7 +156,8 @@ int render(const RenderOptions& given) {
   check_writable(outputs);
   RenderOptions options = given;
   std::optional<checkpoint::Checkpoint> earlier = resumed(options);
-  scene::Scene scene = scene_file::load(options.scene_file, options.definitions, options.size);
+  scene::Scene scene =
+      scene_file::load(options.scene_file, options.definitions, options.size, lobes::Library(options.lobes));
   const scene::Camera& camera = scene.camera;
   const checkpoint::Session session{.scene = options.scene_file.string(),
                                     .scene_digest = scene::digest(scene),

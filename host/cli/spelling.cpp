@@ -9,7 +9,7 @@ namespace phlux::cli {
 namespace {
 
 bool is_option(const std::string& name) {
-  return name == "device" || name == "size" || name == "moments" ||
+  return name == "device" || name == "lobe" || name == "set" || name == "size" || name == "moments" ||
          std::ranges::find(settings::all(), name, &settings::Setting::name) != settings::all().end();
 }
 

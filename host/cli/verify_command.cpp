@@ -9,6 +9,8 @@
 #include "device/device.h"
 #include "files/json.h"
 #include "files/output.h"
+#include "verify/lobe/contradictions.h"
+#include "verify/lobe/verify_lobe.h"
 #include "verify/statistics.h"
 #include "verify/verify.h"
 
@@ -84,24 +86,25 @@ void print_strategies(const Report& report) {
   }
 }
 
-void print_model(const Report& report) {
-  std::vector<std::vector<std::string>> rows{{"MODEL", "worst", "limit", "where"}};
+// The checks below each other that are of the model, or of the one of this name.
+void print_model(const Report& report, const std::string& name) {
+  std::vector<std::vector<std::string>> rows{{name.empty() ? "MODEL" : name, "worst", "limit", "where"}};
   for (const Result& result : report.results())
-    if (result.strategy.empty())
+    if (result.strategy == name)
       rows.push_back({result.check, figure(result), limit_text(result), result.where});
   if (rows.size() > 1) print_grid(rows);
 }
 
 void print_notes(const Report& report) {
   for (const Result& result : report.results())
-    if (!result.note.empty())
+    if (result.passed && !result.note.empty())
       fmt::print("{}{}: {}\n", result.strategy.empty() ? "" : result.strategy + ": ", result.check,
                  result.note);
   for (const Result& result : report.results()) {
     if (result.passed) continue;
-    fmt::print("FAILED {} {}: {:.6g}, must be {}, for {}\n",
-               result.strategy.empty() ? "model" : result.strategy, result.check, result.worst,
-               limit_text(result), result.where);
+    fmt::print("FAILED {} {}: {}{:.6g}, must be {}, for {}\n",
+               result.strategy.empty() ? "model" : result.strategy, result.check,
+               result.note.empty() ? "" : result.note + ": ", result.worst, limit_text(result), result.where);
     for (const std::string& file : result.files) fmt::print("  written: {}\n", file);
   }
 }
@@ -133,9 +136,37 @@ nlohmann::ordered_json json_of(const Report& report, const device::Device& devic
   return json;
 }
 
+// What is verified without closed forms: all that was asked for, as soon as something is the user's own.
+std::vector<verify::LobeToVerify> lobes_of(const VerifyOptions& options) {
+  const lobes::Library library(options.lobes);
+  std::vector<verify::LobeToVerify> list;
+  for (const auto& file : options.lobes)
+    list.push_back({library.find(file.stem().string()), "exact", file.stem()});
+  for (const std::string& name : options.models) list.push_back({lobes::shipped(name), "exact", name});
+  if (list.empty() && std::ranges::none_of(options.strategies, settings::is_strategy_file)) return list;
+  for (const std::string& strategy : options.strategies) {
+    if (settings::is_strategy_file(strategy)) static_cast<void>(settings::read_strategy(strategy));
+    list.push_back({lobes::shipped("phong"), strategy, "phong by " + strategy});
+  }
+  return list;
+}
+
+Report run_lobes(const device::Device& device, const verify::Settings& settings, const VerifyOptions& options,
+                 const std::vector<verify::LobeToVerify>& lobes, std::vector<std::string>& conclusions) {
+  Report report;
+  for (const verify::LobeToVerify& lobe : lobes)
+    verify::see_lobe(device, settings, lobe, options.parameters, report);
+  report.judge();
+  for (const verify::LobeToVerify& lobe : lobes)
+    for (const std::string& text : verify::explain(report, lobe.name, lobe.model->name))
+      conclusions.push_back(text);
+  return report;
+}
+
 } // namespace
 
 int verify(const VerifyOptions& options) {
+  const std::vector<verify::LobeToVerify> lobes = lobes_of(options);
   const device::Device device = device::open_devices(options.devices).front();
   if (!options.json.empty()) files::check_writable(options.json);
   verify::Settings settings;
@@ -147,15 +178,24 @@ int verify(const VerifyOptions& options) {
   fmt::print("{} ({}, driver {}), WIDTH {}\n", device.info.name, device.info.platform, device.info.driver,
              settings.lanes);
   const Clock::time_point start = Clock::now();
-  Report report = verify::run(device, settings);
+  std::vector<std::string> conclusions;
+  Report report = lobes.empty() ? verify::run(device, settings)
+                                : run_lobes(device, settings, options, lobes, conclusions);
   const double seconds = seconds_since(start);
   verify::write_failures(report);
-  print_strategies(report);
-  print_model(report);
+  if (lobes.empty()) {
+    print_strategies(report);
+    print_model(report, "");
+  }
+  for (const verify::LobeToVerify& lobe : lobes) print_model(report, lobe.name);
   fmt::print("\n");
   print_notes(report);
-  if (!options.json.empty())
-    files::write_file(options.json, files::json_text(json_of(report, device, settings.lanes, seconds)));
+  for (const std::string& text : conclusions) fmt::print("{}\n", text);
+  if (!options.json.empty()) {
+    auto json = json_of(report, device, settings.lanes, seconds);
+    if (!lobes.empty()) json["conclusions"] = conclusions;
+    files::write_file(options.json, files::json_text(json));
+  }
   if (device::portable_lanes(device))
     fmt::print("portable lanes: the compiler refuses the processor's own instructions\n");
   fmt::print("{}: {} checks, {} p-values with a false alarm in {:g} runs, {:.1f} s\n",

@@ -7,6 +7,7 @@
 #include "cli/commands.h"
 #include "cli/grammar.h"
 #include "errors.h"
+#include "lobes/models.h"
 #include "render/render.h"
 #include "settings/values.h"
 
@@ -14,12 +15,14 @@ namespace phlux::cli {
 namespace {
 
 void add_amount(CLI::App& app, VerifyOptions& options) {
-  add_values(app, "--strategy", "NAME",
-             fmt::format("may be repeated: {}; default: all", fmt::join(render::strategy_names(), ", ")),
-             [&options](const std::string& text) {
-               const auto& names = render::strategy_names();
-               options.strategies.push_back(names[settings::choice("--strategy", text, names)]);
-             });
+  add_values(
+      app, "--strategy", "NAME|FILE.cl",
+      fmt::format(
+          "of the phong model, may be repeated: {}, or a kernel file of your own; default: all of these",
+          fmt::join(render::strategy_names(), ", ")),
+      [&options](const std::string& text) {
+        options.strategies.push_back(settings::strategy("--strategy", text));
+      });
   app.add_flag("--quick", options.quick, "fewer materials, angles and samples: about a third of the time");
   add_value(app, "--samples", "N", "of each material and angle; default: 16384, quick 8192",
             [&options](const std::string& text) {
@@ -28,13 +31,43 @@ void add_amount(CLI::App& app, VerifyOptions& options) {
             });
 }
 
+void add_models(CLI::App& app, VerifyOptions& options) {
+  add_lobes(
+      app,
+      "verifies a reflectance model of your own instead: its functions against one another; may be repeated",
+      options.lobes);
+  add_values(app, "--model", "NAME",
+             "the same for a model that ships: diffuse, phong, anisotropicphong or conductor",
+             [&options](const std::string& text) {
+               const lobes::Library library;
+               std::vector<std::string> names;
+               for (const auto& model : library.models()) names.push_back(model->name);
+               options.models.push_back(names[settings::choice("--model", text, names)]);
+             });
+  add_values(
+      app, "--set", "NAME=VALUE",
+      "a parameter of that model, such as exponent=90 or specularReflectance=0.9,0.6,0.2, beside its default "
+      "and the ends of its range; may be repeated",
+      [&options](const std::string& text) {
+        options.parameters.push_back(settings::definition("--set", text));
+      });
+}
+
+void require_model_to_set(const VerifyOptions& options) {
+  if (options.parameters.empty() || !options.lobes.empty() || !options.models.empty()) return;
+  const auto& [name, value] = options.parameters.front();
+  throw UsageError(
+      fmt::format("--set {}={}: is for one model: give --lobe FILE.cl or --model NAME too", name, value));
+}
+
 } // namespace
 
 void add_verify(CLI::App& program, std::optional<Command>& command) {
   CLI::App& app =
-      *program.add_subcommand("verify", "Proves that the reflectance model's functions agree on a device");
+      *program.add_subcommand("verify", "Proves that a reflectance model's functions agree on a device");
   const auto options = std::make_shared<VerifyOptions>();
   add_one_device(app, options->devices, options->lanes, options->kernel_dir);
+  add_models(app, *options);
   add_amount(app, *options);
   add_value(app, "--json", "FILE", "every figure, as JSON", [options](const std::string& text) {
     if (text.empty()) throw UsageError("--json '': must be a file name");
@@ -43,7 +76,10 @@ void add_verify(CLI::App& program, std::optional<Command>& command) {
   app.footer(
       "Exit code: 0, or 1 when a check failed; what was expected and what was seen is then in verify-*.csv "
       "and .png.");
-  app.final_callback([&command, options] { command = [options] { return verify(*options); }; });
+  app.final_callback([&command, options] {
+    require_model_to_set(*options);
+    command = [options] { return verify(*options); };
+  });
 }
 
 } // namespace phlux::cli

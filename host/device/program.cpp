@@ -144,6 +144,17 @@ std::vector<unsigned char> binary_of(const cl::Program& program) {
   }
 }
 
+// The name of a #line tag that is `file`, up to words that a compiler's message has before it or that it has
+// before its last blank; empty if there is none.
+std::string tagged_file(const std::string& text, const std::string& file) {
+  static const std::regex tag(R"re((?:^|\n)#line \d+ "([^"\n]*)")re");
+  for (std::sregex_iterator each(text.begin(), text.end(), tag), none; each != none; ++each) {
+    const std::string name = (*each)[1];
+    if (file == name || file.ends_with(" " + name) || name.ends_with(" " + file)) return name;
+  }
+  return {};
+}
+
 // The kernel file and line of a line of expanded text, by its #line tags: oclgrind's messages pass over
 // those.
 std::pair<std::string, int> place_in(const std::string& text, int wanted) {
@@ -173,12 +184,14 @@ std::string build_options() {
 std::string first_error(const std::string& log, const std::string& text) {
   // clang and most others: path.cl:12:3: error: ...; PoCL 3: error: path.cl:12:3: ...
   static const std::regex file_first(R"(([^\s:]+):(\d{1,9}):(?:\d+:)? *(?:fatal )?error: *([^\n]*))");
-  static const std::regex error_first(R"(error: *([^\s:]+):(\d{1,9}):(?:\d+:)? *([^\n]*))");
+  static const std::regex error_first(R"(error: *([^\n:]+):(\d{1,9}):(?:\d+:)? *([^\n]*))");
   std::smatch found;
   if (!std::regex_search(log, found, file_first) && !std::regex_search(log, found, error_first)) return {};
   std::string file = found[1];
   int line = std::stoi(found[2]);
-  if (text.find(fmt::format(" \"{}\"\n", file)) == std::string::npos)
+  if (const std::string tagged = tagged_file(text, file); !tagged.empty())
+    file = tagged;
+  else
     std::tie(file, line) = place_in(text, line);
   return fmt::format("{}:{}: {}", file, line, found.str(3));
 }

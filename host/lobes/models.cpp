@@ -34,6 +34,16 @@ scene::Material material(const std::string& model, std::vector<scene::Rgb> value
   return m;
 }
 
+// A function that is missing would be an error of lobes/material.cl, which calls it.
+void require_functions(const std::string& name, const std::string& path, const std::string& text) {
+  for (const char* function : {"_evaluate", "_sample", "_reflectivity"})
+    if (text.find(name + function) == std::string::npos)
+      throw SceneError(
+          fmt::format("{0}: there is no function {1}{2}: a model {1} defines {1}_evaluate, {1}_sample and "
+                      "{1}_reflectivity (kernels/lobes/lobe.h)",
+                      path, name, function));
+}
+
 bool is_identifier(const std::string& name) {
   return !name.empty() && std::islower(static_cast<unsigned char>(name.front())) != 0 &&
          std::ranges::all_of(
@@ -43,6 +53,10 @@ bool is_identifier(const std::string& name) {
 } // namespace
 
 Library::Library() : models_(all_shipped()) {}
+
+Library::Library(const std::vector<std::filesystem::path>& files) : Library() {
+  for (const std::filesystem::path& file : files) add(file);
+}
 
 ModelPointer Library::find(const std::string& name) const {
   const auto found = std::ranges::find(models_, name, [](const ModelPointer& m) { return m->name; });
@@ -66,6 +80,7 @@ void Library::add(const std::filesystem::path& file) {
     throw SceneError(fmt::format("{}: only models that ship have derived parameters: compute them in the "
                                  "model's functions",
                                  path));
+  require_functions(name, path, text);
   model.text = text;
   models_.push_back(std::make_shared<const scene::Model>(std::move(model)));
 }

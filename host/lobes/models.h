@@ -22,8 +22,11 @@ using ModelPointer = std::shared_ptr<const scene::Model>;
 class Library {
 public:
   Library(); ///< those that ship
+  /// Those, and users' own. @throws SceneError as add
+  explicit Library(const std::vector<std::filesystem::path>& files);
   /// A user's own: FILE is NAME.cl, and NAME is the type of its <bsdf>.
-  /// @throws SceneError when it cannot be read, is malformed, or has the name of another model
+  /// @throws SceneError when it cannot be read, is malformed, lacks a function, or has the name of another
+  /// model
   void add(const std::filesystem::path& file);
   [[nodiscard]] ModelPointer find(const std::string& name) const; ///< null if there is none
   [[nodiscard]] const std::vector<ModelPointer>& models() const { return models_; }

@@ -109,7 +109,7 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
     parts.integrator = Integrator::path;
     parts.techniques = false;
   }
-  parts.strategy = settings::strategy_named(settings.strategy).name;
+  parts.strategy = settings::strategy(settings::quoted("strategy"), settings.strategy);
   parts.connect = possible_connect(settings, lights);
   parts.hierarchy = !geometry.nodes.empty() || geometry.root < 0;
   parts.triangles = geometry.has_triangles;
@@ -199,7 +199,9 @@ std::map<std::string, std::string> Parts::defines() const {
   macros["PHONG_TABLE_INTERVALS"] = std::to_string(phong::reflectivity_intervals);
   if (double_precision) macros["PHLUX_DOUBLE"] = "1";
   macros["WIDTH"] = std::to_string(lanes);
-  macros["PHONG_STRATEGY"] = fmt::format("\"phong/strategies/{}.cl\"", strategy);
+  macros["PHONG_STRATEGY"] = settings::is_strategy_file(strategy)
+                                 ? fmt::format("\"{}\"", strategy)
+                                 : fmt::format("\"phong/strategies/{}.cl\"", strategy);
   macros.merge(lobes::defines_of(models));
   macros["CONNECT"] = connect == Connect::none    ? "CONNECT_NONE"
                       : connect == Connect::light ? "CONNECT_LIGHT"
@@ -208,7 +210,9 @@ std::map<std::string, std::string> Parts::defines() const {
 }
 
 device::ProgramSource Parts::source(const std::string& root, const std::string& extra) const {
-  return {root, defines(), lobes::files_of(models), extra};
+  std::map<std::string, std::string> files = lobes::files_of(models);
+  if (settings::is_strategy_file(strategy)) files[strategy] = settings::read_strategy(strategy);
+  return {root, defines(), std::move(files), extra};
 }
 
 } // namespace phlux::render

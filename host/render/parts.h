@@ -37,7 +37,7 @@ struct Parts {
   int connections = 0;            ///< as in Settings; 0: no code for roulette
   bool techniques = false;        ///< contributions are recorded one by one
   std::optional<double> clamp;    ///< most that a path brings to its own pixel, in units of the light table
-  std::string strategy = "exact"; ///< of the phong model
+  std::string strategy = "exact"; ///< of the phong model: a name, or a user's FILE.cl
 
   [[nodiscard]] bool has_model(const std::string& name) const;
   [[nodiscard]] bool has_tangents() const; ///< a model needs them
@@ -51,7 +51,8 @@ struct Parts {
   [[nodiscard]] const char* file() const;
   /// Macros for the kernels.
   [[nodiscard]] std::map<std::string, std::string> defines() const;
-  /// The program of the kernel file `root`, or of the text `extra`, with these parts.
+  /// The program of the kernel file `root`, or of the text `extra`, with these parts and the user's files.
+  /// @throws UsageError where a user's strategy cannot be read
   [[nodiscard]] device::ProgramSource source(const std::string& root, const std::string& extra = "") const;
 };
 

@@ -231,6 +231,9 @@ private:
       if (settings_.strategy == name && !parts.has_model("phong"))
         events_.warning(fmt::format(
             "`strategy` {}: no surface has a phong lobe, so directions are drawn by the cosine", name));
+    if (settings::is_strategy_file(settings_.strategy) && !parts.has_model("phong"))
+      events_.warning(
+          fmt::format("`strategy` {}: no surface has a phong lobe, so it has no effect", settings_.strategy));
     // Squares of ratios of areas leave float's range: beyond these sizes the weights no longer add up to 1.
     constexpr double smallest = 1e-6, largest = 1e5;
     const double radius = host_->geometry.radius;

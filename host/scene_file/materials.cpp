@@ -116,7 +116,8 @@ scene::Material read_material(const Element& bsdf, const Document& document, Mat
   const std::string type = bsdf.type();
   const lobes::ModelPointer model = rules.library.find(type);
   if (!model && type != "twosided")
-    fail(bsdf.where, bsdf.name() + " is not supported", supported_bsdfs(rules.library));
+    fail(bsdf.where, bsdf.name() + " is not supported",
+         supported_bsdfs(rules.library) + "; `lobe` NAME.cl adds a model of your own");
   if (properties.has("ensure_energy_conservation"))
     rules.excess =
         properties.boolean("ensure_energy_conservation", false) ? ExcessEnergy::scale : ExcessEnergy::error;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "scene/scene.h"
+#include "settings/strategies.h"
 #include "settings/values.h"
 
 namespace phlux::settings {
@@ -56,6 +57,13 @@ struct OneOf { ///< of these names: the value is a name, or its index, or for a 
     else
       return names.at(static_cast<std::size_t>(of));
   }
+};
+struct StrategyOrFile { ///< the name of a strategy, or a kernel file of the user's
+  template<class T>
+  [[nodiscard]] T read(const std::string& name, const std::string& text) const {
+    return strategy(name, text);
+  }
+  [[nodiscard]] Value value(const std::string& of) const { return of; }
 };
 struct Switch { ///< on or off, with no option of its own: the text where it is on
   const char* on;

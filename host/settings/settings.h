@@ -23,10 +23,10 @@ enum class LightSelection { power, contribution }; ///< which of many lights a l
 enum class Traversal { automatic, brute_force, bvh };
 
 struct Settings {
-  std::string integrator = "path";                               ///< path, light or bidir
-  std::string strategy = "exact";                                ///< how directions are sampled, MATH.md 2.3
-  Connect connect = Connect::mis;                                ///< path
-  Weights weights = Weights::balance;                            ///< bidir
+  std::string integrator = "path";    ///< path, light or bidir
+  std::string strategy = "exact";     ///< how directions are sampled: a name, or a user's FILE.cl
+  Connect connect = Connect::mis;     ///< path
+  Weights weights = Weights::balance; ///< bidir
   LightSelection light_selection = LightSelection::contribution; ///< path, bidir
   int connections = 2;     ///< bidir: a path of e edges is made by so many of its e - 2; 0: by all
   bool techniques = false; ///< light, bidir: the film keeps what each technique brings by itself as well
@@ -76,8 +76,9 @@ struct Settings {
       Setting("integrator", A::estimate, &Settings::integrator, OneOf{integrator_names()}, "NAME",
               "path, light or bidir")
           .or_scene(&Settings::integrator, &scene::RenderDefaults::integrator),
-      Setting("strategy", A::estimate, &Settings::strategy, OneOf{strategy_names()}, "NAME",
-              "how directions are sampled: " + joined(strategy_names())),
+      Setting("strategy", A::estimate, &Settings::strategy, StrategyOrFile{}, "NAME|FILE.cl",
+              "how directions of the phong model are sampled: " + joined(strategy_names()) +
+                  ", or by a kernel file of your own"),
       Setting(
           "connect", A::estimate, &Settings::connect, OneOf{connect_names()}, "NAME",
           "path only, what reaches the lights: none (hits), light (light samples) or mis (both, weighted)")

@@ -39,4 +39,13 @@ inline constexpr std::array<Strategy, 12> strategies = {{
   return strategies[choice(quoted("strategy"), name, strategy_names())];
 }
 
+/// Whether it is a kernel file of the user's, FILE.cl, and no name (kernels/phong/phong.cl says what it
+/// defines).
+[[nodiscard]] bool is_strategy_file(const std::string& strategy);
+/// `text` where it is the name of a strategy or of a kernel file, which may be missing yet.
+/// @throws UsageError "`NAME` TEXT: what would be right"
+[[nodiscard]] std::string strategy(const std::string& name, const std::string& text);
+/// The text of a user's file. @throws UsageError when it cannot be read
+[[nodiscard]] std::string read_strategy(const std::string& file);
+
 } // namespace phlux::settings

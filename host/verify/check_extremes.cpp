@@ -13,7 +13,8 @@ bool is_finite(const Rgb& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-// All combinations of the first and last numbers, the ones next to them, and some between.
+} // namespace
+
 std::vector<Words> extreme_words(bool thin) {
   std::vector<std::uint32_t> few{0u, 0x30000000u, 0xffffffffu};
   if (!thin) few.insert(few.end(), {1u << 9, 0x80000000u, 0xfffffc00u});
@@ -25,7 +26,6 @@ std::vector<Words> extreme_words(bool thin) {
   return words;
 }
 
-// The normal, nearly the normal, grazing, in the tangent plane.
 std::vector<Direction> extreme_directions() {
   return {{0, 0, 1},
           as_float(polar(1e-4, 1)),
@@ -34,8 +34,6 @@ std::vector<Direction> extreme_directions() {
           {1, 0, 0},
           as_float({0.28, -0.96, 0})};
 }
-
-} // namespace
 
 void check_extremes(const Subject& subject) {
   const std::vector<Words> words = extreme_words(subject.samples < thin_samples);

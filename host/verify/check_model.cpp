@@ -157,7 +157,8 @@ void check_known(const DeviceModel& device, const ModelCases& cases, Report& rep
                fmt::format("kd {:g}, ks {:g}, n {:g}", known.diffuse, known.specular, known.exponent));
   }
   for (const auto& known : known_reflectivities) {
-    const double seen = device.reflectivity(material++, {cosine_of(known.degrees)}).front().r;
+    const double seen =
+        device.reflectivity(material++, std::vector<double>{cosine_of(known.degrees)}).front().r;
     const std::string where = fmt::format("n {:g}, {:g} degrees", known.exponent, known.degrees);
     report.see("", "known reflectivities", std::abs(seen / known.reflectivity - 1), reflectivity_error,
                where);

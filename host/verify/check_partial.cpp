@@ -113,7 +113,7 @@ void compare(const Subject& subject, const Case& one, const DiskGrid& grid,
   }
   report.see(name, "evaluated", evaluated, evaluated_error, where);
   if (grid.x(0) < -0.9 && grid.y(0) < -0.9) { // the whole hemisphere
-    const Rgb whole = subject.device.reflectivity(one.material, {one.at.fixed.z}).front();
+    const Rgb whole = subject.device.reflectivity(one.material, std::vector<double>{one.at.fixed.z}).front();
     for (int channel = 0; channel < 3; ++channel)
       if (whole[channel] > 0)
         report.see(name, "sum", std::abs(sum[channel] / whole[channel] - 1), sum_error, where);

@@ -137,19 +137,30 @@ std::vector<PairValues> DeviceModel::evaluate(int material, const std::vector<Pa
   return values;
 }
 
-std::vector<Rgb> DeviceModel::reflectivity(int material, const std::vector<double>& cosines) const {
-  const std::size_t plane = elements_of_groups(cosines.size());
-  std::vector<std::uint32_t> arranged(plane);
+std::vector<Rgb> DeviceModel::reflectivity(int material, const std::vector<Direction>& directions) const {
+  const std::size_t plane = elements_of_groups(directions.size());
+  std::vector<std::uint32_t> arranged(3 * plane);
   for (std::size_t i = 0; i < plane; ++i)
-    arranged[i] = std::bit_cast<std::uint32_t>(static_cast<float>(cosines[std::min(i, cosines.size() - 1)]));
+    for (int axis = 0; axis < 3; ++axis)
+      arranged[static_cast<std::size_t>(axis) * plane + i] = std::bit_cast<std::uint32_t>(
+          static_cast<float>(directions[std::min(i, directions.size() - 1)][axis]));
   const cl::Buffer memory = planes(arranged);
   cl::Kernel kernel = this->kernel("integrate_model", material);
   kernel.setArg(first_argument, memory);
-  const std::vector<float> results = run(kernel, first_argument + 1, cosines.size(), 3);
-  std::vector<Rgb> values(cosines.size());
-  for (std::size_t i = 0; i < cosines.size(); ++i)
+  const std::vector<float> results = run(kernel, first_argument + 1, directions.size(), 3);
+  std::vector<Rgb> values(directions.size());
+  for (std::size_t i = 0; i < directions.size(); ++i)
     values[i] = {results[i], results[plane + i], results[2 * plane + i]};
   return values;
+}
+
+std::vector<Rgb> DeviceModel::reflectivity(int material, const std::vector<double>& cosines) const {
+  std::vector<Direction> directions;
+  for (const double cosine : cosines) {
+    const auto z = static_cast<float>(cosine);
+    directions.emplace_back(std::sqrt((1 - z) * (1 + z)), 0, z);
+  }
+  return reflectivity(material, directions);
 }
 
 } // namespace phlux::verify

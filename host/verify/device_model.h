@@ -37,6 +37,12 @@ using Words = std::array<std::uint32_t, 4>;
 /// The word for which the kernels' uniform_real gives the value nearest to u in (0, 1).
 [[nodiscard]] std::uint32_t word_for(double u);
 
+/// All combinations of the first and last numbers, of those next to them, and of some between; fewer where
+/// `thin`.
+[[nodiscard]] std::vector<Words> extreme_words(bool thin);
+/// The normal, nearly the normal, grazing, in the tangent plane.
+[[nodiscard]] std::vector<Direction> extreme_directions();
+
 class DeviceModel {
 public:
   /// Builds the kernels. @throws DeviceError
@@ -50,6 +56,8 @@ public:
   [[nodiscard]] std::vector<Sample> drive(int material, const Direction& fixed,
                                           const std::vector<Words>& words, bool roulette) const;
   [[nodiscard]] std::vector<PairValues> evaluate(int material, const std::vector<Pair>& pairs) const;
+  [[nodiscard]] std::vector<Rgb> reflectivity(int material, const std::vector<Direction>& directions) const;
+  /// For directions with these cosines in the plane of x and z.
   [[nodiscard]] std::vector<Rgb> reflectivity(int material, const std::vector<double>& cosines) const;
 
 private:

@@ -15,7 +15,7 @@ namespace {
 std::string stem_of(const Result& result) {
   std::string stem =
       fmt::format("verify-{}-{}", result.strategy.empty() ? "model" : result.strategy, result.check);
-  std::ranges::replace(stem, ' ', '-');
+  for (const char c : {' ', '/'}) std::ranges::replace(stem, c, '-');
   return stem;
 }
 

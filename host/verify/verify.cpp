@@ -5,16 +5,13 @@
 #include "verify/checks.h"
 
 namespace phlux::verify {
-namespace {
 
-// Interpreters that check every access are some thousand times slower.
 std::size_t samples_of(const device::Device& device, const Settings& settings) {
   if (settings.samples > 0) return settings.samples;
+  // Interpreters that check every access are some thousand times slower.
   if (device.info.platform == "Oclgrind") return 64;
   return settings.quick ? 8192 : 16384;
 }
-
-} // namespace
 
 Report run(const device::Device& device, const Settings& settings) {
   Report report;

@@ -20,7 +20,10 @@ struct Settings {
   std::function<void(const std::string&)> progress; ///< called with the name of what comes next
 };
 
-/// Runs all checks on one device. @throws DeviceError
+/// Samples of each case on a device.
+[[nodiscard]] std::size_t samples_of(const device::Device& device, const Settings& settings);
+
+/// Runs all checks of the Phong model on one device. @throws DeviceError
 [[nodiscard]] Report run(const device::Device& device, const Settings& settings);
 
 /// Writes the histograms of failed checks as CSV, and as PNG where they are grids, into the working

@@ -10,7 +10,8 @@
 // surface. `generated` is the other one. A model is reciprocal; its densities are not.
 //
 // Roulette, sides and the choice among the models of a scene are in material.cl, which also sets f_r and weights to 0
-// below the surface: a model may return anything finite or not there, but its density must be right on the whole sphere.
+// below the surface: a model may return any value there, and any density that is finite. `phlux verify --lobe` checks all
+// that is stated here.
 //
 // The declaration of the parameters is a list of COLOUR and NUMBER entries, each with its default, its range and its
 // meaning. The members of the struct, the record on the device, the reader of scene files and its messages follow from

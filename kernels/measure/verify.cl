@@ -71,9 +71,8 @@ __kernel void evaluate_model(VERIFY_PARAMETERS, __global const Real* pairs, __gl
   values[PLANE(9)] = from_b.reverse;
 }
 
-// Three planes of reflectivities, for cosines of directions in the plane of x and z.
-__kernel void integrate_model(VERIFY_PARAMETERS, __global const Real* cosines, __global Real* reflectivities) {
-  const Real z = cosines[PLANE(0)];
-  const Vec3 fixed = vec3(sqrt((1.0f - z) * (1.0f + z)), (Real)(0.0f), z);
+// Three planes of reflectivities, for three of directions.
+__kernel void integrate_model(VERIFY_PARAMETERS, __global const Real* directions, __global Real* reflectivities) {
+  const Vec3 fixed = vec_from_planes(directions, 0);
   vec_to_planes(reflectivities, 0, material_reflectivity(VERIFY_MATERIAL, fixed));
 }

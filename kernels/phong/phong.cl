@@ -5,7 +5,8 @@
 // alpha is the angle between `generated` and the mirror image of `fixed`, clamped to pi / 2. The interface and the
 // conventions are those of lobes/lobe.h.
 //
-// PHONG_STRATEGY names the file of the sampling strategy, such as "phong/strategies/exact.cl". A strategy defines
+// PHONG_STRATEGY names the file of the sampling strategy, such as "phong/strategies/exact.cl", or a user's own
+// (`--strategy FILE.cl`). A strategy defines
 //
 //   Real phong_density(Phong m, Vec3 fixed, Vec3 generated, Real lobe)     lobe: phong_lobe, which is reciprocal
 //   LobeSample phong_sample(Phong m, Vec3 fixed, Real choice, RandomDraws random, Mask active)

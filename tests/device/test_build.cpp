@@ -204,6 +204,11 @@ TEST_CASE("the first error of compilers' logs") {
         "wide/lanes.h:6: bad"); // oclgrind: lines of the whole text
   CHECK(first_error("input.cl:1:1: error: bad\n", text) == "defines:1: bad");
   CHECK(first_error("no place in here", text).empty());
+  const std::string own =
+      "#define OWN \"own.cl\"\n#line 1 \"own.cl\"\nint a;\n#line 1 \"my lobes/retro.cl\"\nint b;\n";
+  CHECK(first_error("error: own.cl:1:5: bad\n", own) == "own.cl:1: bad");
+  CHECK(first_error("error: my lobes/retro.cl:1:5: bad\n", own) == "my lobes/retro.cl:1: bad");
+  CHECK(first_error("my lobes/retro.cl:1:5: error: bad\n", own) == "my lobes/retro.cl:1: bad");
 }
 
 TEST_CASE("slow is called when building takes long, and only then", "[slow]") {

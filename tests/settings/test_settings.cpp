@@ -141,4 +141,8 @@ TEST_CASE("Integrators and strategies are found by their names") {
   for (const Strategy& strategy : strategies) CHECK(&strategy_named(strategy.name) == &strategy);
   CHECK_THROWS_WITH(integrator_named("photons"), Contains("`integrator` photons: must be one of path"));
   CHECK_THROWS_WITH(strategy_named("guess"), Contains("`strategy` guess: must be one of uniform"));
+  CHECK(strategy("`strategy`", "fold") == "fold");
+  CHECK(strategy("`strategy`", "of/my/own.cl") == "of/my/own.cl"); // which need not be there yet
+  CHECK_THROWS_WITH(strategy("`strategy`", "fould"), Contains("`strategy` fould: did you mean fold?"));
+  CHECK_THROWS_WITH(read_strategy("none.cl"), Contains("`strategy` none.cl: cannot be read"));
 }

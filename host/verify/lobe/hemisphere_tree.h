@@ -1,0 +1,68 @@
+// The hemisphere above a surface cut into cells, finer where functions of the direction vary fast; integrals
+// over the cells by Gauss and Legendre's rule. For functions of which nothing is known.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "verify/model.h"
+
+namespace phlux::verify {
+
+/// What is integrated: a density, and f_r cos per channel.
+struct Integrals {
+  double density = 0;
+  Rgb reflected{0};
+
+  Integrals& operator+=(const Integrals& other);
+};
+
+class HemisphereTree {
+public:
+  /// Values at directions, for a batch of them.
+  using Function = std::function<std::vector<Integrals>(const std::vector<Direction>&)>;
+
+  HemisphereTree();
+  /// Splits the cells about a direction until their sides are about 2^-`levels`.
+  void split_about(const Direction& direction, int levels);
+  /// Splits cells until none has more than one in 64 of these directions.
+  void split_by(const std::vector<Direction>& directions);
+  /// Splits cells until a finer rule changes none of their integrals by more than 1e-5.
+  void integrate(const Function& function);
+
+  [[nodiscard]] Integrals total() const;
+  /// What is to be expected of the integrals' error, were the changes by the last finer rule all of it.
+  [[nodiscard]] double error() const { return error_; }
+
+  /// The cells of a histogram of so many samples: the number of each leaf's cell, and the counts that are
+  /// expected.
+  struct Cells {
+    std::vector<std::size_t> of_leaf; ///< by node
+    std::vector<double> expected;
+  };
+  [[nodiscard]] Cells cells(double samples) const;
+  /// The leaf that holds a direction above the surface.
+  [[nodiscard]] std::size_t leaf_of(const Direction& direction) const;
+
+private:
+  // A rectangle on a face of the cube about the sphere: 0 is z = 1, 1 to 4 are x = 1, x = -1, y = 1, y = -1.
+  struct Node {
+    int face;
+    double a0, a1, b0, b1;
+    int level;
+    std::size_t first_child = 0; // of four; 0: a leaf
+    Integrals integrals;
+  };
+  void split(std::size_t node);
+  [[nodiscard]] std::vector<std::size_t> leaves() const;
+  void evaluate(const std::vector<std::size_t>& nodes, const Function& function);
+  [[nodiscard]] double refine(std::size_t node);
+  void number_cells(std::size_t node, std::size_t cell, double samples, Cells& cells) const;
+
+  std::vector<Node> nodes_;
+  double error_ = 0;
+};
+
+} // namespace phlux::verify
