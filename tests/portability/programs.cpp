@@ -104,10 +104,6 @@ constexpr char glossy[] = "parallelograms spheres phong light_planar";
 constexpr char ambient[] = "parallelograms spheres phong black light_sphere ambient";
 constexpr char mirrors[] = "parallelograms spheres phong conductor light_planar";
 constexpr char triangles[] = "hierarchy triangles smooth_normals phong light_planar light_choice light_tree";
-constexpr char shapes[] =
-    "hierarchy triangles parallelograms ellipses spheres smooth_normals two_sided black phong light_planar";
-constexpr char lights[] = "parallelograms spheres phong light_planar light_sphere light_point light_spot "
-                          "light_directional light_constant light_choice";
 constexpr char sky[] = "spheres phong light_constant";
 
 // A reflectance model alone.
@@ -146,8 +142,6 @@ const std::vector<SceneProgram>& scene_programs() {
        with_techniques(by(Integrator::bidir, parts_of(triangles, "lobe-ks"), Weights::uniform))},
       {"mirrors-bidir", by(Integrator::bidir, parts_of(mirrors, "exact"))},
       // With every part, doubles do not fit into the registers that a thread can have.
-      {"shapes-double", in_double(parts_of(shapes, "exact"))},
-      {"lights-double", in_double(parts_of(lights, "exact"))},
       {"brushed-double", in_double(parts_of("parallelograms anisotropicphong light_planar", "exact"))},
       {"mirrors-double", in_double(parts_of(mirrors, "exact"))},
       {"mesh-double", in_double(parts_of(triangles, "exact"))},
