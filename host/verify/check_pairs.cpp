@@ -53,12 +53,15 @@ void check_pairs(const Subject& subject) {
     const auto seen = subject.device.evaluate(one.material, pairs);
     double worst = 0;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
-      if (compares(subject.strategy, one.at, pairs[i].b))
-        worst = std::max(worst, error_of(seen[i].density, density(subject.strategy, one.at, pairs[i].b)));
-      const Situation back = reversed(one.at, pairs[i].b);
-      if (compares(subject.strategy, back, pairs[i].a))
-        worst =
-            std::max(worst, error_of(seen[i].reversed_density, density(subject.strategy, back, pairs[i].a)));
+      // Each density is stated twice: by the call whose fixed direction is its own, and as the reverse of the
+      // other.
+      const auto see = [&](const Situation& at, const Direction& generated, double forward, double reverse) {
+        if (!compares(subject.strategy, at, generated)) return;
+        const double right = density(subject.strategy, at, generated);
+        worst = std::max({worst, error_of(forward, right), error_of(reverse, right)});
+      };
+      see(one.at, pairs[i].b, seen[i].density, seen[i].reversed_reverse);
+      see(reversed(one.at, pairs[i].b), pairs[i].a, seen[i].reversed_density, seen[i].reverse);
     }
     subject.report.see(subject.strategy.name, "both roles", worst, density_error, one.name);
   }

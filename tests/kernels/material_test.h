@@ -55,7 +55,9 @@ private:
   static phlux::scene::Scene scene_of(const std::vector<phlux::scene::Material>& materials) {
     phlux::scene::Scene scene;
     scene.materials = materials;
-    scene.spheres.push_back({}); // a scene has some shape
+    // A shape of each material: programs have the models of those that shapes have.
+    for (std::size_t i = 0; i < materials.size(); ++i)
+      scene.spheres.push_back({{3.0 * static_cast<double>(i), 0, 0}, 1, false, {static_cast<int>(i), -1}});
     return scene;
   }
   template<typename... Arguments>

@@ -1,0 +1,57 @@
+// The material of a scene with several models: each is loaded from its own record.
+#include <numbers>
+
+#include "device_test.h"
+#include "material_test.h"
+#include "temporary_folder.h"
+
+using namespace device_test;
+
+namespace {
+
+// Diffuse, with more parameters than the modified Phong model has words: one of them stands where that has
+// its index.
+constexpr const char* many_text = R"(#include "lobes/lobe.h"
+#define MANY_PARAMETERS(COLOUR, NUMBER) \
+  COLOUR(a, 0.5, 0, 1, "") COLOUR(b, 0.5, 0, 1, "") COLOUR(c, 0.5, 0, 1, "") COLOUR(d, 0.5, 0, 1, "") \
+  COLOUR(e, 0.5, 0, 1, "") COLOUR(f, 0.5, 0, 1, "")
+LOBE_STRUCT(Many, MANY)
+static inline LobeValue many_evaluate(Many m, Vec3 fixed, Vec3 generated) {
+  LobeValue v;
+  v.value = vec_scale((Real)(INV_PI), m.f);
+  v.density = larger(generated.z, (Real)(0.0f)) * INV_PI;
+  v.reverse = larger(fixed.z, (Real)(0.0f)) * INV_PI;
+  return v;
+}
+static inline LobeSample many_sample(Many m, Vec3 fixed, Real choice, RandomDraws random, Mask active) {
+  const Vec3 direction = cosine_direction(uniform_real(random.words.y), uniform_real(random.words.z));
+  return lobe_sample(direction, many_evaluate(m, fixed, direction));
+}
+static inline Vec3 many_reflectivity(Many m, Vec3 fixed) { return m.f; }
+)";
+
+phlux::scene::Material many() {
+  const TemporaryFolder folder;
+  folder.write("many.cl", many_text);
+  phlux::lobes::Library library;
+  library.add(folder / "many.cl");
+  phlux::scene::Material material;
+  material.model = library.find("many");
+  material.values.assign(6, phlux::scene::Rgb(0.5));
+  return material;
+}
+
+} // namespace
+
+TEST_CASE("materials: a model with more parameters than the Phong model stands beside it") {
+  const auto glossy = phong({.4, .3, .2}, {.5, .4, .3}, 10);
+  const Float3 fixed{0.6f, 0, 0.8f}, generated{-0.48f, 0.6f, 0.64f};
+  for (const Variant v : {Variant{1}, Variant{8}}) {
+    CAPTURE(v);
+    const MaterialProgram alone(v, {glossy}, "exact"), both(v, {glossy, many()}, "exact");
+    CHECK(both.density(0, {fixed}, {generated})[0] == alone.density(0, {fixed}, {generated})[0]);
+    // Where the model has no table, the Phong model's is read in its lanes too, and must be read inside.
+    CHECK(both.density(1, {fixed}, {generated})[0] == Approx(0.64 / std::numbers::pi).epsilon(1e-6));
+    CHECK(both.eval(1, {fixed}, {generated})[0].y == Approx(0.5 / std::numbers::pi).epsilon(1e-6));
+  }
+}
