@@ -120,5 +120,5 @@ TEST_CASE("retro.cl in a room: path, light and bidirectional tracing agree") {
       <emitter type="area"><rgb name="radiance" value="9, 7, 5"/></emitter></shape>
   </scene>)");
   scene.materials[1] = retro({0.9, 0.7, 0.5}, 0.7, 15);
-  check_against_path(scene, {light, bidir, bidir_power, path_hits}, settings_for(64, 5), 2);
+  check_against_path(scene, {light, bidir, bidir_power, path_light_samples}, settings_for(64, 5), 2);
 }

@@ -33,6 +33,7 @@ TEST_CASE("the parts of each shipped scene are just what is in it") {
       {"mesh",
        {"hierarchy", "triangles", "parallelograms", "smooth_normals", "black", "light_planar",
         "light_constant", "light_choice", "phong"}},
+      {"mirror-ball", {"parallelograms", "spheres", "black", "light_planar", "conductor", "phong"}},
       {"point-light", {"parallelograms", "spheres", "light_point", "phong"}},
       {"two-phong-spheres", {"parallelograms", "spheres", "black", "light_planar", "phong"}},
   };
