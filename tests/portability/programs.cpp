@@ -102,6 +102,7 @@ Parts few_of_all(Parts parts) {
 constexpr char diffuse[] = "parallelograms light_planar diffuse";
 constexpr char glossy[] = "parallelograms spheres phong light_planar";
 constexpr char ambient[] = "parallelograms spheres phong black light_sphere ambient";
+constexpr char mirrors[] = "parallelograms spheres phong conductor light_planar";
 constexpr char triangles[] = "hierarchy triangles smooth_normals phong light_planar light_choice light_tree";
 constexpr char sky[] = "spheres phong light_constant";
 
@@ -111,7 +112,8 @@ Program of_model(const std::string& file, const std::string& model, const std::s
   parts.lanes = width;
   Program program{fmt::format("{}-{}-{}.{}", file, model, strategy, width),
                   parts.source(fmt::format("measure/{}.cl", file))};
-  program.source.defines["FIXED_DIRECTIONS"] = "16"; // of sampling.cl and figures.cl
+  program.source.defines["FIXED_DIRECTIONS"] = "16";         // of sampling.cl and figures.cl
+  program.source.defines["SAMPLED_BY"] = "SAMPLED_BY_MODEL"; // of sampling.cl
   return program;
 }
 
@@ -138,7 +140,11 @@ const std::vector<SceneProgram>& scene_programs() {
       {"glossy-spheres-bidir-clamp", with_clamp(by(Integrator::bidir, parts_of(glossy, "exact")))},
       {"mesh-bidir",
        with_techniques(by(Integrator::bidir, parts_of(triangles, "lobe-ks"), Weights::uniform))},
-      {"everything-double", in_double(everything())},
+      {"mirrors-bidir", by(Integrator::bidir, parts_of(mirrors, "exact"))},
+      // With every part, doubles do not fit into the registers that a thread can have.
+      {"brushed-double", in_double(parts_of("parallelograms anisotropicphong light_planar", "exact"))},
+      {"mirrors-double", in_double(parts_of(mirrors, "exact"))},
+      {"mesh-double", in_double(parts_of(triangles, "exact"))},
       {"glossy-spheres-bidir-double", in_double(by(Integrator::bidir, parts_of(glossy, "exact")))}};
   return list;
 }
@@ -164,6 +170,11 @@ std::vector<Program> programs() {
       list.push_back(of_model("sampling", "phong", strategy, width));
     for (const auto& model : models()) list.push_back(of_model("verify", model->name, "exact", width));
     list.push_back(of_model("figures", "phong", "exact", width));
+    list.push_back(of_model("figures", "phong", "exact", width));
+    list.back().name = fmt::format("phong-example.{}", width);
+    list.back().source.root = "phong/example.cl";
+    list.back().source.extra =
+        "#include \"phong/reflectivity.h\"\n"; // which a lobe of the user's may include
     list.push_back(of_model("arithmetic", "phong", "exact", width));
     list.push_back(of_model("arithmetic", "phong", "exact", width));
     list.back().name = fmt::format("arithmetic-native.{}", width);
