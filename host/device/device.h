@@ -11,7 +11,7 @@
 namespace phlux::device {
 
 struct DeviceInfo {
-  int platform_index = 0, device_index = 0; ///< as in `--device P:D`
+  int platform_index = 0, device_index = 0; ///< the P and D of a specification P:D
   std::string platform, name, type;         ///< type: cpu, gpu or accelerator
   std::string driver, opencl_c_version;
   std::uint32_t compute_units = 0;
@@ -22,7 +22,7 @@ struct DeviceInfo {
 };
 
 struct PlatformInfo {
-  int index = 0; ///< as in `--device P:D`
+  int index = 0; ///< the P of a specification P:D
   std::string name, version;
   int devices = 0; ///< how many it has; a driver without its hardware has none
 };
@@ -46,7 +46,7 @@ struct Device {
   cl::CommandQueue queue;
 };
 
-/// The devices that the user's `--device` specifications name, as choice.h says; without any, that of the
+/// The devices that the specifications name, as choice.h says; without any, that of the
 /// environment variable PHLUX_DEVICE, and without that the default. A note of the choice is a warning, once.
 /// @throws DeviceError when a specification names nothing, listing what there is
 [[nodiscard]] std::vector<Device> open_devices(const std::vector<std::string>& specifications);

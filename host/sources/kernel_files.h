@@ -7,8 +7,7 @@
 
 namespace phlux::sources {
 
-/// Where kernel sources come from: the ones embedded in this binary, or a folder while developing
-/// (`--kernel-dir`).
+/// Where kernel sources come from: the ones embedded in this binary, or a folder while developing.
 class KernelFiles {
 public:
   KernelFiles() = default; ///< the embedded files
