@@ -19,7 +19,7 @@
 #include <catch2/catch.hpp>
 
 #include "device/kernel.h"
-#include "tested_kernels.h"
+#include "device_under_test.h"
 
 namespace device_test {
 
@@ -34,21 +34,9 @@ inline std::ostream& operator<<(std::ostream& to, const Variant& v) {
   return to << "WIDTH " << v.width << (v.portable ? ", portable" : "");
 }
 
-/// Never released, as drivers may be gone when static objects are destroyed.
-inline const phlux::device::Device& test_device() {
-  static const auto& device = *new phlux::device::Device(phlux::device::open_devices({}).front());
-  return device;
-}
-
-/// Interpreters of kernels are some thousand times slower: sweeps are thinned out there.
-inline std::size_t thinned(std::size_t count, std::size_t factor = 64) {
-  return test_device().info.platform == "Oclgrind" ? count / factor + 1 : count;
-}
-
-inline phlux::sources::KernelFiles kernel_files() {
-  const std::filesystem::path folder = phlux::test::tested_kernels();
-  return folder.empty() ? phlux::sources::KernelFiles() : phlux::sources::KernelFiles(folder);
-}
+using phlux::test::kernel_files;
+using phlux::test::test_device;
+using phlux::test::thinned;
 
 /// The text of a file of tests/kernels.
 inline std::string read_file(const std::string& name) {
