@@ -116,9 +116,14 @@ def needed_by_one_part(folder):
     """By part, the functions that only it needs."""
     paths = sorted(folder.glob("*/*.cl"))
     live = dict(zip(paths, in_parallel(lambda path: read(path).live, paths)))
-    def of_all(name):
-        return set().union(*(functions for path, functions in live.items() if path.stem == name))
-    return {part: of_all("all") - of_all(part) for part in sorted({path.stem for path in paths} - {"all"})}
+    files = {path.parent for path in paths}
+    parts = sorted({path.stem for path in paths} - {"all"})
+
+    def live_without(part, file):
+        return live[file / f"{part}.cl"] if file / f"{part}.cl" in live else live[file / "all.cl"]
+
+    everything = set().union(*(live[file / "all.cl"] for file in files))
+    return {part: everything - set().union(*(live_without(part, file) for file in files)) for part in parts}
 
 
 def check_scene(line, folder, parts):
