@@ -225,9 +225,14 @@ BuiltProgram build_portable(const Device& device, const sources::KernelFiles& fi
   return build_expanded(device, name, expand(files, source));
 }
 
+// Whether the first error of a refused text may be of the processor's own instructions, which are in lanes/.
+bool may_be_of_lanes(const std::string& refusal) {
+  static const std::regex other_file(R"((?!lanes/).*:\d+: .*)");
+  return !std::regex_match(refusal, other_file);
+}
+
 // Where the text leaves it to the compiler whether the lanes use the processor's own instructions, a compiler
-// that knows their builtins and refuses how they are used gets the text without them. What is wrong with a
-// text that it refuses either way is what it says of the one without.
+// that knows their builtins and refuses how they are used gets the text without them.
 BuiltProgram build_either(const Device& device, const sources::KernelFiles& files,
                           const ProgramSource& source, const std::string& name) {
   const std::string text = expand(files, source);
@@ -238,6 +243,7 @@ BuiltProgram build_either(const Device& device, const sources::KernelFiles& file
   try {
     return build_expanded(device, name, text);
   } catch (const DeviceError& refusal) {
+    if (!may_be_of_lanes(refusal.what())) throw;
     const BuiltProgram built = build_portable(device, files, source, name);
     portable_devices().add(device);
     spdlog::info(

@@ -173,20 +173,23 @@ TEST_CASE("a failed build names the kernel file and line") {
 
 TEST_CASE("a compiler that refuses the processor's own instructions gets portable lanes") {
   const TemporaryFolder folder;
-  folder.write("lanes.h", "#if !defined(LANES_PORTABLE) && !defined(__NO_COMPILER__)\n"
-                          "static inline float own(float x) { return nowhere(x); }\n"
-                          "#else\n"
-                          "static inline float own(float x) { return 5 * x; }\n"
-                          "#endif\n");
+  std::filesystem::create_directory(folder / "lanes");
+  folder.write("lanes/own.h", "#if !defined(LANES_PORTABLE) && !defined(__NO_COMPILER__)\n"
+                              "static inline float own(float x) { return nowhere(x); }\n"
+                              "#else\n"
+                              "static inline float own(float x) { return 5 * x; }\n"
+                              "#endif\n");
+  folder.write("own.cl", "#ifndef LANES_PORTABLE\nint refused = nowhere;\n#endif\n");
   const sources::KernelFiles files(folder.path());
   const std::string kernel = "__kernel void twice(__global float* x) { x[0] = own(x[0]); }\n";
   const auto device = test_device();
-  CHECK_THROWS_WITH(build(device, files, {"lanes.h", {}, {}, "__kernel void f(void) { wrong(); }\n"}),
+  CHECK_THROWS_WITH(build(device, files, {"lanes/own.h", {}, {}, "__kernel void f(void) { wrong(); }\n"}),
                     StartsWith("extra:1: ") && Contains("wrong"));
+  CHECK_THROWS_WITH(build(device, files, {"own.cl", {}, {}, ""}), StartsWith("own.cl:2: "));
   CHECK_FALSE(portable_lanes(device));
-  CHECK(run(device, build(device, files, {"lanes.h", {}, {}, kernel}).program, 2.0f) == 10.0f);
+  CHECK(run(device, build(device, files, {"lanes/own.h", {}, {}, kernel}).program, 2.0f) == 10.0f);
   CHECK(portable_lanes(device));
-  CHECK(run(device, build(device, files, {"lanes.h", {}, {}, kernel}).program, 3.0f) == 15.0f);
+  CHECK(run(device, build(device, files, {"lanes/own.h", {}, {}, kernel}).program, 3.0f) == 15.0f);
 }
 
 TEST_CASE("the first error of compilers' logs") {
