@@ -8,13 +8,13 @@
 #include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
-#include "bench/common/material_program.h"
-#include "bench/common/moments.h"
+#include "bench/common/case.h"
 #include "bench/common/report/draw.h"
 #include "bench/common/status_line.h"
 #include "bench/common/tables/csv.h"
 #include "bench/common/tables/provenance.h"
 #include "errors.h"
+#include "measure/moments.h"
 
 namespace phlux::bench {
 namespace {
@@ -202,8 +202,8 @@ void write_arithmetic_table(const ArithmeticOptions& options) {
         table.line(fmt::format(
             "{},{},{},{},{},{},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{},{},{}", group.name,
             formulas[i]->name, exponent, formulas[i]->used ? 1 : 0, e.values, e.failed, e.largest_relative,
-            e.rms_relative, e.largest_ulp, e.rms_ulp, median(timings.formulas[i]), least, most,
-            median(timings.loop), rounds, csv_value(device.info.name), lanes));
+            e.rms_relative, e.largest_ulp, e.rms_ulp, measure::median(timings.formulas[i]), least, most,
+            measure::median(timings.loop), rounds, csv_value(device.info.name), lanes));
       }
     }
 }

@@ -7,10 +7,11 @@
 
 #include <fmt/format.h>
 
-#include "bench/common/material_program.h"
+#include "bench/common/case.h"
 #include "bench/common/report/draw.h"
 #include "bench/common/tables/csv.h"
 #include "bench/common/tables/provenance.h"
+#include "measure/material_program.h"
 
 namespace phlux::bench {
 namespace {
@@ -34,9 +35,9 @@ class FigureKernels {
 public:
   explicit FigureKernels(const FiguresOptions& options)
       : program_(device::open_devices(options.devices).front(), kernel_files(options.kernel_dir),
-                 "measure/figures.cl", "exact", options.lanes),
+                 {.root = "measure/figures.cl", .lanes = options.lanes}),
         seed_{{options.seed, 0}} {
-    program_.set_material({diffuse, specular, exponent, incoming_degrees});
+    program_.set_materials({material_of({diffuse, specular, exponent, incoming_degrees})});
   }
 
   std::vector<float> pairs(const std::vector<float>& fixed, const std::vector<float>& generated) {
@@ -61,7 +62,7 @@ public:
   }
 
 private:
-  MaterialProgram program_;
+  measure::MaterialProgram program_;
   cl_uint2 seed_;
 };
 

@@ -10,7 +10,6 @@
 #include "accel/geometry.h"
 #include "bench/common/methods/method.h"
 #include "bench/common/methods/timed_render.h"
-#include "bench/common/moments.h"
 #include "bench/common/report/draw.h"
 #include "bench/common/status_line.h"
 #include "bench/common/tables/csv.h"
@@ -19,6 +18,7 @@
 #include "bench/scenes/scene_files.h"
 #include "device/device.h"
 #include "errors.h"
+#include "measure/moments.h"
 #include "render/parts.h"
 #include "scene_file/load.h"
 
@@ -86,7 +86,7 @@ Timing time_in_turns(const Setup& setup, int lanes) {
   }
   if (ratios.empty()) return {};
   const auto [least, most] = std::ranges::minmax(ratios);
-  return {median(float32), median(float64), median(ratios), least, most};
+  return {measure::median(float32), measure::median(float64), measure::median(ratios), least, most};
 }
 
 std::string number(double value) {

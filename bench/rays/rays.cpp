@@ -12,7 +12,6 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "bench/common/moments.h"
 #include "bench/common/report/draw.h"
 #include "bench/common/tables/csv.h"
 #include "bench/common/tables/provenance.h"
@@ -21,6 +20,7 @@
 #include "clock.h"
 #include "device/kernel.h"
 #include "errors.h"
+#include "measure/moments.h"
 #include "render/device_scene.h"
 
 namespace phlux::bench {
@@ -164,8 +164,8 @@ void measure(CsvFile& table, const RaysOptions& options, const std::string& labe
   }
   check_agreement(found, expected);
   print_line(table, fmt::format("{},{:.3f},{:.3f},{:.3f},{}", fmt::format(fmt::runtime(label), kind.name),
-                                median(rates), median(embree_rates), median(ratios),
-                                closest ? "rtcIntersect1" : "rtcOccluded1"));
+                                measure::median(rates), measure::median(embree_rates),
+                                measure::median(ratios), closest ? "rtcIntersect1" : "rtcOccluded1"));
 }
 
 } // namespace

@@ -9,7 +9,6 @@
 #include <fmt/ranges.h>
 
 #include "bench/common/methods/timed_render.h"
-#include "bench/common/moments.h"
 #include "bench/common/report/draw.h"
 #include "bench/common/status_line.h"
 #include "bench/common/tables/csv.h"
@@ -17,6 +16,7 @@
 #include "bench/remedies/many_lights_scene.h"
 #include "bench/stability/stability_scene.h"
 #include "device/device.h"
+#include "measure/moments.h"
 
 namespace phlux::bench {
 namespace {
@@ -93,7 +93,7 @@ struct Rounds { // renders before, or after
                    render.paths);
   }
   [[nodiscard]] Efficiency efficiency(const Reference& reference) const {
-    return {variance_per_sample(images, reference), median(seconds), median(rays)};
+    return {variance_per_sample(images, reference), measure::median(seconds), measure::median(rays)};
   }
 };
 

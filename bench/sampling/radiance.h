@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/common/material_program.h"
+#include "bench/common/case.h"
 
 namespace phlux::bench {
 

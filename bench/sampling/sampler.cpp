@@ -42,18 +42,17 @@ std::vector<float> in_lanes(const std::vector<std::array<double, 3>>& directions
   return values;
 }
 
-constexpr const char* root = "measure/sampling.cl";
-
-std::map<std::string, std::string> defines(const std::string& strategy, const scene::Model& model) {
+measure::MaterialProgram::Source source_of(const std::string& strategy, int lanes,
+                                           const lobes::ModelPointer& model) {
+  const bool is_phong = model->name == "phong"; // a program for another model has no code of strategies
   std::string sampled_by = "SAMPLED_BY_MODEL";
-  if (model.name != "phong" && strategy == "cosine") sampled_by = "SAMPLED_BY_COSINE";
-  if (model.name != "phong" && strategy == "uniform") sampled_by = "SAMPLED_BY_HEMISPHERE";
-  return {{"FIXED_DIRECTIONS", std::to_string(fixed_directions)}, {"SAMPLED_BY", sampled_by}};
-}
-
-// Of the Phong model, of which a program for another model has no code.
-std::string phong_strategy(const std::string& strategy, const scene::Model& model) {
-  return model.name == "phong" ? strategy : "exact";
+  if (!is_phong && strategy == "cosine") sampled_by = "SAMPLED_BY_COSINE";
+  if (!is_phong && strategy == "uniform") sampled_by = "SAMPLED_BY_HEMISPHERE";
+  return {"measure/sampling.cl",
+          {model},
+          is_phong ? strategy : "exact",
+          lanes,
+          {{"FIXED_DIRECTIONS", std::to_string(fixed_directions)}, {"SAMPLED_BY", sampled_by}}};
 }
 
 double seconds_of(const cl::Event& event) {
@@ -107,17 +106,16 @@ std::string Sampler::kernels_fingerprint(const sources::KernelFiles& files,
                                          const lobes::ModelPointer& model) {
   std::uint64_t hash = 0xcbf29ce484222325; // FNV-1a
   for (const std::string& strategy : strategies)
-    for (const char c : MaterialProgram::text(files, root, phong_strategy(strategy, *model), lanes,
-                                              defines(strategy, *model), model))
+    for (const char c :
+         device::significant(device::expand(files, source_of(strategy, lanes, model).program())))
       hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
   return fmt::format("{:016x}", hash);
 }
 
 Sampler::Sampler(const device::Device& device, const sources::KernelFiles& files, const std::string& strategy,
                  int lanes, const lobes::ModelPointer& model)
-    : program_(device, files, root, phong_strategy(strategy, *model), lanes, defines(strategy, *model),
-               model),
-      strategy_(strategy), items_(device.info.compute_units * (device.info.type == "cpu" ? 4 : 1024)),
+    : program_(device, files, source_of(strategy, lanes, model)), strategy_(strategy),
+      items_(device.info.compute_units * (device.info.type == "cpu" ? 4 : 1024)),
       local_(device.info.type == "cpu" ? 1 : 64), kernel_(program_.program(), "sample_moments") {}
 
 Sampler::Blocks Sampler::blocks(std::uint64_t samples) const {
@@ -136,14 +134,14 @@ std::uint32_t Sampler::samples_per_lane(std::uint64_t samples) const {
 }
 
 void Sampler::prepare(const Case& one) {
-  program_.set_material(one);
+  program_.set_materials({material_of(one)});
   if (one == prepared_) return;
   directions_ = program_.upload(in_lanes(directions_at(one.degrees), program_.lanes()));
   prepared_ = one;
 }
 
 double Sampler::reflectivity_of(const Case& one) {
-  program_.set_material(one);
+  program_.set_materials({material_of(one)});
   double sum = 0;
   for (const auto& [x, y, z] : directions_at(one.degrees)) {
     const cl_float4 fixed{{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z), 0}};
@@ -171,7 +169,7 @@ Sampler::Run Sampler::run(const Subject& subject, std::uint64_t samples, std::ui
   std::vector<cl_uint> counts(items_ * counters);
   const cl::Buffer device_sums(device.context, CL_MEM_WRITE_ONLY, sums.size() * sizeof(float));
   const cl::Buffer device_counts(device.context, CL_MEM_WRITE_ONLY, counts.size() * sizeof(cl_uint));
-  cl_uint index = program_.bind_material(kernel_);
+  cl_uint index = program_.bind_materials(kernel_);
   const auto set = [&](const auto&... arguments) { (kernel_.setArg(index++, arguments), ...); };
   set(directions_, subject.seed, cl_uint{first}, static_cast<cl_int>(block_count),
       static_cast<cl_int>(block_samples), static_cast<cl_int>(subject.roulette),

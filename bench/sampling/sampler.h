@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "bench/common/material_program.h"
-#include "bench/common/moments.h"
 #include "bench/sampling/radiance.h"
+#include "measure/material_program.h"
+#include "measure/moments.h"
 
 namespace phlux::bench {
 
@@ -52,7 +52,7 @@ public:
                                                        const lobes::ModelPointer& model);
 
   struct Run {
-    PowerSums sums;
+    measure::PowerSums sums;
     std::uint64_t rays = 0;    ///< samples that survive roulette and are above the surface
     std::uint64_t draws = 0;   ///< directions drawn, rejected ones included
     std::uint64_t defects = 0; ///< invalid samples: not unit, density not positive, or not finite
@@ -86,7 +86,7 @@ private:
   [[nodiscard]] Blocks blocks(std::uint64_t samples) const;
   void prepare(const Case& one);
 
-  MaterialProgram program_;
+  measure::MaterialProgram program_;
   std::string strategy_;
   std::size_t items_, local_;
   cl::Kernel kernel_;

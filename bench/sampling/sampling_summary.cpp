@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "bench/common/moments.h"
 #include "bench/sampling/sampling_table.h"
+#include "measure/moments.h"
 
 namespace phlux::bench {
 namespace {
@@ -59,7 +59,8 @@ void print_sampling_summary(const std::vector<std::string>& strategies, const Sa
     const Summary& s = found->second;
     fmt::print("{:<22} {:>6} {:>7} {:>20.2f} {:>8} {:>24} {:>26}\n", strategy, s.rows, s.marked,
                s.largest_bias, s.defects,
-               s.relative_times.empty() ? "" : fmt::format("{:.2f}", median(s.relative_times)), s.best);
+               s.relative_times.empty() ? "" : fmt::format("{:.2f}", measure::median(s.relative_times)),
+               s.best);
   }
 }
 

@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "bench/common/moments.h"
 #include "bench/common/tables/csv.h"
+#include "measure/moments.h"
 
 namespace phlux::bench {
 namespace {
@@ -82,7 +82,7 @@ std::string Marks::text() const {
 }
 
 Marks marks_of(const SamplingRow& row) {
-  const Moments m = moments_of(row.run.sums);
+  const measure::Moments m = moments_of(row.run.sums);
   const double exact = row.subject.reflected;
   const bool far = !(std::abs(bias_in_sigmas(m, exact)) < most_sigmas) &&
                    !(std::abs(m.mean - exact) < arithmetic_error * exact);
@@ -116,13 +116,13 @@ RowsByIntegral rows_by_integral(const SavedTable& table) {
 }
 
 std::string sampling_line(const SamplingRow& row, const std::string& device, int lanes) {
-  const Moments m = moments_of(row.run.sums);
+  const measure::Moments m = moments_of(row.run.sums);
   const Marks marks = marks_of(row);
   const auto per_sample = [&](std::uint64_t count) {
     return static_cast<double>(count) / static_cast<double>(row.run.sums.count);
   };
   const double factor = marks.diverges ? std::numeric_limits<double>::quiet_NaN() : 1;
-  const double variance = factor * m.variance, nanoseconds = median(row.nanoseconds),
+  const double variance = factor * m.variance, nanoseconds = measure::median(row.nanoseconds),
                rays = per_sample(row.run.rays);
   const auto [least, most] = std::ranges::minmax(row.nanoseconds);
   return fmt::format("{},{},{},{:.9g},{:.9g},{:.4g},{:.8g},{:.4g},{:.6g},{:.5g},{:.6g},{:.6g},{:.6g},{},{},{:"
@@ -133,7 +133,7 @@ std::string sampling_line(const SamplingRow& row, const std::string& device, int
                      factor * m.variance_standard_error, rays, nanoseconds, variance * nanoseconds,
                      variance * rays, per_sample(row.run.draws), row.subject.roulette ? 1 : 0,
                      row.run.defects, least, most, row.subject.seed.s[0], csv_value(device), lanes,
-                     median(row.wall_nanoseconds), row.nanoseconds.size(), m.variance, marks.text(),
+                     measure::median(row.wall_nanoseconds), row.nanoseconds.size(), m.variance, marks.text(),
                      light_names()[static_cast<std::size_t>(row.subject.light)]);
 }
 

@@ -11,7 +11,6 @@
 #include "files/output.h"
 #include "verify/lobe/contradictions.h"
 #include "verify/lobe/verify_lobe.h"
-#include "verify/statistics.h"
 #include "verify/verify.h"
 
 namespace phlux::cli {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "lobes/program.h"
-#include "verify/sphere_grid.h"
+#include "measure/sphere_grid.h"
 #include "verify/strategy.h"
 
 namespace phlux::verify {

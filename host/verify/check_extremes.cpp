@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "verify/checks.h"
+#include "verify/extremes.h"
 
 namespace phlux::verify {
 namespace {

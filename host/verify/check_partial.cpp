@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "measure/statistics.h"
 #include "verify/checks.h"
 #include "verify/disk_grid.h"
-#include "verify/statistics.h"
 
 namespace phlux::verify {
 namespace {

@@ -4,8 +4,9 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "measure/moments.h"
+#include "measure/statistics.h"
 #include "verify/checks.h"
-#include "verify/statistics.h"
 
 namespace phlux::verify {
 namespace {
@@ -100,13 +101,14 @@ void check_means(const Subject& subject, const Drawn& drawn, double& pooled, int
   const double kept = strategy.biased() ? 1 - drawn.cells.below : 1; // of the specular part
   const Rgb expected = at.model.diffuse + at.model.specular * (at.reflectivity * kept);
   for (int channel = 0; channel < 3; ++channel) {
-    Moments moments;
-    for (const Sample& s : drawn.samples) moments.add(s.survives ? s.weight[channel] : 0.0);
+    PowerSums sums;
+    for (const Sample& s : drawn.samples) sums.add(s.survives ? s.weight[channel] : 0.0);
+    const Moments moments = moments_of(sums);
     // Weights of float32, with a reflectivity from a table, cannot be nearer than their own error.
     constexpr double float_error = 1e-5;
-    const double off = moments.mean() - expected[channel];
+    const double off = moments.mean - expected[channel];
     const double allowed = float_error * expected[channel];
-    const double error = moments.standard_error();
+    const double error = moments.mean_standard_error;
     const double beyond = std::max(0.0, std::abs(off) - allowed);
     const double sigmas = beyond == 0 ? 0 : beyond / error; // infinite where all weights are alike and wrong
     subject.report.see_p(strategy.name, "means", normal_p(sigmas),

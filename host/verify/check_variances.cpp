@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "measure/moments.h"
 #include "scene/scene.h"
 #include "verify/checks.h"
-#include "verify/statistics.h"
 
 namespace phlux::verify {
 namespace {
@@ -42,12 +42,12 @@ constexpr KnownLoss known_losses[] = {
 
 Moments draw(const DeviceModel& device, const Case& one, std::size_t count, std::uint32_t seed,
              bool roulette) {
-  Moments moments;
+  PowerSums sums;
   for (std::size_t first = 0; first < count; first += batch)
     for (const Sample& s : device.sample(one.material, one.at.fixed, std::min(batch, count - first), seed,
                                          roulette, static_cast<std::uint32_t>(first)))
-      moments.add(s.survives ? s.weight.r : 0.0);
-  return moments;
+      sums.add(s.survives ? s.weight.r : 0.0);
+  return moments_of(sums);
 }
 
 void check_known_variances(const Subject& subject, const DeviceModel& device, const VarianceCases& cases,
@@ -60,15 +60,15 @@ void check_known_variances(const Subject& subject, const DeviceModel& device, co
     const double mean = one.at.total().r, allowed = 1e-5 * mean; // float32
     if (!strategy.biased())
       subject.report.see(strategy.name, "mean, long",
-                         std::max(0.0, std::abs(m.mean() - mean) - allowed) / m.standard_error(), most_sigmas,
-                         one.name);
+                         std::max(0.0, std::abs(m.mean - mean) - allowed) / m.mean_standard_error,
+                         most_sigmas, one.name);
     // Weight 1 leaves the variance of roulette alone.
     const double known = strategy.name == "exact" || strategy.name == "rejection"
                              ? mean * (1 - mean)
                              : known_variances[i].of(strategy.name);
     if (known > 0)
       subject.report.see(strategy.name, "variance",
-                         std::max(0.0, std::abs(m.variance() - known) - 1e-6) / m.variance_standard_error(),
+                         std::max(0.0, std::abs(m.variance - known) - 1e-6) / m.variance_standard_error,
                          most_sigmas, one.name);
   }
 }
@@ -81,8 +81,8 @@ void check_known_losses(const Subject& subject, const DeviceModel& device, const
     const Case one =
         make_case(cases.materials, static_cast<int>(std::size(known_variances) + i), known_losses[i].degrees);
     const Moments m = draw(device, one, count, 950 + static_cast<std::uint32_t>(i), true);
-    const double specular = one.at.reflectivity, loss = 1 - m.mean() / specular,
-                 error = m.standard_error() / specular;
+    const double specular = one.at.reflectivity, loss = 1 - m.mean / specular,
+                 error = m.mean_standard_error / specular;
     const double derived = cells_of(one.at).below; // how often the estimate is 0
     subject.report.see(subject.strategy.name, check, std::abs(loss - derived) / error, most_sigmas, one.name);
     subject.report.see(subject.strategy.name, "loss as known",

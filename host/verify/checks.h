@@ -1,8 +1,8 @@
 // The checks of one strategy, each in a file of its own. They see figures into the report and judge nothing.
 #pragma once
 
+#include "measure/device_model.h"
 #include "verify/cases.h"
-#include "verify/device_model.h"
 #include "verify/report.h"
 #include "verify/strategy.h"
 

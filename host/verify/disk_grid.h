@@ -4,7 +4,8 @@
 
 #include <vector>
 
-#include "verify/sphere_grid.h"
+#include "measure/sphere_grid.h"
+#include "verify/model.h"
 
 namespace phlux::verify {
 

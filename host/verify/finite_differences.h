@@ -3,7 +3,8 @@
 
 #include <vector>
 
-#include "verify/device_model.h"
+#include "measure/device_model.h"
+#include "verify/model.h"
 
 namespace phlux::verify {
 

@@ -5,14 +5,12 @@
 #include <string>
 #include <vector>
 
-#include <glm/vec3.hpp>
-
+#include "measure/directions.h"
 #include "scene/model.h"
 
 namespace phlux::verify {
 
-using Direction = glm::dvec3; ///< in a frame whose z is the surface normal; of unit length or nearly so
-using Rgb = glm::dvec3;
+using namespace measure; // verification is of what host/measure measures
 
 struct Model {
   Rgb diffuse{0}, specular{0};

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "verify/statistics.h"
+#include "measure/statistics.h"
 
 namespace phlux::verify {
 
@@ -55,7 +55,8 @@ void Report::note(const std::string& strategy, const std::string& check, const s
 
 void Report::judge() {
   for (Result& result : results_) {
-    if (result.sense == Sense::probability) result.limit = one_of(questions_);
+    if (result.sense == Sense::probability)
+      result.limit = measure::level_of_each(false_alarm_rate, questions_);
     result.passed =
         result.sense == Sense::probability ? result.worst > result.limit : result.worst <= result.limit;
   }

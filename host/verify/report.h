@@ -9,6 +9,10 @@
 
 namespace phlux::verify {
 
+/// A verification raises a false alarm with this probability, were its seeds drawn anew. They are fixed: what
+/// passes on a device keeps passing there.
+inline constexpr double false_alarm_rate = 1e-4;
+
 /// What was expected and what was seen in each cell; written to a file when its check fails.
 struct Histogram {
   std::vector<std::string> columns;

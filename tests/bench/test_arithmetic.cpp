@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "bench/arithmetic/arithmetic.h"
-#include "bench/common/material_program.h"
+#include "bench/common/case.h"
 #include "bench/common/tables/csv.h"
 #include "bench/common/tables/saved_table.h"
 #include "kernel_copy.h"

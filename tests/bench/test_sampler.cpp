@@ -41,7 +41,7 @@ TEST_CASE("Variances agree with quadrature") {
       for (const Known& row : known) {
         CAPTURE(lanes, strategy, row.one.exponent, row.one.degrees);
         const auto run = sampler.run(row.one, 1 << 20, {{7, 7}});
-        const Moments m = moments_of(run.sums);
+        const measure::Moments m = moments_of(run.sums);
         CHECK(run.sums.count >= 1 << 20);
         CHECK(run.defects == 0);
         CHECK(std::abs(m.variance - row.*variance) < sigmas * m.variance_standard_error);
@@ -56,7 +56,7 @@ TEST_CASE("exact: the variance is that of the roulette, and all rays have weight
        {Case{.4, .05, 50, 85}, Case{.4, .4, 10, 80}, Case{.1, .8, 1e4, 60}, Case{0, .9, 1, 30}}) {
     CAPTURE(one.exponent, one.degrees);
     const auto run = sampler.run(one, 1 << 20, {{3, 1}});
-    const Moments m = moments_of(run.sums);
+    const measure::Moments m = moments_of(run.sums);
     const double share = static_cast<double>(run.rays) / static_cast<double>(run.sums.count);
     CHECK(m.mean == Approx(share).epsilon(1e-5)); // weight 1
     CHECK(m.variance == Approx(share * (1 - share)).epsilon(1e-4));
@@ -103,11 +103,11 @@ TEST_CASE("The printed estimate is biased, the corrected one is not") {
   const double specular = exact_reflectivity(one) - one.diffuse;
   Sampler printed(test_device(), {}, "lobe-estimate-printed", 0),
       guarded(test_device(), {}, "lobe-estimate", 0);
-  const Moments p = moments_of(printed.run(one, 1 << 22, {{1, 1}}).sums);
+  const measure::Moments p = moments_of(printed.run(one, 1 << 22, {{1, 1}}).sums);
   CHECK(bias_in_sigmas(p, exact_reflectivity(one)) < -10);
   CHECK((p.mean - one.diffuse) / specular ==
         Approx(1 - 0.285).margin(sigmas * p.mean_standard_error / specular));
-  const Moments g = moments_of(guarded.run(one, 1 << 22, {{1, 1}}).sums);
+  const measure::Moments g = moments_of(guarded.run(one, 1 << 22, {{1, 1}}).sums);
   CHECK(std::abs(bias_in_sigmas(g, exact_reflectivity(one))) < sigmas);
 }
 

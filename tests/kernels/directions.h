@@ -18,6 +18,10 @@ struct Float3 {
 inline Float3 to_float(const glm::dvec3& v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
+/// The nearest float32 vector, which is what the device is given.
+inline glm::dvec3 as_float(const glm::dvec3& v) {
+  return glm::vec3(v);
+}
 inline glm::dvec3 to_double(const Float3& v) {
   return {v.x, v.y, v.z};
 }

@@ -1,4 +1,4 @@
-// Materials on the device: evaluated, sampled, and so on, for any strategy and width.
+// Materials on the device under test: evaluated, sampled and integrated, for any strategy and width.
 #pragma once
 
 #include <string>
@@ -7,68 +7,30 @@
 #include "device_test.h"
 #include "directions.h"
 #include "lobes/models.h"
-#include "scene_test.h"
+#include "measure/device_model.h"
 
 namespace device_test {
 
-struct Sample {
-  Float3 direction, weight;
-  float density;
-  int survives, draws;
-};
-
-class MaterialProgram {
-public:
-  MaterialProgram(Variant variant, const std::vector<phlux::scene::Material>& materials,
-                  const std::string& strategy)
-      : program_(variant, "material.cl", scene_of(materials), strategy) {}
-
-  [[nodiscard]] std::vector<Float3> eval(int material, const std::vector<Float3>& fixed,
-                                         const std::vector<Float3>& generated) const {
-    std::vector<Float3> values(generated.size());
-    run("evaluate", values.size(), material, fixed, generated, out(values));
-    return values;
-  }
-  [[nodiscard]] std::vector<float> density(int material, const std::vector<Float3>& fixed,
-                                           const std::vector<Float3>& generated) const {
-    std::vector<float> values(generated.size());
-    run("density_of", values.size(), material, fixed, generated, out(values));
-    return values;
-  }
-  /// For directions in the plane of x and z.
-  [[nodiscard]] std::vector<Float3> reflectivity(int material, const std::vector<float>& cosines) const {
-    std::vector<Float3> values(cosines.size());
-    run("reflectivity_of", values.size(), material, cosines, out(values));
-    return values;
-  }
-  [[nodiscard]] std::vector<Sample> sample(int material, const Float3& fixed, std::size_t count,
-                                           std::uint32_t seed, bool roulette) const {
-    std::vector<std::uint32_t> paths(count);
-    for (std::size_t i = 0; i < count; ++i) paths[i] = static_cast<std::uint32_t>(i);
-    std::vector<Sample> samples(count);
-    const cl_uint2 key = {{seed, 0x5eed}};
-    run("sample_of", count, material, std::vector<Float3>{fixed}, key, roulette ? 1 : 0, paths, out(samples));
-    return samples;
-  }
-
-private:
-  static phlux::scene::Scene scene_of(const std::vector<phlux::scene::Material>& materials) {
-    phlux::scene::Scene scene;
-    scene.materials = materials;
-    // A shape of each material: programs have the models of those that shapes have.
-    for (std::size_t i = 0; i < materials.size(); ++i)
-      scene.spheres.push_back({{3.0 * static_cast<double>(i), 0, 0}, 1, false, {static_cast<int>(i), -1}});
-    return scene;
-  }
-  template<typename... Arguments>
-  void run(const char* name, std::size_t count, const Arguments&... arguments) const {
-    program_.run(name, count, arguments...);
-  }
-
-  SceneProgram program_;
-};
-
 using phlux::lobes::phong;
+using phlux::measure::DeviceModel;
+using phlux::measure::PairValues;
+using phlux::measure::Sample;
+
+inline DeviceModel device_model(Variant variant, const std::vector<phlux::scene::Material>& materials,
+                                const std::string& strategy) {
+  std::map<std::string, std::string> defines;
+  if (variant.portable) defines["LANES_PORTABLE"] = "1";
+  return {test_device(), kernel_files(), variant.width, strategy, materials, defines};
+}
+
+/// Of many generated directions for one fixed direction.
+inline std::vector<PairValues> evaluate(const DeviceModel& model, int material, const glm::dvec3& fixed,
+                                        const std::vector<glm::dvec3>& generated) {
+  std::vector<phlux::measure::Pair> pairs;
+  for (const glm::dvec3& direction : generated) pairs.push_back({fixed, direction});
+  return model.evaluate(material, pairs);
+}
+
 inline phlux::scene::Material anisotropic(const phlux::scene::Rgb& diffuse, const phlux::scene::Rgb& specular,
                                           double exponent_u, double exponent_v) {
   return phlux::lobes::anisotropic_phong(diffuse, specular, exponent_u, exponent_v);

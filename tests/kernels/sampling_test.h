@@ -5,20 +5,28 @@
 #include <vector>
 
 #include "material_test.h"
-#include "quadrature.h"
-#include "statistics.h"
+#include "measure/moments.h"
+#include "measure/sphere_grid.h"
+#include "questions.h"
 
 namespace device_test {
 
+using phlux::measure::lobe_cuts;
+using phlux::measure::SphereGrid;
+
+inline std::vector<glm::dvec3> directions_of(const std::vector<phlux::measure::Node>& nodes) {
+  std::vector<glm::dvec3> directions;
+  for (const auto& node : nodes) directions.push_back(node.direction);
+  return directions;
+}
+
 /// The density on the device, integrated over the cells of a grid.
-inline std::vector<double> density_in_cells(const MaterialProgram& program, int material, const Float3& fixed,
+inline std::vector<double> density_in_cells(const DeviceModel& model, int material, const glm::dvec3& fixed,
                                             const SphereGrid& grid) {
   const auto nodes = grid.nodes();
-  std::vector<Float3> directions;
-  for (const Node& node : nodes) directions.push_back(to_float(node.direction));
-  const auto density = program.density(material, {fixed}, directions);
+  const auto values = evaluate(model, material, fixed, directions_of(nodes));
   std::vector<double> cells(grid.cells(), 0.0);
-  for (std::size_t i = 0; i < nodes.size(); ++i) cells[nodes[i].cell] += nodes[i].weight * density[i];
+  for (std::size_t i = 0; i < nodes.size(); ++i) cells[nodes[i].cell] += nodes[i].weight * values[i].density;
   return cells;
 }
 
@@ -29,10 +37,9 @@ inline double directions_p(const std::vector<Sample>& samples, const SphereGrid&
   std::vector<double> observed(cells.size() + 1, 0.0);
   double kept = 0, inside = 0;
   for (const Sample& s : samples) {
-    if (s.survives == 0) continue;
-    const auto direction = to_double(s.direction);
-    const bool unit = std::abs(glm::dot(direction, direction) - 1) < 1e-5;
-    observed[unit ? grid.cell_of(direction) : cells.size()] += 1;
+    if (!s.survives) continue;
+    const bool unit = std::abs(glm::dot(s.direction, s.direction) - 1) < 1e-5;
+    observed[unit ? grid.cell_of(s.direction) : cells.size()] += 1;
     kept += 1;
   }
   for (const double cell : cells) inside += cell;
@@ -44,18 +51,12 @@ inline double directions_p(const std::vector<Sample>& samples, const SphereGrid&
 /// That the mean of what samples carry on, where they survive, is `reflectivity`, in the channel where it
 /// fits worst; the caller counts three questions.
 inline double weights_p(const std::vector<Sample>& samples, const glm::dvec3& reflectivity) {
-  glm::dvec3 sum(0), squares(0);
-  for (const Sample& s : samples) {
-    const auto weight = s.survives != 0 ? to_double(s.weight) : glm::dvec3(0);
-    sum += weight;
-    squares += weight * weight;
-  }
-  const auto count = static_cast<double>(samples.size());
   double worst = 1;
   for (int channel = 0; channel < 3; ++channel) {
-    const double mean = sum[channel] / count;
-    const double variance = std::max(0.0, squares[channel] / count - mean * mean);
-    worst = std::min(worst, mean_p(mean, std::sqrt(variance / count), reflectivity[channel]));
+    phlux::measure::PowerSums sums;
+    for (const Sample& s : samples) sums.add(s.survives ? s.weight[channel] : 0);
+    const auto moments = moments_of(sums);
+    worst = std::min(worst, mean_p(moments.mean, moments.mean_standard_error, reflectivity[channel]));
   }
   return worst;
 }
@@ -64,8 +65,8 @@ inline double weights_p(const std::vector<Sample>& samples, const glm::dvec3& re
 /// or that a density does not go with.
 inline std::size_t bad_weights(const std::vector<Sample>& samples) {
   return static_cast<std::size_t>(std::count_if(samples.begin(), samples.end(), [](const Sample& s) {
-    if (s.survives == 0) return false;
-    const glm::dvec3 weight = to_double(s.weight);
+    if (!s.survives) return false;
+    const glm::dvec3& weight = s.weight;
     const bool fine = weight.x >= 0 && weight.y >= 0 && weight.z >= 0 && glm::dot(weight, weight) < 1e30;
     const bool carries = weight != glm::dvec3(0);
     return !fine || s.draws < 1 || (carries && !(s.density > 0 && s.direction.z > 0));
@@ -73,10 +74,10 @@ inline std::size_t bad_weights(const std::vector<Sample>& samples) {
 }
 
 /// The largest relative difference between a sample's density and that of its direction, and, where `whole`,
-/// between its weight and eval cos / density; samples above the surface and without roulette.
-inline double disagreement(const MaterialProgram& program, int material, const Float3& fixed,
+/// between its weight and f_r cos / density; samples above the surface and without roulette.
+inline double disagreement(const DeviceModel& model, int material, const glm::dvec3& fixed,
                            const std::vector<Sample>& samples, bool whole) {
-  std::vector<Float3> directions;
+  std::vector<glm::dvec3> directions;
   std::vector<Sample> above;
   for (const Sample& s : samples)
     if (s.direction.z > 0) {
@@ -84,16 +85,15 @@ inline double disagreement(const MaterialProgram& program, int material, const F
       above.push_back(s);
     }
   if (above.empty()) return 0;
-  const auto density = program.density(material, {fixed}, directions);
-  const auto value = program.eval(material, {fixed}, directions);
+  const auto values = evaluate(model, material, fixed, directions);
   double worst = 0;
   for (std::size_t i = 0; i < above.size(); ++i) {
-    const double stated = above[i].density;
-    worst = std::max(worst, std::abs(stated - density[i]) / std::max<double>(density[i], 1e-30));
+    const double stated = above[i].density, density = values[i].density;
+    worst = std::max(worst, std::abs(stated - density) / std::max(density, 1e-30));
     if (!whole) continue;
-    const auto right = to_double(value[i]) * (above[i].direction.z / stated);
+    const auto right = values[i].value * (above[i].direction.z / stated);
     for (int channel = 0; channel < 3; ++channel) {
-      const double weight = to_double(above[i].weight)[channel];
+      const double weight = above[i].weight[channel];
       if (right[channel] > 1e-20) worst = std::max(worst, std::abs(weight - right[channel]) / right[channel]);
     }
   }

@@ -17,8 +17,8 @@ const std::vector<phlux::scene::Material> materials{anisotropic({.4, .3, .2}, {.
                                                     anisotropic({.9, .5, .1}, {0, .02, .04}, 3, 0)};
 constexpr double angles[] = {0, 40, 80}; // degrees
 
-Float3 fixed_at(double degrees) {
-  return to_float(polar(degrees * pi / 180, 0.7));
+glm::dvec3 fixed_at(double degrees) {
+  return as_float(polar(degrees * pi / 180, 0.7));
 }
 
 double fifth(double x) {
@@ -40,7 +40,7 @@ glm::dvec3 formula(const phlux::scene::Material& m, const glm::dvec3& k1, const 
   return lobe * fresnel + under * phlux::test::diffuse_of(m) * (1.0 - phlux::test::specular_of(m));
 }
 
-SphereGrid grid_of(const phlux::scene::Material& m, const Float3& fixed) {
+SphereGrid grid_of(const phlux::scene::Material& m, const glm::dvec3& fixed) {
   // A lobe of half vectors is about four times as wide, in solid angle, as seen in mirrored directions.
   auto cuts = lobe_cuts(phlux::test::exponent_of(m) / 4);
   for (const double cut : lobe_cuts(phlux::test::exponent_v_of(m) / 4)) cuts.push_back(cut);
@@ -51,26 +51,26 @@ SphereGrid grid_of(const phlux::scene::Material& m, const Float3& fixed) {
 
 TEST_CASE("anisotropic: the value is the formula's, the same both ways, and 0 below the surface") {
   Random random(41);
-  std::vector<Float3> a, b;
+  std::vector<phlux::measure::Pair> pairs;
   for (std::size_t i = 0; i < thinned(8000); ++i) {
     const glm::dvec3 from = random.direction_above();
     const glm::dvec3 mirrored(-from.x, -from.y, from.z);
     const double spread = std::exp2(-random.uniform(0, 8));
-    a.push_back(to_float(from));
-    b.push_back(
-        to_float(i % 2 == 0 ? random.direction() : glm::normalize(mirrored + spread * random.point())));
+    const glm::dvec3 to =
+        i % 2 == 0 ? random.direction() : glm::normalize(mirrored + spread * random.point());
+    pairs.push_back({as_float(from), as_float(to)});
   }
-  a.push_back({0, 0, 1}); // h = N: 0/0 in the formula
-  b.push_back({0, 0, 1});
+  pairs.push_back({{0, 0, 1}, {0, 0, 1}}); // h = N: 0/0 in the formula
   for (const Variant v : variants) {
-    const MaterialProgram program(v, materials, "mixture");
+    const DeviceModel model = device_model(v, materials, "mixture");
     for (int m = 0; m < static_cast<int>(materials.size()); ++m) {
       CAPTURE(v, m);
       const auto& material = materials[static_cast<std::size_t>(m)];
-      const auto value = program.eval(m, a, b), back = program.eval(m, b, a);
-      for (std::size_t i = 0; i < a.size(); ++i) {
-        const auto from = to_double(a[i]), to = to_double(b[i]);
-        const auto right = formula(material, from, to), got = to_double(value[i]), other = to_double(back[i]);
+      const auto values = model.evaluate(m, pairs);
+      for (std::size_t i = 0; i < pairs.size(); ++i) {
+        const auto& [from, to] = pairs[i];
+        const auto right = formula(material, from, to);
+        const auto &got = values[i].value, &other = values[i].reversed;
         CAPTURE(i, from.x, from.y, from.z, to.x, to.y, to.z);
         // h is right to a few 2^-24 over |k1 + k2| / 2 = h.k; (N.h)^n multiplies that by n tan(h), its
         // logarithm's rounding by n / (N.h)^2. The diffuse part, 1 - (1 - c/2)^5, cancels at grazing angles.
@@ -86,7 +86,7 @@ TEST_CASE("anisotropic: the value is the formula's, the same both ways, and 0 be
           REQUIRE(std::abs(got[channel] - right[channel]) <= tolerance * right[channel] + 1e-30);
           REQUIRE(std::abs(got[channel] - other[channel]) <= 2 * tolerance * right[channel] + 1e-30);
         }
-        if (b[i].z <= 0) REQUIRE(got == glm::dvec3(0));
+        if (to.z <= 0) REQUIRE(got == glm::dvec3(0));
       }
     }
   }
@@ -97,14 +97,14 @@ TEST_CASE(
     "[slow]") {
   const std::size_t questions = std::size(variants) * materials.size() * std::size(angles) * 2 * 4;
   for (const Variant v : variants) {
-    const MaterialProgram program(v, materials, "exact");
+    const DeviceModel model = device_model(v, materials, "exact");
     std::uint32_t seed = static_cast<std::uint32_t>(v.width) * 100 + (v.portable ? 50 : 0);
     for (int m = 0; m < static_cast<int>(materials.size()); ++m)
       for (const double angle : angles) {
         CAPTURE(v, m, angle);
-        const Float3 fixed = fixed_at(angle);
+        const glm::dvec3 fixed = fixed_at(angle);
         const SphereGrid grid = grid_of(materials[static_cast<std::size_t>(m)], fixed);
-        auto cells = density_in_cells(program, m, fixed, grid);
+        auto cells = density_in_cells(model, m, fixed, grid);
         double integral = 0, below = 0;
         for (std::size_t cell = 0; cell < cells.size(); ++cell) integral += cells[cell];
         for (std::size_t cell = 0; cell < cells.size(); cell += 2) below += std::exchange(cells[cell], 0.0);
@@ -112,20 +112,18 @@ TEST_CASE(
         CHECK(integral - below >= 0.3);
 
         glm::dvec3 reflectivity(0);
-        std::vector<Float3> directions;
         const auto nodes = grid.nodes();
-        for (const Node& node : nodes) directions.push_back(to_float(node.direction));
-        const auto values = program.eval(m, {fixed}, directions);
+        const auto values = evaluate(model, m, fixed, directions_of(nodes));
         for (std::size_t i = 0; i < nodes.size(); ++i)
-          reflectivity += to_double(values[i]) * nodes[i].weight * nodes[i].direction.z;
+          reflectivity += values[i].value * nodes[i].weight * nodes[i].direction.z;
 
         for (const bool roulette : {false, true}) {
           CAPTURE(roulette);
-          const auto samples = program.sample(m, fixed, 20000, ++seed, roulette);
+          const auto samples = model.sample(m, fixed, 20000, ++seed, roulette);
           CHECK(bad_weights(samples) == 0);
           CHECK(directions_p(samples, grid, cells) > one_of(questions));
           CHECK(weights_p(samples, reflectivity) > one_of(questions));
-          if (!roulette) CHECK(disagreement(program, m, fixed, samples, true) < 2e-5);
+          if (!roulette) CHECK(disagreement(model, m, fixed, samples, true) < 2e-5);
         }
       }
   }
@@ -134,15 +132,15 @@ TEST_CASE(
 TEST_CASE("anisotropic: conserves energy beside an isotropic material in the same scene") {
   auto both = materials;
   both.push_back(phong({.3, .2, .1}, {.5, .5, .5}, 20));
-  const MaterialProgram program({8}, both, "mixture");
+  const DeviceModel model = device_model({8}, both, "mixture");
   for (int m = 0; m < static_cast<int>(both.size()); ++m)
     for (const double angle : angles) {
       CAPTURE(m, angle);
       glm::dvec3 sum(0);
       const std::size_t count = thinned(20000);
-      const auto samples = program.sample(m, fixed_at(angle), count, 9, false);
+      const auto samples = model.sample(m, fixed_at(angle), count, 9, false);
       CHECK(bad_weights(samples) == 0);
-      for (const Sample& s : samples) sum += to_double(s.weight);
+      for (const Sample& s : samples) sum += s.weight;
       for (int channel = 0; channel < 3; ++channel)
         CHECK(sum[channel] <= (1 + 5 / std::sqrt(static_cast<double>(count))) * static_cast<double>(count));
     }

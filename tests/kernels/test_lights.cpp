@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "directions.h"
+#include "questions.h"
 #include "scene_test.h"
-#include "statistics.h"
 
 using namespace device_test;
 using glm::dvec3;

@@ -45,13 +45,14 @@ phlux::scene::Material many() {
 
 TEST_CASE("materials: a model with more parameters than the Phong model stands beside it") {
   const auto glossy = phong({.4, .3, .2}, {.5, .4, .3}, 10);
-  const Float3 fixed{0.6f, 0, 0.8f}, generated{-0.48f, 0.6f, 0.64f};
+  const glm::dvec3 fixed(0.6, 0, 0.8), generated(-0.48, 0.6, 0.64);
   for (const Variant v : {Variant{1}, Variant{8}}) {
     CAPTURE(v);
-    const MaterialProgram alone(v, {glossy}, "exact"), both(v, {glossy, many()}, "exact");
-    CHECK(both.density(0, {fixed}, {generated})[0] == alone.density(0, {fixed}, {generated})[0]);
+    const auto alone = device_model(v, {glossy}, "exact"), both = device_model(v, {glossy, many()}, "exact");
+    CHECK(both.evaluate(0, {{fixed, generated}})[0].density ==
+          alone.evaluate(0, {{fixed, generated}})[0].density);
     // Where the model has no table, the Phong model's is read in its lanes too, and must be read inside.
-    CHECK(both.density(1, {fixed}, {generated})[0] == Approx(0.64 / std::numbers::pi).epsilon(1e-6));
-    CHECK(both.eval(1, {fixed}, {generated})[0].y == Approx(0.5 / std::numbers::pi).epsilon(1e-6));
+    CHECK(both.evaluate(1, {{fixed, generated}})[0].density == Approx(0.64 / std::numbers::pi).epsilon(1e-6));
+    CHECK(both.evaluate(1, {{fixed, generated}})[0].value.y == Approx(0.5 / std::numbers::pi).epsilon(1e-6));
   }
 }

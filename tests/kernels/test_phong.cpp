@@ -7,7 +7,6 @@
 #include "material_test.h"
 #include "materials.h"
 #include "phong/reflectivity.h"
-#include "quadrature.h"
 
 using namespace device_test;
 
@@ -34,10 +33,10 @@ TEST_CASE("phong: known values at normal incidence") {
       phong(glm::dvec3(0), glm::dvec3(1), 10), phong(glm::dvec3(0), glm::dvec3(0), 10)};
   const double expected[] = {7 / (2 * pi), 1 / pi, 6 / pi, 0};
   for (const Variant v : variants) {
-    const MaterialProgram program(v, materials, "mixture");
+    const DeviceModel model = device_model(v, materials, "mixture");
     for (int i = 0; i < 4; ++i) {
       CAPTURE(v, i);
-      const auto value = program.eval(i, {{0, 0, 1}}, {{0, 0, 1}})[0];
+      const auto value = model.evaluate(i, {{{0, 0, 1}, {0, 0, 1}}})[0].value;
       CHECK(value.x == Approx(expected[i]).epsilon(3e-7));
       CHECK(value.y == value.x);
       CHECK(value.z == value.x);
@@ -50,7 +49,7 @@ TEST_CASE("phong: the value is the formula's, the same both ways, and 0 below th
       phong({.4, .3, .2}, {.5, .4, .3}, 10), phong({.1, 0, .5}, {.8, .9, 0}, 1e4),
       phong({.3, .3, .3}, {.3, .2, .1}, 0), phong({0, .1, 0}, {1, .9, .5}, 1e6)};
   Random random(31);
-  std::vector<Float3> a, b;
+  std::vector<phlux::measure::Pair> pairs;
   for (std::size_t i = 0; i < thinned(8000); ++i) {
     const glm::dvec3 from = random.direction_above();
     // Half of them near the tip of the lobe: at n = 1e6 it is a thousandth of a radian wide.
@@ -58,28 +57,28 @@ TEST_CASE("phong: the value is the formula's, the same both ways, and 0 below th
     const double spread = std::exp2(-random.uniform(0, 12));
     const glm::dvec3 to =
         i % 2 == 0 ? random.direction() : glm::normalize(mirrored + spread * random.point());
-    a.push_back(to_float(from));
-    b.push_back(to_float(to));
+    pairs.push_back({as_float(from), as_float(to)});
   }
   for (const Variant v : variants) {
-    const MaterialProgram program(v, materials, "mixture");
+    const DeviceModel model = device_model(v, materials, "mixture");
     for (int m = 0; m < static_cast<int>(materials.size()); ++m) {
       CAPTURE(v, m);
-      const auto value = program.eval(m, a, b), back = program.eval(m, b, a);
+      const auto values = model.evaluate(m, pairs);
       const auto& material = materials[static_cast<std::size_t>(m)];
-      for (std::size_t i = 0; i < a.size(); ++i) {
-        const auto right = phong_formula(material, to_double(a[i]), to_double(b[i]));
-        const auto got = to_double(value[i]), other = to_double(back[i]);
+      for (std::size_t i = 0; i < pairs.size(); ++i) {
+        const auto& [a, b] = pairs[i];
+        const auto right = phong_formula(material, a, b);
+        const auto &got = values[i].value, &other = values[i].reversed;
         // Components of directions are right to 2^-25, so cos(alpha) and its power to n |sin alpha| 2^-24 or
         // so.
-        const glm::dvec3 mirrored(-a[i].x, -a[i].y, a[i].z);
-        const double sine = glm::length(mirrored - to_double(b[i]));
+        const glm::dvec3 mirrored(-a.x, -a.y, a.z);
+        const double sine = glm::length(mirrored - b);
         const double tolerance = 3e-6 + 2e-7 * phlux::test::exponent_of(material) * sine;
         for (int channel = 0; channel < 3; ++channel) {
           REQUIRE(std::abs(got[channel] - right[channel]) <= tolerance * right[channel] + 1e-30);
           REQUIRE(std::abs(got[channel] - other[channel]) <= 1e-6 * right[channel] + 1e-30);
         }
-        if (b[i].z <= 0) REQUIRE(got == glm::dvec3(0));
+        if (b.z <= 0) REQUIRE(got == glm::dvec3(0));
       }
     }
   }
@@ -89,19 +88,19 @@ TEST_CASE("phong: reflectivity on the device is the closed form's to the table's
   const double exponents[] = {0, 0.5, 1, 10, 50, 1000, 1e5, 1e6};
   std::vector<phlux::scene::Material> materials;
   for (const double n : exponents) materials.push_back(phong({.1, .2, .3}, {.9, .4, 0}, n));
-  std::vector<float> cosines{0, 1};
+  std::vector<double> cosines{0, 1};
   for (int i = 0; i < 1000; ++i) cosines.push_back(static_cast<float>(std::pow((i + 0.5) / 1000, 2)));
   for (const Variant v : variants) {
-    const MaterialProgram program(v, materials, "lobe-rho");
+    const DeviceModel model = device_model(v, materials, "lobe-rho");
     for (std::size_t m = 0; m < materials.size(); ++m) {
       CAPTURE(v, exponents[m]);
-      const auto values = program.reflectivity(static_cast<int>(m), cosines);
+      const auto values = model.reflectivity(static_cast<int>(m), cosines);
       for (std::size_t i = 0; i < cosines.size(); ++i) {
         const double lobe = phlux::phong::lobe_reflectivity(exponents[m], cosines[i]);
         const glm::dvec3 right =
             phlux::test::diffuse_of(materials[m]) + phlux::test::specular_of(materials[m]) * lobe;
         for (int channel = 0; channel < 3; ++channel)
-          REQUIRE(std::abs(to_double(values[i])[channel] - right[channel]) <= 7e-5 * right[channel] + 2e-7);
+          REQUIRE(std::abs(values[i][channel] - right[channel]) <= 7e-5 * right[channel] + 2e-7);
       }
     }
   }
@@ -110,11 +109,11 @@ TEST_CASE("phong: reflectivity on the device is the closed form's to the table's
 TEST_CASE("phong: a black material beside others carries nothing on") {
   const std::vector<phlux::scene::Material> materials{phong({.1, .2, .3}, {.9, .4, 0}, 5),
                                                       phong(glm::dvec3(0), glm::dvec3(0), 0)};
-  const Float3 fixed{0.6f, 0, 0.8f};
+  const glm::dvec3 fixed(0.6, 0, 0.8);
   for (const char* strategy : {"cosine", "mixture", "exact"}) {
-    const MaterialProgram program({1}, materials, strategy);
+    const DeviceModel model = device_model({1}, materials, strategy);
     CAPTURE(strategy);
-    for (const Sample& s : program.sample(1, fixed, 100, 1, false)) {
+    for (const Sample& s : model.sample(1, fixed, 100, 1, false)) {
       REQUIRE(s.weight.x == 0);
       REQUIRE(s.weight.y == 0);
       REQUIRE(s.weight.z == 0);

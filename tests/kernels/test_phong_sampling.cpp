@@ -6,6 +6,7 @@
 
 #include "materials.h"
 #include "phong/reflectivity.h"
+#include "render/parts.h"
 #include "sampling_test.h"
 
 using namespace device_test;
@@ -46,7 +47,7 @@ constexpr double angles[] = {0, 40, 85}; // degrees
 
 struct Case {
   int material;
-  Float3 fixed;
+  glm::dvec3 fixed;
   glm::dvec3 reflectivity;
 };
 
@@ -56,7 +57,7 @@ std::vector<Case> cases_of(const Strategy& strategy) {
     for (const double angle : angles) {
       if ((strategy.traits & no_peaks) != 0 && phlux::test::exponent_of(materials[m]) > 100) continue;
       // At an odd longitude, so that x and y are not mistaken for one another.
-      const Float3 fixed = to_float(polar(angle * std::numbers::pi / 180, 1.1));
+      const glm::dvec3 fixed = as_float(polar(angle * std::numbers::pi / 180, 1.1));
       const double lobe = phlux::phong::lobe_reflectivity(phlux::test::exponent_of(materials[m]), fixed.z);
       cases.push_back(
           {static_cast<int>(m), fixed,
@@ -81,25 +82,25 @@ std::size_t questions() {
 }
 
 void check(const Strategy& strategy, Variant v, std::size_t count) {
-  const MaterialProgram program(v, materials, strategy.name);
+  const DeviceModel model = device_model(v, materials, strategy.name);
   std::uint32_t seed = static_cast<std::uint32_t>(v.width) * 1000 + (v.portable ? 500 : 0);
   for (const Case& one : cases_of(strategy)) {
     CAPTURE(one.material, one.fixed.z);
     const SphereGrid grid = grid_of(strategy, one);
-    const auto cells = density_in_cells(program, one.material, one.fixed, grid);
+    const auto cells = density_in_cells(model, one.material, one.fixed, grid);
     double integral = 0;
     for (const double cell : cells) integral += cell;
     CHECK(integral == Approx(1).margin(1e-4)); // the table of reflectivities errs by 7e-5
     for (const bool roulette : {false, true}) {
       CAPTURE(roulette);
-      const auto samples = program.sample(one.material, one.fixed, count, ++seed, roulette);
+      const auto samples = model.sample(one.material, one.fixed, count, ++seed, roulette);
       CHECK(bad_weights(samples) == 0);
       if ((strategy.traits & mean_density) == 0)
         CHECK(directions_p(samples, grid, cells) > one_of(questions()));
       const double p = weights_p(samples, one.reflectivity);
       if ((strategy.traits & loses_energy) == 0) CHECK(p > one_of(questions()));
       if (!roulette)
-        CHECK(disagreement(program, one.material, one.fixed, samples, (strategy.traits & whole) != 0) < 2e-5);
+        CHECK(disagreement(model, one.material, one.fixed, samples, (strategy.traits & whole) != 0) < 2e-5);
     }
   }
 }
@@ -124,11 +125,12 @@ TEST_CASE("phong: each strategy draws by its density, carries the reflectivity, 
 
 TEST_CASE("phong: the printed estimate loses as much energy as it must") {
   // MATH.md 2.4: a black diffuse part, n = 50 at 80 degrees: 10.7 percent.
-  const MaterialProgram program({1}, {phong(glm::dvec3(0), glm::dvec3(1), 50)}, "lobe-estimate-printed");
-  const Float3 fixed = to_float(polar(80 * std::numbers::pi / 180, 0.3));
+  const DeviceModel model =
+      device_model({1}, {phong(glm::dvec3(0), glm::dvec3(1), 50)}, "lobe-estimate-printed");
+  const glm::dvec3 fixed = as_float(polar(80 * std::numbers::pi / 180, 0.3));
   double sum = 0;
   const std::size_t count = thinned(400000);
-  for (const Sample& s : program.sample(0, fixed, count, 77, true)) sum += s.survives != 0 ? s.weight.x : 0;
+  for (const Sample& s : model.sample(0, fixed, count, 77, true)) sum += s.survives ? s.weight.x : 0;
   const double lobe = phlux::phong::lobe_reflectivity(50, fixed.z);
   CHECK(sum / static_cast<double>(count) / lobe ==
         Approx(1 - 0.107).margin(5 / std::sqrt(static_cast<double>(count))));
@@ -137,22 +139,22 @@ TEST_CASE("phong: the printed estimate loses as much energy as it must") {
 TEST_CASE("phong: every strategy's functions run") { // few samples: for interpreters that check each access
   for (const Strategy& strategy : strategies) {
     CAPTURE(strategy.name);
-    const MaterialProgram program({4}, materials, strategy.name);
+    const DeviceModel model = device_model({4}, materials, strategy.name);
     for (const Case& one : cases_of(strategy))
-      CHECK(bad_weights(program.sample(one.material, one.fixed, 16, 1, true)) == 0);
+      CHECK(bad_weights(model.sample(one.material, one.fixed, 16, 1, true)) == 0);
   }
 }
 
 TEST_CASE("phong: without a lobe in the scene, a diffuse surface") {
   const std::vector<phlux::scene::Material> diffuse{phong({.8, .5, .2}, glm::dvec3(0), 0)};
-  const Float3 fixed = to_float(polar(1.0, 1.1));
+  const glm::dvec3 fixed = as_float(polar(1.0, 1.1));
   for (const Variant v : variants) {
     CAPTURE(v);
-    const MaterialProgram program(v, diffuse, "exact");
+    const DeviceModel model = device_model(v, diffuse, "exact");
     const SphereGrid grid({0, 0, 1}, {});
-    const auto cells = density_in_cells(program, 0, fixed, grid);
+    const auto cells = density_in_cells(model, 0, fixed, grid);
     for (const bool roulette : {false, true}) {
-      const auto samples = program.sample(0, fixed, thinned(20000), 5, roulette);
+      const auto samples = model.sample(0, fixed, thinned(20000), 5, roulette);
       CHECK(bad_weights(samples) == 0);
       CHECK(directions_p(samples, grid, cells) > one_of(8 * std::size(variants)));
       CHECK(weights_p(samples, {.8, .5, .2}) > one_of(8 * std::size(variants)));

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "bench/common/moments.h"
+#include "measure/moments.h"
 
 namespace phlux::bench {
 namespace {
@@ -64,7 +64,8 @@ std::vector<ConvergencePoint> MethodRenders::convergence() const {
     const auto [least, most] = std::ranges::minmax(errors);
     const double mean =
         std::accumulate(errors.begin(), errors.end(), 0.0) / static_cast<double>(errors.size());
-    points.push_back({median(seconds), median(samples), mean, least, most, static_cast<int>(errors.size())});
+    points.push_back({measure::median(seconds), measure::median(samples), mean, least, most,
+                      static_cast<int>(errors.size())});
   }
   return points;
 }
@@ -121,8 +122,8 @@ MethodResult MethodRenders::result(const Method& method, const ReferenceImage& r
   result.variance = variance_per_sample(images_, reference.radiance);
   result.top_share = top_share(one_sample_images_, reference.radiance);
   result.mean = image_mean(images_);
-  result.seconds_per_sample = median(seconds_per_sample_);
-  result.processor_seconds_per_sample = median(processor_seconds_per_sample_);
+  result.seconds_per_sample = measure::median(seconds_per_sample_);
+  result.processor_seconds_per_sample = measure::median(processor_seconds_per_sample_);
   const auto [least, most] = std::ranges::minmax(seconds_per_sample_);
   result.seconds_per_sample_least = least, result.seconds_per_sample_most = most;
   result.convergence = convergence();

@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "bench/common/methods/timed_render.h"
-#include "bench/common/moments.h"
 #include "errors.h"
+#include "measure/moments.h"
 
 namespace phlux::bench {
 namespace {

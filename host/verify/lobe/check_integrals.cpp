@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
+#include "measure/statistics.h"
 #include "verify/lobe/checks.h"
-#include "verify/statistics.h"
 
 namespace phlux::verify {
 namespace {

@@ -1,7 +1,9 @@
 #include <glm/geometric.hpp>
 
+#include "measure/moments.h"
+#include "measure/statistics.h"
+#include "verify/extremes.h"
 #include "verify/lobe/checks.h"
-#include "verify/statistics.h"
 
 namespace phlux::verify {
 namespace {
@@ -85,23 +87,21 @@ bool enough_carry(const std::vector<Sample>& samples) {
 
 SampleMeans means_of(const std::vector<Sample>& samples) {
   SampleMeans means;
-  Moments aside;
-  for (const Sample& s : samples) aside.add(s.delta || !is_above(s) ? 1 : 0);
-  means.aside = aside.mean();
-  means.aside_error = aside.standard_error();
+  const auto mean = [&](const auto& quantity, double& value, double& error) {
+    PowerSums sums;
+    for (const Sample& s : samples) sums.add(quantity(s));
+    const Moments moments = moments_of(sums);
+    value = moments.mean;
+    error = moments.mean_standard_error;
+  };
+  mean([](const Sample& s) { return s.delta || !is_above(s) ? 1 : 0; }, means.aside, means.aside_error);
   for (int channel = 0; channel < 3; ++channel) {
-    Moments smooth, delta, all;
-    for (const Sample& s : samples) {
-      smooth.add(s.delta ? 0 : s.weight[channel]);
-      delta.add(s.delta ? s.weight[channel] : 0);
-      all.add(s.weight[channel]);
-    }
-    means.reflected[channel] = smooth.mean();
-    means.reflected_error[channel] = smooth.standard_error();
-    means.delta[channel] = delta.mean();
-    means.delta_error[channel] = delta.standard_error();
-    means.all[channel] = all.mean();
-    means.all_error[channel] = all.standard_error();
+    const auto weight = [=](const Sample& s) { return s.weight[channel]; };
+    mean([=](const Sample& s) { return s.delta ? 0 : weight(s); }, means.reflected[channel],
+         means.reflected_error[channel]);
+    mean([=](const Sample& s) { return s.delta ? weight(s) : 0; }, means.delta[channel],
+         means.delta_error[channel]);
+    mean(weight, means.all[channel], means.all_error[channel]);
   }
   means.trusted = enough_carry(samples);
   return means;

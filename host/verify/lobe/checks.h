@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "verify/device_model.h"
+#include "measure/device_model.h"
 #include "verify/lobe/hemisphere_tree.h"
 #include "verify/report.h"
 

@@ -5,7 +5,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "verify/sphere_grid.h"
+#include "measure/sphere_grid.h"
 
 namespace phlux::verify {
 namespace {

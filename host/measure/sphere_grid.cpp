@@ -1,4 +1,4 @@
-#include "verify/sphere_grid.h"
+#include "measure/sphere_grid.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <boost/math/quadrature/gauss.hpp>
 #include <glm/geometric.hpp>
 
-namespace phlux::verify {
+namespace phlux::measure {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -107,4 +107,4 @@ std::vector<double> lobe_cuts(double exponent) {
   return cuts;
 }
 
-} // namespace phlux::verify
+} // namespace phlux::measure

@@ -4,13 +4,22 @@
 #include <cstdint>
 #include <vector>
 
-namespace phlux::bench {
+namespace phlux::measure {
 
 /// Sums of the first four powers of d = sample - centre. A centre near the mean keeps cancellation small.
 struct PowerSums {
   double d = 0, d2 = 0, d3 = 0, d4 = 0;
   std::uint64_t count = 0;
   double centre = 0;
+
+  void add(double sample) {
+    const double x = sample - centre, x2 = x * x;
+    d += x;
+    d2 += x2;
+    d3 += x2 * x;
+    d4 += x2 * x2;
+    ++count;
+  }
 };
 
 struct Moments {
@@ -31,4 +40,4 @@ struct Moments {
 /// The middle value, or the mean of the two middle values. Requires one value or more.
 [[nodiscard]] double median(std::vector<double> values);
 
-} // namespace phlux::bench
+} // namespace phlux::measure

@@ -4,9 +4,9 @@
 #include <array>
 #include <vector>
 
-#include "verify/model.h"
+#include "measure/directions.h"
 
-namespace phlux::verify {
+namespace phlux::measure {
 
 struct Node {
   Direction direction;
@@ -50,4 +50,4 @@ private:
 template<std::size_t points>
 [[nodiscard]] std::array<std::array<double, 2>, points> gauss_nodes(double from, double to);
 
-} // namespace phlux::verify
+} // namespace phlux::measure

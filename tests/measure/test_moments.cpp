@@ -3,23 +3,16 @@
 
 #include <catch2/catch.hpp>
 
-#include "bench/common/moments.h"
+#include "measure/moments.h"
 
-using namespace phlux::bench;
+using namespace phlux::measure;
 
 namespace {
 
 PowerSums sums_of(const std::vector<double>& samples, double centre) {
   PowerSums sums;
   sums.centre = centre;
-  sums.count = samples.size();
-  for (const double sample : samples) {
-    const double d = sample - centre;
-    sums.d += d;
-    sums.d2 += d * d;
-    sums.d3 += d * d * d;
-    sums.d4 += d * d * d * d;
-  }
+  for (const double sample : samples) sums.add(sample);
   return sums;
 }
 

@@ -1,11 +1,11 @@
-#include "bench/common/moments.h"
+#include "measure/moments.h"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
 
-namespace phlux::bench {
+namespace phlux::measure {
 
 Moments moments_of(const PowerSums& sums) {
   const auto n = static_cast<double>(sums.count);
@@ -32,4 +32,4 @@ double median(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
 }
 
-} // namespace phlux::bench
+} // namespace phlux::measure

@@ -1,16 +1,11 @@
-#include "verify/statistics.h"
+#include "measure/statistics.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <boost/math/special_functions/gamma.hpp>
 
-namespace phlux::verify {
-
-double one_of(std::size_t questions) {
-  return -std::expm1(std::log1p(-false_alarm_rate) /
-                     static_cast<double>(std::max<std::size_t>(questions, 1)));
-}
+namespace phlux::measure {
 
 double chi_square_tail(double statistic, double degrees) {
   return boost::math::gamma_q(degrees / 2, statistic / 2);
@@ -44,19 +39,4 @@ double chi_square_p(const std::vector<double>& observed, const std::vector<doubl
   return cells > 1 ? chi_square_tail(statistic, cells - 1) : 1;
 }
 
-double Moments::variance() const {
-  return std::max(0.0, second_ / count() - mean() * mean());
-}
-
-double Moments::standard_error() const {
-  return std::sqrt(variance() / count());
-}
-
-double Moments::variance_standard_error() const {
-  const double m = mean(), v = variance();
-  const double fourth = fourth_ / count() - 4 * m * third_ / count() + 6 * m * m * second_ / count() -
-                        3 * m * m * m * m; // central
-  return std::sqrt(std::max(0.0, fourth - v * v) / count());
-}
-
-} // namespace phlux::verify
+} // namespace phlux::measure

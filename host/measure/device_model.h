@@ -1,4 +1,5 @@
-// The reflectance model as a device computes it, for one strategy: kernels/measure/verify.cl.
+// Reflectance models as a device evaluates and samples them, without a scene: kernels/measure/verify.cl. For
+// `phlux verify` and the tests of the kernels.
 #pragma once
 
 #include <array>
@@ -6,11 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "device/program.h"
-#include "lobes/program.h"
-#include "verify/model.h"
+#include "measure/directions.h"
+#include "measure/material_program.h"
 
-namespace phlux::verify {
+namespace phlux::measure {
 
 struct Sample {
   Direction direction;
@@ -37,17 +37,13 @@ using Words = std::array<std::uint32_t, 4>;
 /// The word for which the kernels' uniform_real gives the value nearest to u in (0, 1).
 [[nodiscard]] std::uint32_t word_for(double u);
 
-/// All combinations of the first and last numbers, of those next to them, and of some between; fewer where
-/// `thin`.
-[[nodiscard]] std::vector<Words> extreme_words(bool thin);
-/// The normal, nearly the normal, grazing, in the tangent plane.
-[[nodiscard]] std::vector<Direction> extreme_directions();
-
 class DeviceModel {
 public:
-  /// Builds the kernels. @throws DeviceError
+  /// Builds the kernels for models of `materials`, a strategy of the Phong model and WIDTH `lanes`.
+  /// @throws DeviceError
   DeviceModel(const device::Device& device, const sources::KernelFiles& files, int lanes,
-              const std::string& strategy, const std::vector<scene::Material>& materials);
+              const std::string& strategy, const std::vector<scene::Material>& materials,
+              std::map<std::string, std::string> defines = {});
 
   /// `count` samples of the sequence `seed`, from its path `first` on; materials by their index in the table.
   [[nodiscard]] std::vector<Sample> sample(int material, const Direction& fixed, std::size_t count,
@@ -61,19 +57,16 @@ public:
   [[nodiscard]] std::vector<Rgb> reflectivity(int material, const std::vector<double>& cosines) const;
 
 private:
-  // A plane's length: what the lanes of whole groups hold.
-  [[nodiscard]] std::size_t elements_of_groups(std::size_t elements) const;
-  [[nodiscard]] cl::Buffer planes(const std::vector<std::uint32_t>& words) const;
-  [[nodiscard]] cl::Kernel kernel(const char* name, int material) const;
-  /// Runs a kernel whose last argument, number `last`, is its result; returns that.
-  [[nodiscard]] std::vector<float> run(cl::Kernel& kernel, cl_uint last, std::size_t elements,
-                                       std::size_t values) const;
-  [[nodiscard]] std::vector<Sample> run_samples(cl::Kernel& kernel, cl_uint last, std::size_t elements) const;
+  /// A plane's length: the lanes of whole groups.
+  [[nodiscard]] std::size_t plane_of(std::size_t elements) const;
+  /// Planes 0, 1, ... of `values` per element; the last element repeats to the end of a plane.
+  template<typename Value>
+  [[nodiscard]] cl::Buffer planes(std::size_t elements, std::size_t values, const Value& value) const;
+  template<typename... Arguments>
+  [[nodiscard]] std::vector<Sample> run_samples(const char* kernel, int material, const Direction& fixed,
+                                                std::size_t elements, const Arguments&... arguments) const;
 
-  device::Device device_;
-  int lanes_;
-  cl::Program program_;
-  cl::Buffer materials_, table_;
+  MaterialProgram program_;
 };
 
-} // namespace phlux::verify
+} // namespace phlux::measure
