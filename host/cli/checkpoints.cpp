@@ -9,9 +9,9 @@
 namespace phlux::cli {
 namespace {
 
-// What a user can always do about a checkpoint that does not fit.
+// Adds a remedy to the error of a checkpoint that does not match.
 template<class Function>
-auto or_anew(const Function& function) {
+auto with_remedy(const Function& function) {
   constexpr const char* anew = ", or leave out --resume to begin anew";
   try {
     return function();
@@ -22,7 +22,7 @@ auto or_anew(const Function& function) {
   }
 }
 
-// Whoever made the checkpoint must not choose code that runs here.
+// A checkpoint from elsewhere must not run code on this machine.
 void require_own_strategy(const RenderOptions& options, const settings::Choices& earlier) {
   const auto then = earlier.texts.find("strategy");
   if (then == earlier.texts.end() || options.has("strategy") || !settings::is_strategy_file(then->second))
@@ -37,7 +37,7 @@ void require_own_strategy(const RenderOptions& options, const settings::Choices&
 
 std::optional<checkpoint::Checkpoint> resumed(RenderOptions& options) {
   if (options.resume.empty()) return std::nullopt;
-  checkpoint::Checkpoint earlier = or_anew([&] { return checkpoint::read(options.resume); });
+  checkpoint::Checkpoint earlier = with_remedy([&] { return checkpoint::read(options.resume); });
   require_own_strategy(options, earlier.session.choices);
   options.complete(earlier.session.choices);
   return earlier;
@@ -45,7 +45,7 @@ std::optional<checkpoint::Checkpoint> resumed(RenderOptions& options) {
 
 void check_same(const checkpoint::Checkpoint& earlier, const checkpoint::Session& now,
                 const scene::Camera& camera, const std::filesystem::path& file) {
-  or_anew([&] { checkpoint::check_same(earlier, now, camera.width, camera.height, file); });
+  with_remedy([&] { checkpoint::check_same(earlier, now, camera.width, camera.height, file); });
 }
 
 Checkpoints::Checkpoints(std::filesystem::path file, const RenderOptions& options,

@@ -17,8 +17,7 @@ std::string specification(const device::DeviceInfo& info) {
   return fmt::format("{}:{}", info.platform_index, info.device_index);
 }
 
-// What a render without --device would use; nothing when that cannot be opened, or PHLUX_DEVICE names
-// nothing.
+// The devices of a render without --device; none when they cannot be opened or PHLUX_DEVICE matches none.
 std::vector<std::string> default_specifications() {
   std::vector<std::string> specifications;
   try {

@@ -69,7 +69,7 @@ std::vector<std::string> column_of(const Report& report, const std::string& chec
   return column;
 }
 
-// In blocks of columns that fit a terminal.
+// In blocks of columns as wide as a terminal.
 void print_strategies(const Report& report) {
   constexpr std::size_t columns_per_block = 7;
   const auto strategies = distinct(report, true, &Result::strategy),
@@ -86,7 +86,7 @@ void print_strategies(const Report& report) {
   }
 }
 
-// The checks below each other that are of the model, or of the one of this name.
+// One row per check of the strategy or model of this name; empty: of the Phong model.
 void print_model(const Report& report, const std::string& name) {
   std::vector<std::vector<std::string>> rows{{name.empty() ? "MODEL" : name, "worst", "limit", "where"}};
   for (const Result& result : report.results())
@@ -119,7 +119,7 @@ nlohmann::ordered_json json_of(const Report& report, const device::Device& devic
                                  {"portable_lanes", device::portable_lanes(device)},
                                  {"seconds", seconds},
                                  {"false_alarm_rate", verify::false_alarm_rate},
-                                 {"p_values", report.questions()},
+                                 {"p_values", report.p_values()},
                                  {"passed", report.passed()},
                                  {"results", nlohmann::ordered_json::array()}};
   for (const Result& r : report.results())
@@ -136,7 +136,8 @@ nlohmann::ordered_json json_of(const Report& report, const device::Device& devic
   return json;
 }
 
-// What is verified without closed forms: all that was asked for, as soon as something is the user's own.
+// The models to verify without closed forms: all that were named, if any of them is not the Phong model with
+// built-in strategies.
 std::vector<verify::LobeToVerify> lobes_of(const VerifyOptions& options) {
   const lobes::Library library(options.lobes);
   std::vector<verify::LobeToVerify> list;
@@ -155,7 +156,7 @@ Report run_lobes(const device::Device& device, const verify::Settings& settings,
                  const std::vector<verify::LobeToVerify>& lobes, std::vector<std::string>& conclusions) {
   Report report;
   for (const verify::LobeToVerify& lobe : lobes)
-    verify::see_lobe(device, settings, lobe, options.parameters, report);
+    verify::check_lobe(device, settings, lobe, options.parameters, report);
   report.judge();
   for (const verify::LobeToVerify& lobe : lobes)
     for (const std::string& text : verify::explain(report, lobe.name, lobe.model->name))
@@ -199,7 +200,7 @@ int verify(const VerifyOptions& options) {
   if (device::portable_lanes(device))
     fmt::print("portable lanes: the compiler refuses the processor's own instructions\n");
   fmt::print("{}: {} checks, {} p-values with a false alarm in {:g} runs, {:.1f} s\n",
-             report.passed() ? "passed" : "FAILED", report.results().size(), report.questions(),
+             report.passed() ? "passed" : "FAILED", report.results().size(), report.p_values(),
              1 / verify::false_alarm_rate, seconds);
   return report.passed() ? 0 : 1;
 }

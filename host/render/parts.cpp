@@ -51,7 +51,7 @@ Connect possible_connect(const Settings& settings, const tables::LightTable& lig
   return settings.integrator == "bidir" ? Connect::mis : settings.connect;
 }
 
-// Hit or miss draws this often for one sample of the material where it reflects least.
+// Expected number of proposals of rejection sampling per sample, at grazing incidence, where it is largest.
 double proposals(const scene::Material& m) {
   const double diffuse = glm::compMax(m.value("diffuse_reflectance"));
   const double specular = glm::compMax(m.value("specular_reflectance")), exponent = m.value("exponent").x;
@@ -83,7 +83,7 @@ int lanes_for(const device::DeviceInfo& device, const Settings& settings) {
   return 1;
 }
 
-// Of fewer, the walk down a tree and up again costs more than it brings (bench/saved/REMEDIES.md).
+// With fewer, descending the tree takes more time than the lower variance gains (bench/saved/REMEDIES.md).
 constexpr std::size_t fewest_lights_of_tree = 8;
 
 Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, const tables::LightTable& lights,
@@ -97,7 +97,7 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
   if (parts.techniques && parts.integrator == Integrator::path)
     throw UsageError(
         "`contributions`: a path from the eye is made in one way: use `integrator` bidir or light");
-  // What a technique brings by itself is shown whole.
+  // Images of techniques need every connection.
   if (parts.integrator == Integrator::bidir && !parts.techniques) parts.connections = settings.connections;
   if (settings.clamp) parts.clamp = *settings.clamp / lights.unit;
   if (parts.clamp && parts.techniques)
@@ -105,7 +105,7 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
   parts.ambient = settings.ambient.has_value();
   if (parts.ambient && parts.integrator != Integrator::path)
     throw UsageError("`ambient`: only paths from the eye can carry the ambient term: use `integrator` path");
-  if (!lights.shines()) { // the image is black, which is best left to the one that chooses no light
+  if (!lights.shines()) { // the image is black, and path tracing does not need a light
     parts.integrator = Integrator::path;
     parts.techniques = false;
   }

@@ -34,6 +34,10 @@ cl_uint set_fixed(cl::Kernel& kernel, cl_uint index, const Direction& fixed) {
   return index;
 }
 
+std::uint32_t coordinate(const Direction& direction, std::size_t axis) {
+  return std::bit_cast<std::uint32_t>(static_cast<float>(direction[static_cast<int>(axis)]));
+}
+
 constexpr cl_uint first_argument = 3; // after VERIFY_PARAMETERS
 
 } // namespace
@@ -55,7 +59,12 @@ std::size_t DeviceModel::elements_of_groups(std::size_t elements) const {
   return device::items_for(elements, lanes_) * static_cast<std::size_t>(lanes_);
 }
 
-cl::Buffer DeviceModel::planes(const std::vector<std::uint32_t>& words) const {
+template<class Word>
+cl::Buffer DeviceModel::planes(std::size_t elements, std::size_t values, const Word& word) const {
+  const std::size_t plane = elements_of_groups(elements);
+  std::vector<std::uint32_t> words(values * plane);
+  for (std::size_t k = 0; k < values; ++k)
+    for (std::size_t i = 0; i < plane; ++i) words[k * plane + i] = word(std::min(i, elements - 1), k);
   return buffer_of(device_, words);
 }
 
@@ -94,7 +103,7 @@ std::vector<Sample> DeviceModel::sample(int material, const Direction& fixed, st
                                         std::uint32_t seed, bool roulette, std::uint32_t first) const {
   cl::Kernel kernel = this->kernel("sample_model", material);
   cl_uint index = set_fixed(kernel, first_argument, fixed);
-  kernel.setArg(index++, cl_uint2{{seed, 0x766572}}); // a family of its own, apart from renders' seeds
+  kernel.setArg(index++, cl_uint2{{seed, 0x766572}}); // the second word separates it from renders' seeds
   kernel.setArg(index++, static_cast<cl_uint>(first));
   kernel.setArg(index++, static_cast<cl_int>(roulette));
   return run_samples(kernel, index, count);
@@ -102,11 +111,8 @@ std::vector<Sample> DeviceModel::sample(int material, const Direction& fixed, st
 
 std::vector<Sample> DeviceModel::drive(int material, const Direction& fixed, const std::vector<Words>& words,
                                        bool roulette) const {
-  const std::size_t plane = elements_of_groups(words.size());
-  std::vector<std::uint32_t> arranged(4 * plane);
-  for (std::size_t i = 0; i < plane; ++i)
-    for (std::size_t k = 0; k < 4; ++k) arranged[k * plane + i] = words[std::min(i, words.size() - 1)][k];
-  const cl::Buffer memory = planes(arranged);
+  const cl::Buffer memory =
+      planes(words.size(), 4, [&](std::size_t i, std::size_t k) { return words[i][k]; });
   cl::Kernel kernel = this->kernel("drive_model", material);
   cl_uint index = set_fixed(kernel, first_argument, fixed);
   kernel.setArg(index++, memory);
@@ -116,16 +122,9 @@ std::vector<Sample> DeviceModel::drive(int material, const Direction& fixed, con
 
 std::vector<PairValues> DeviceModel::evaluate(int material, const std::vector<Pair>& pairs) const {
   const std::size_t plane = elements_of_groups(pairs.size());
-  std::vector<std::uint32_t> arranged(6 * plane);
-  for (std::size_t i = 0; i < plane; ++i) {
-    const Pair& pair = pairs[std::min(i, pairs.size() - 1)];
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto k = static_cast<std::size_t>(axis);
-      arranged[k * plane + i] = std::bit_cast<std::uint32_t>(static_cast<float>(pair.a[axis]));
-      arranged[(k + 3) * plane + i] = std::bit_cast<std::uint32_t>(static_cast<float>(pair.b[axis]));
-    }
-  }
-  const cl::Buffer memory = planes(arranged);
+  const cl::Buffer memory = planes(pairs.size(), 6, [&](std::size_t i, std::size_t k) {
+    return coordinate(k < 3 ? pairs[i].a : pairs[i].b, k % 3);
+  });
   cl::Kernel kernel = this->kernel("evaluate_model", material);
   kernel.setArg(first_argument, memory);
   const std::vector<float> results = run(kernel, first_argument + 1, pairs.size(), pair_values);
@@ -139,12 +138,8 @@ std::vector<PairValues> DeviceModel::evaluate(int material, const std::vector<Pa
 
 std::vector<Rgb> DeviceModel::reflectivity(int material, const std::vector<Direction>& directions) const {
   const std::size_t plane = elements_of_groups(directions.size());
-  std::vector<std::uint32_t> arranged(3 * plane);
-  for (std::size_t i = 0; i < plane; ++i)
-    for (int axis = 0; axis < 3; ++axis)
-      arranged[static_cast<std::size_t>(axis) * plane + i] = std::bit_cast<std::uint32_t>(
-          static_cast<float>(directions[std::min(i, directions.size() - 1)][axis]));
-  const cl::Buffer memory = planes(arranged);
+  const cl::Buffer memory = planes(
+      directions.size(), 3, [&](std::size_t i, std::size_t k) { return coordinate(directions[i], k); });
   cl::Kernel kernel = this->kernel("integrate_model", material);
   kernel.setArg(first_argument, memory);
   const std::vector<float> results = run(kernel, first_argument + 1, directions.size(), 3);

@@ -7,9 +7,8 @@
 
 namespace phlux::verify {
 
-double one_of(std::size_t questions) {
-  return -std::expm1(std::log1p(-false_alarm_rate) /
-                     static_cast<double>(std::max<std::size_t>(questions, 1)));
+double sidak_limit(std::size_t p_values) {
+  return -std::expm1(std::log1p(-false_alarm_rate) / static_cast<double>(std::max<std::size_t>(p_values, 1)));
 }
 
 double chi_square_tail(double statistic, double degrees) {
@@ -36,7 +35,7 @@ double chi_square_p(const std::vector<double>& observed, const std::vector<doubl
       pooled_expected += expected[i];
     }
   }
-  // A pool that expects fewer than one is no cell, but a sampler that fills it is wrong.
+  // A pool with fewer than one expected sample is no cell, but many samples in it are an error.
   if (pooled_expected >= 1)
     add(pooled_observed, pooled_expected);
   else if (pooled_observed > 10)

@@ -1,5 +1,5 @@
-// Statistical tests in float64. Each gives a p-value, the probability of a result at least as bad were all
-// well.
+// Statistical tests in float64. A p-value is the probability of a result at least as bad under the null
+// hypothesis.
 #pragma once
 
 #include <cstddef>
@@ -7,23 +7,24 @@
 
 namespace phlux::verify {
 
-/// A verification raises a false alarm with this probability, were its seeds drawn anew. They are fixed: what
-/// passes on a device keeps passing there.
+/// Probability of a false alarm of a whole verification, over all seeds. As seeds are fixed, a verification
+/// that passes on a device always passes there.
 inline constexpr double false_alarm_rate = 1e-4;
 
-/// The p-value at which each of so many questions must be asked (Sidak 1967).
-[[nodiscard]] double one_of(std::size_t questions);
+/// The limit of each of so many p-values, by Sidak's correction (1967).
+[[nodiscard]] double sidak_limit(std::size_t p_values);
 
-/// Pearson's chi-square of observed counts against expected ones; cells that expect fewer than 10 are pooled.
+/// Pearson's chi-square test of observed against expected counts; cells with fewer than 10 expected are
+/// pooled.
 [[nodiscard]] double chi_square_p(const std::vector<double>& observed, const std::vector<double>& expected);
 
 /// Upper tail of the chi-square distribution.
 [[nodiscard]] double chi_square_tail(double statistic, double degrees);
 
-/// That a mean lies so many standard errors from where it should, either way.
+/// Two-sided p-value of a mean that differs from its expectation by so many standard errors.
 [[nodiscard]] double normal_p(double sigmas);
 
-/// Running moments of a quantity: Chan's update would do no better at these counts than float64 sums about 0.
+/// Running moments from float64 sums of powers, which at these counts are as accurate as Chan's update.
 class Moments {
 public:
   void add(double x) {
