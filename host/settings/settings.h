@@ -99,8 +99,8 @@ struct Settings {
                       "makes: leave it out"),
       Setting(
           "connections", A::estimate, &Settings::connections, Whole{0, 1'000'000}, "N",
-          "bidir only: mean number of connections per path length that are made, chosen at random without "
-          "bias; 0: all")
+          "bidir only: of the e - 2 connections that make paths of e edges, N are made on average, chosen at "
+          "random without bias; 0: all")
           .only_where([](const Settings& s) { return !s.techniques; },
                       ": `contributions` shows every connection: leave out one of the two")
           .only_where(bidirectional,
@@ -114,8 +114,7 @@ struct Settings {
                       ": only paths from the eye can carry the ambient term: use `integrator` path"),
       Setting("clamp", A::expectation, &Settings::clamp, Positive{}, "X",
               "clamps each path's contribution to a pixel to the radiance X: less noise, but a bias, which "
-              "the log "
-              "and the files state; default: no clamping"),
+              "the log and the files state; default: no clamping"),
       Setting("max-depth", A::expectation, &Settings::max_depth, Depth{}, "N",
               "largest number of edges of a path: 1 is emission alone, -1 unbounded")
           .or_scene(&Settings::max_depth, &scene::RenderDefaults::max_depth),
@@ -138,8 +137,10 @@ struct Settings {
               "independent and can be merged"),
       Setting("width", A::execution, &Settings::lanes, OneOf{{"1", "4", "8", "16"}}, "N",
               "paths that one work-item traces together: 1, 4, 8 or 16; default: the device's"),
-      Setting("precision", A::estimate, &Settings::double_precision, OneOf{{"single", "double"}}, "NAME",
-              "of the kernels' arithmetic: single, or double (slower; only on devices with doubles)"),
+      Setting(
+          "precision", A::estimate, &Settings::double_precision, OneOf{{"single", "double"}}, "NAME",
+          "arithmetic of the kernels: single, or double (slower, one path at a time, only on devices with "
+          "doubles)"),
       Setting("traversal", A::execution, &Settings::traversal, OneOf{{"auto", "brute", "bvh"}}, "NAME",
               "ray intersection: brute (tests every shape), bvh or auto"),
   };

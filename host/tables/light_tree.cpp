@@ -15,7 +15,7 @@ namespace {
 using scene::Vec3;
 constexpr double pi = std::numbers::pi;
 
-// Embree's builder splits into halves from 8 levels above this depth on, so that trees are never deeper.
+// Embree's builder halves from 8 levels above it on, where 2^8 lights fit: more than a scene has left there.
 constexpr unsigned max_depth = 64;
 
 // Slightly larger than the lights' boxes: the builder splits by surface area, which is 0 for point lights on
