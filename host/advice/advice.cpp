@@ -48,7 +48,9 @@ std::string words_for(const std::vector<Trial>& trials, double seconds) {
   for (const Trial& trial : trials)
     if (&trial != &own && trial.refusal.empty() && trial.reliability.trusted && trial.cost > 0.0)
       if (best == nullptr || trial.cost < best->cost) best = &trial;
-  if (best == nullptr) return fmt::format("no other method is to be trusted after {:.2g} s either", seconds);
+  if (best == nullptr)
+    return fmt::format("after {:.2g} s the error estimate of no other method is to be trusted either",
+                       seconds);
   const double times = own.cost / best->cost;
   if (own.cost > 0.0 && times < least_gain) return {};
   // A short trial may find no light; its cost is then 0.
@@ -63,7 +65,7 @@ std::string words_for(const std::vector<Trial>& trials, double seconds) {
 std::string words_for(const std::vector<LightShare>& shares) {
   for (const LightShare& light : shares)
     if (light.share > dominant_share)
-      return fmt::format("; {:.0f}% of the variance is of {}", 100.0 * light.share, light.light);
+      return fmt::format("; {:.0f}% of the variance comes from {}", 100.0 * light.share, light.light);
   return {};
 }
 

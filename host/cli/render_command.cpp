@@ -109,7 +109,7 @@ files::RenderInfo info_of(const checkpoint::Session& session, const film::Film& 
 
 void warn_of_moments(const files::Image& image) {
   if (image.channels.size() == 3) {
-    spdlog::warn("--moments: a variance takes two samples in every pixel: its channels are left out");
+    spdlog::warn("--moments: variances need two samples in every pixel: their channels are left out");
     return;
   }
   for (const auto& [name, values] : image.channels)

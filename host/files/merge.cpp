@@ -154,10 +154,10 @@ std::vector<std::string> Merger::notes() const {
   const Source& first = sources_.front();
   for (const Source& source : sources_)
     if (method_of(source.info) != method_of(first.info)) {
-      notes.push_back(
-          fmt::format("{} is by {}, and {} by {}: the mean is right, but weights by samples are not "
-                      "the best for methods that differ in noise",
-                      source.name, method_of(source.info), first.name, method_of(first.info)));
+      notes.push_back(fmt::format(
+          "{} is by {}, and {} by {}: the mean is right, but weights by samples are not optimal for "
+          "methods of different variance",
+          source.name, method_of(source.info), first.name, method_of(first.info)));
       break;
     }
   const auto without = std::ranges::find(sources_, false, &Source::variance);

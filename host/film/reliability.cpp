@@ -108,16 +108,16 @@ std::vector<std::string> reasons_for_doubt(const Reliability& r, double samples_
   std::vector<std::string> result;
   if (samples_per_pixel < least_samples)
     return {fmt::format("{:.3g} samples per pixel are too few to tell", samples_per_pixel)};
-  if (!(r.variance > 0.0)) return {"no sample differs from another: what is rare has not been met"};
+  if (!(r.variance > 0.0)) return {"all samples are equal: rare contributions may be missing"};
   if (r.understated > most_understated)
     result.push_back(fmt::format("it may be {:.0f}% too small", 100.0 * r.understated));
   if (r.variance_error > largest_variance_error)
-    result.push_back(fmt::format("the variance rests on about {:.2g} samples",
+    result.push_back(fmt::format("about {:.2g} samples dominate the variance",
                                  1.0 / (r.variance_error * r.variance_error)));
   // With infinite variance, the share of a few largest contributions does not decrease with more samples.
   if (r.tail_index && *r.tail_index <= infinite_variance && r.variance_error > 0.5 * largest_variance_error)
-    result.push_back(fmt::format("the variance may be infinite: contributions x grow rarer as x^-{:.2g} only",
-                                 *r.tail_index));
+    result.push_back(fmt::format(
+        "the variance may be infinite: the tail of contributions x falls as x^-{:.2g}", *r.tail_index));
   return result;
 }
 

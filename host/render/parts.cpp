@@ -74,7 +74,8 @@ int lanes_for(const device::DeviceInfo& device, const Settings& settings) {
   if (!settings.double_precision) return settings.lanes != 0 ? settings.lanes : device.lanes;
   if (settings.lanes > 1)
     throw UsageError(fmt::format(
-        "`precision` double: doubles go one path at a time, not {}: leave `width` out", settings.lanes));
+        "`precision` double: kernels trace one path at a time in double, not {}: leave `width` out",
+        settings.lanes));
   if (!device.doubles)
     throw DeviceError(fmt::format(
         "{}: `precision` double: the device has no doubles (cl_khr_fp64): use `precision` single, or "
@@ -95,13 +96,12 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
   parts.weights = settings.weights;
   parts.techniques = settings.techniques;
   if (parts.techniques && parts.integrator == Integrator::path)
-    throw UsageError(
-        "`contributions`: a path from the eye is made in one way: use `integrator` bidir or light");
+    throw UsageError("`contributions`: path tracing has only one technique: use `integrator` bidir or light");
   // Images of techniques need every connection.
   if (parts.integrator == Integrator::bidir && !parts.techniques) parts.connections = settings.connections;
   if (settings.clamp) parts.clamp = *settings.clamp / lights.unit;
   if (parts.clamp && parts.techniques)
-    throw UsageError("`clamp`: what techniques bring is not clamped: leave out `contributions`");
+    throw UsageError("`clamp`: contributions of techniques are not clamped: leave out `contributions`");
   parts.ambient = settings.ambient.has_value();
   if (parts.ambient && parts.integrator != Integrator::path)
     throw UsageError("`ambient`: only paths from the eye can carry the ambient term: use `integrator` path");

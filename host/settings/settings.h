@@ -87,9 +87,8 @@ struct Settings {
       Setting(
           "weights", A::estimate, &Settings::weights, OneOf{weights_names()}, "NAME",
           "bidir only, weights of the techniques (multiple importance sampling): balance, power or uniform")
-          .only_where(
-              bidirectional,
-              " is for bidir alone: {} makes each path in one way: leave it out or use `integrator` bidir"),
+          .only_where(bidirectional, " is for bidir alone: {} makes each path by one technique: leave it out "
+                                     "or use `integrator` bidir"),
       Setting("light-selection", A::estimate, &Settings::light_selection, OneOf{{"power", "contribution"}},
               "NAME",
               "path and bidir, how light samples choose a light: power, or contribution (by its estimated "
