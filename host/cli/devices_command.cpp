@@ -1,11 +1,11 @@
 #include <algorithm>
-#include <array>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "cli/commands.h"
+#include "cli/table.h"
 #include "device/device.h"
 #include "errors.h"
 #include "files/json.h"
@@ -48,7 +48,7 @@ std::string gibibytes(std::uint64_t bytes) {
   return fmt::format("{:.1f} GiB", static_cast<double>(bytes) * 0x1p-30);
 }
 
-using Row = std::array<std::string, 11>;
+using Row = std::vector<std::string>;
 const Row headings = {"DEVICE", "TYPE",   "NAME",           "PLATFORM",     "DRIVER", "OPENCL C",
                       "UNITS",  "MEMORY", "LARGEST BUFFER", "NATIVE WIDTH", "WIDTH"};
 
@@ -64,20 +64,6 @@ Row to_row(const device::DeviceInfo& info, bool is_default) {
           gibibytes(info.largest_buffer),
           fmt::format("{}", info.native_float_width),
           fmt::format("{}", info.lanes)};
-}
-
-void print_table(const std::vector<Row>& rows) {
-  std::array<std::size_t, std::tuple_size_v<Row>> widths{};
-  for (const Row& row : rows)
-    for (std::size_t column = 0; column < row.size(); ++column)
-      widths[column] = std::max(widths[column], row[column].size());
-  for (const Row& row : rows) {
-    std::string line;
-    for (std::size_t column = 0; column < row.size(); ++column)
-      line += fmt::format("{:<{}}  ", row[column], widths[column]);
-    line.erase(line.find_last_not_of(' ') + 1);
-    fmt::print("{}\n", line);
-  }
 }
 
 } // namespace

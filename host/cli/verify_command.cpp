@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "cli/commands.h"
+#include "cli/table.h"
 #include "clock.h"
 #include "device/device.h"
 #include "files/json.h"
@@ -33,22 +34,6 @@ std::vector<std::string> distinct(const Report& report, bool of_strategies, std:
     if (result.strategy.empty() != of_strategies && std::ranges::find(names, result.*member) == names.end())
       names.push_back(result.*member);
   return names;
-}
-
-void print_grid(const std::vector<std::vector<std::string>>& rows) {
-  std::vector<std::size_t> widths;
-  for (const auto& row : rows)
-    for (std::size_t column = 0; column < row.size(); ++column) {
-      if (column == widths.size()) widths.push_back(0);
-      widths[column] = std::max(widths[column], row[column].size());
-    }
-  for (const auto& row : rows) {
-    std::string line;
-    for (std::size_t column = 0; column < row.size(); ++column)
-      line += fmt::format("{:<{}}  ", row[column], widths[column]);
-    line.erase(line.find_last_not_of(' ') + 1);
-    fmt::print("{}\n", line);
-  }
 }
 
 std::string limit_text(const Result& result) {
@@ -81,7 +66,7 @@ void print_strategies(const Report& report) {
       const auto column = column_of(report, checks[i], strategies);
       for (std::size_t row = 0; row < rows.size(); ++row) rows[row].push_back(column[row]);
     }
-    print_grid(rows);
+    print_table(rows);
     fmt::print("\n");
   }
 }
@@ -92,7 +77,7 @@ void print_model(const Report& report, const std::string& name) {
   for (const Result& result : report.results())
     if (result.strategy == name)
       rows.push_back({result.check, figure(result), limit_text(result), result.where});
-  if (rows.size() > 1) print_grid(rows);
+  if (rows.size() > 1) print_table(rows);
 }
 
 void print_notes(const Report& report) {
