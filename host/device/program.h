@@ -31,7 +31,7 @@ struct ProgramSource {
 
 struct BuiltProgram {
   cl::Program program;
-  bool from_cache = false; ///< phlux's or the driver's
+  bool from_cache = false; ///< loaded from phlux's or the driver's cache
   double seconds = 0.0;
   ArgumentNames arguments; ///< of its kernels
 };

@@ -132,7 +132,7 @@ public:
 
   /// Moments of the contributions to a pixel, summed over its channels, in units.
   struct Spread {
-    double mean = 0.0;    ///< of the pixel and of channels
+    double mean = 0.0;    ///< radiance, mean over channels
     double squares = 0.0; ///< sum of squared deviations from the mean: about samples x variance of one
     double fourths = 0.0; ///< sum of the squares of those
   };
