@@ -1,4 +1,4 @@
-// Time as it passes.
+// The clock for measuring durations.
 #pragma once
 
 #include <chrono>

@@ -1,5 +1,4 @@
-// Errors that end a command, by the exit code that they stand for. Every other exception is a defect of
-// phlux.
+// Errors that end a command, one type per exit code and cause. Any other exception is a defect of phlux.
 #pragma once
 
 #include <stdexcept>
@@ -7,8 +6,8 @@
 
 namespace phlux {
 
-/// what() is the one line that the user reads: "FILE:LINE: what is wrong: what would be right" where a file
-/// is to blame. Settings stand in it as `NAME`; the command line makes options of them.
+/// what() is one line for the user: "FILE:LINE: what is wrong: what would be right". It names settings as
+/// `NAME`, which the command line replaces by options.
 class Error : public std::runtime_error {
 public:
   Error(int exit_code, const std::string& line) : std::runtime_error(line), exit_code_(exit_code) {}
@@ -24,7 +23,7 @@ struct UsageError : Error {
 struct SceneError : Error { ///< a bad scene
   explicit SceneError(const std::string& line) : Error(3, line) {}
 };
-struct FileError : Error { ///< a bad input file that is no scene: an image, a checkpoint
+struct FileError : Error { ///< a bad input file other than a scene: an image, a checkpoint
   explicit FileError(const std::string& line) : Error(3, line) {}
 };
 struct DeviceError : Error { ///< no device, or it failed

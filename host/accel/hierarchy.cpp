@@ -1,5 +1,5 @@
-// A tree of the scene's primitives, laid out depth first so that the tables do not depend on the order in
-// which threads made its nodes.
+// A bounding volume hierarchy, laid out depth first, so that the tables do not depend on the order in which
+// threads create nodes.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -70,8 +70,7 @@ private:
     return static_cast<int>(index);
   }
 
-  // A leaf holds either flat primitives or spheres; where Embree put both together, a node stands above two
-  // leaves.
+  // A leaf has either planar primitives or spheres; a mixed leaf of Embree's becomes a node with two leaves.
   int write_leaf(std::span<const RTCBuildPrimitive> all) {
     const auto first_sphere =
         std::find_if(all.begin(), all.end(), [](const auto& p) { return p.geomID == sphere_geometry; });
@@ -159,7 +158,7 @@ Geometry hierarchy(const scene::Scene& scene, int lanes, bool in_double) {
   if (primitives.empty() && count_primitives(scene) > 0) return geometry; // none has an area
   geometry.radius = radius_of(primitives);
 
-  // One level is left for a node above a leaf of both kinds.
+  // One level is reserved for the node that splits a mixed leaf.
   const int most_levels = (lanes == 1 ? max_depth_binary : max_depth_wide) - 1;
   const auto width = static_cast<unsigned>(lanes);
   const Tree tree(std::move(primitives), {.branching = std::max(width, 2u),

@@ -19,8 +19,8 @@ Vec3 rounded(const Vec3& v) {
   return Vec3(glm::vec3(v));
 }
 
-// The three points (or centre and edges) of a flat primitive about `origin`. Where tables are of floats,
-// vertices are rounded before edges are taken, so that neighbours keep sharing them.
+// A planar primitive: a vertex (or the centre) and two edges, relative to the geometry's origin. For tables
+// of float, vertices are rounded before edges are computed, so that neighbouring triangles still share them.
 struct Flat {
   Vec3 origin, edge_u, edge_v;
   int region;
@@ -44,7 +44,7 @@ Flat flat(const scene::Scene& scene, const Vec3& origin, Reference reference, bo
 
 void grow(Box& box, const Vec3& low, const Vec3& high) {
   for (int axis = 0; axis < 3; ++axis) {
-    // Rounded outwards, by twice what rounding to float can have moved anything.
+    // Rounded outwards by twice the largest error of rounding to float.
     const double margin = 4.0 * half_ulp * std::max(std::abs(low[axis]), std::abs(high[axis]));
     const auto i = static_cast<std::size_t>(axis);
     box.low[i] = std::min(box.low[i], static_cast<float>(low[axis] - margin));
@@ -63,7 +63,7 @@ Vec3 half_extent(const Flat& f) {
   return glm::sqrt(f.edge_u * f.edge_u + f.edge_v * f.edge_v);
 }
 
-// Writes the values of primitive `index` of a table of blocks, which grows by a block where it must.
+// Writes the values of primitive `index` into a table of blocks, which grows by whole blocks.
 template<typename T, std::size_t count>
 void write_values(std::vector<T>& table, std::size_t block, std::size_t index,
                   const std::array<double, count>& values) {
@@ -73,7 +73,7 @@ void write_values(std::vector<T>& table, std::size_t block, std::size_t index,
   for (std::size_t k = 0; k < count; ++k) first[k * block] = static_cast<T>(values[k]);
 }
 
-struct Corners { // of the least box
+struct Corners { // of the bounding box
   Vec3 low, high;
 };
 
@@ -206,7 +206,7 @@ void TableWriter::add_planar(Reference reference) {
 
 int TableWriter::finish_planar_block() {
   while (geometry_.primitives.size() % static_cast<std::size_t>(geometry_.block) != 0) {
-    write_planar({}); // a normal of 0 faces no ray
+    write_planar({}); // no ray intersects a primitive with normal 0
     geometry_.primitives.push_back({0, -1, REGION_NONE});
     geometry_.emitters.push_back(-1);
     if (!geometry_.vertex_normals.empty()) geometry_.corners.insert(geometry_.corners.end(), 3, -1);
@@ -229,7 +229,7 @@ void TableWriter::add_sphere(Reference reference) {
 int TableWriter::finish_sphere_block() {
   const auto block = static_cast<std::size_t>(geometry_.block);
   while (sphere_records_.size() % block != 0) {
-    // A negative squared radius would need a root; a radius of 0 at infinity is simply never met.
+    // Padding: no ray hits a sphere of radius 0 this far away.
     write_sphere({1e18, 1e18, 1e18, 0.0});
     sphere_records_.push_back({0, -1, REGION_NONE});
     sphere_emitters_.push_back(-1);

@@ -1,5 +1,4 @@
-// One primitive at a time, taken from the scene's shapes about the scene's middle, in float precision where
-// the tables are of floats.
+// Single primitives of a scene, relative to its centre, and the writer of their tables.
 #pragma once
 
 #include <array>
@@ -11,7 +10,7 @@ namespace phlux::accel {
 
 using Float3 = std::array<float, 3>;
 
-/// Which element of the scene a primitive is.
+/// The element of the scene that a primitive is.
 struct Reference {
   enum class Kind : std::uint8_t { mesh, patch, sphere };
   Kind kind;
@@ -23,13 +22,14 @@ struct Box {
   Float3 low, high;
 };
 
-/// The middle of the scene's bounding box; (0, 0, 0) for a scene without shapes.
+/// The centre of the scene's bounding box; (0, 0, 0) for a scene without shapes.
 [[nodiscard]] scene::Vec3 middle(const scene::Scene& scene);
 
-/// A box that holds the primitive, in coordinates about `origin`.
+/// Bounding box of the primitive, relative to `origin`.
 [[nodiscard]] Box bounds(const scene::Scene& scene, const scene::Vec3& origin, Reference reference);
 
-/// Whether the primitive has an area that single precision can tell from 0; spheres have.
+/// False for a degenerate primitive: 1 / |edge_u x edge_v| is not finite in single precision. True for
+/// spheres.
 [[nodiscard]] bool has_area(const scene::Scene& scene, const scene::Vec3& origin, Reference reference,
                             bool in_double);
 
@@ -37,14 +37,14 @@ struct Box {
 class TableWriter {
 public:
   TableWriter(const scene::Scene& scene, Geometry& geometry);
-  /// A flat primitive that has_area().
+  /// A planar primitive that has_area().
   void add_planar(Reference reference);
-  /// Flat primitives so far, rounded up to a whole block by fillers that nothing meets.
+  /// Pads the planar primitives to whole blocks and returns their number; no ray hits the padding.
   int finish_planar_block();
-  /// Spheres go to tables of their own until `finish`.
+  /// Spheres have tables of their own until `finish`.
   void add_sphere(Reference reference);
   int finish_sphere_block();
-  /// Puts the spheres behind the flat primitives.
+  /// Appends the spheres to the planar primitives.
   void finish();
 
 private:

@@ -47,7 +47,7 @@ void set_bounds(void* node, const RTCBounds** bounds, unsigned count, void*) {
 
 } // namespace
 
-// What Embree's callbacks share, and the memory of the nodes.
+// The state that Embree's callbacks share; owns the nodes.
 struct Tree::Builder {
   EmbreeDevice device{rtcNewDevice(nullptr)};
   EmbreeBvh bvh;
@@ -59,7 +59,7 @@ struct Tree::Builder {
     Builder& builder = *static_cast<Builder*>(user);
     const std::span leaf(builder.leaf_primitives.data() + builder.used.fetch_add(count), count);
     std::copy_n(primitives, count, leaf.begin());
-    // Threads may hand the same leaf over in another order.
+    // The order within a leaf depends on the threads.
     std::sort(leaf.begin(), leaf.end(), [](const auto& a, const auto& b) {
       return a.geomID != b.geomID ? a.geomID < b.geomID : a.primID < b.primID;
     });

@@ -1,4 +1,4 @@
-// A tree of boxes, built by Embree's builder.
+// A bounding volume hierarchy, built by Embree.
 #pragma once
 
 #include <memory>
@@ -18,13 +18,13 @@ public:
   };
 
   struct Shape {
-    unsigned branching; ///< most children of a node
-    unsigned leaf_size; ///< most primitives of a leaf
+    unsigned branching; ///< largest number of children of a node
+    unsigned leaf_size; ///< largest number of primitives of a leaf
     unsigned block;     ///< primitives that are tested together
     unsigned max_depth;
   };
 
-  /// @throws SceneError when there is no memory for it, or no primitive
+  /// @throws SceneError for too little memory, or no primitive
   Tree(std::vector<RTCBuildPrimitive> primitives, const Shape& shape);
   ~Tree();
   Tree(Tree&&) = delete;

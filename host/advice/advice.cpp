@@ -11,11 +11,11 @@
 namespace phlux::advice {
 namespace {
 
-constexpr int longest_side = 64; // pixels of a trial's image
-constexpr double worth_saying = 2.0;
-constexpr double most_of_it = 0.8; // of the variance
+constexpr int longest_side = 64;       // pixels of a trial's image
+constexpr double least_gain = 2.0;     // in efficiency, for a suggestion
+constexpr double dominant_share = 0.8; // of the variance
 
-// Of the settings that choose a method, those that differ from the defaults.
+// The settings that choose a method and differ from their defaults.
 std::string method_of(const render::Settings& of) {
   std::string text = "`integrator` " + of.integrator;
   for (const settings::Setting& setting : settings::all())
@@ -37,7 +37,7 @@ Trial try_method(const scene::Scene& scene, const render::Settings& settings, co
   return {.method = method, .refusal = error.what(), .cost = 0.0, .reliability = {}};
 }
 
-// To one digit: trials of seconds say no more.
+// One significant digit: short trials are no more accurate.
 double rounded(double x) {
   const double unit = std::pow(10.0, std::floor(std::log10(x)));
   return std::round(x / unit) * unit;
@@ -48,10 +48,12 @@ std::string words_for(const std::vector<Trial>& trials, double seconds) {
   for (const Trial& trial : trials)
     if (&trial != &own && trial.refusal.empty() && trial.reliability.trusted && trial.cost > 0.0)
       if (best == nullptr || trial.cost < best->cost) best = &trial;
-  if (best == nullptr) return fmt::format("no other method is to be trusted after {:.2g} s either", seconds);
+  if (best == nullptr)
+    return fmt::format("after {:.2g} s the error estimate of no other method is to be trusted either",
+                       seconds);
   const double times = own.cost / best->cost;
-  if (own.cost > 0.0 && times < worth_saying) return {};
-  // What is rare may not have been met in so short a time, and counts for nothing then.
+  if (own.cost > 0.0 && times < least_gain) return {};
+  // A short trial may find no light; its cost is then 0.
   if (!(own.cost > 0.0))
     return fmt::format("try {}: in {:.2g} s this method finds no light, and that one does", best->method,
                        seconds);
@@ -59,18 +61,18 @@ std::string words_for(const std::vector<Trial>& trials, double seconds) {
                      seconds);
 }
 
-// Which light it is about.
+// The light that dominates the variance, if any.
 std::string words_for(const std::vector<LightShare>& shares) {
   for (const LightShare& light : shares)
-    if (light.share > most_of_it)
-      return fmt::format("; {:.0f}% of the variance is of {}", 100.0 * light.share, light.light);
+    if (light.share > dominant_share)
+      return fmt::format("; {:.0f}% of the variance comes from {}", 100.0 * light.share, light.light);
   return {};
 }
 
 } // namespace
 
 std::size_t trials_of(const scene::Scene& scene) {
-  return settings::integrators.size() + 1 + lights_told_apart(scene);
+  return settings::integrators.size() + 1 + light_share_renders(scene);
 }
 
 Advice advise(scene::Scene scene, const render::Settings& settings, double seconds) {

@@ -48,15 +48,15 @@ double variance_of_sample(const film::Film& film) {
 
 } // namespace
 
-std::size_t lights_told_apart(const scene::Scene& scene) {
+std::size_t light_share_renders(const scene::Scene& scene) {
   std::size_t count = 0;
   visit_lights(scene, [&](const char*, std::size_t, const scene::Rgb&) { ++count; });
-  return count > 1 && count <= most_lights_told_apart ? count : 0;
+  return count > 1 && count <= most_lights ? count : 0;
 }
 
 std::vector<LightShare> light_shares(scene::Scene& scene, const render::Settings& settings) {
   std::vector<LightShare> shares;
-  if (lights_told_apart(scene) == 0) return shares;
+  if (light_share_renders(scene) == 0) return shares;
   const std::vector<Light> lights = lights_of(scene);
   std::vector<scene::Rgb> powers;
   for (const Light& light : lights) powers.push_back(std::exchange(*light.power, scene::Rgb(0.0)));

@@ -1,4 +1,4 @@
-// Which of a scene's lights a method finds hard.
+// The share of each light of a scene in the variance.
 #pragma once
 
 #include <string>
@@ -13,14 +13,15 @@ struct LightShare {
   double share = 0.0; ///< in the variance of a sample, summed over the image
 };
 
-/// Scenes with more lights are not asked: each takes a render of its own.
-inline constexpr std::size_t most_lights_told_apart = 8;
+/// Scenes with more lights would take too many renders.
+inline constexpr std::size_t most_lights = 8;
 
-/// How many renders light_shares() takes: one for each light, none where there is one light or too many.
-[[nodiscard]] std::size_t lights_told_apart(const scene::Scene& scene);
+/// The number of renders of light_shares(): one for each light; 0 for a single light or more than
+/// most_lights.
+[[nodiscard]] std::size_t light_share_renders(const scene::Scene& scene);
 
-/// Renders each light alone by these settings, for their time_limit. What the lights bring adds up, and their
-/// variances nearly do. The scene comes back as it was. @throws UsageError, DeviceError
+/// Renders each light alone by these settings, for their time_limit. Radiance is additive over lights, and
+/// variance nearly so. The scene is unchanged afterwards. @throws UsageError, DeviceError
 [[nodiscard]] std::vector<LightShare> light_shares(scene::Scene& scene, const render::Settings& settings);
 
 } // namespace phlux::advice

@@ -25,7 +25,7 @@ void serialize(Archive& archive, Choices& choices) {
   archive(definitions, size, texts);
 }
 
-// Texts, so that the format stays when there is a setting more.
+// As texts, so that a new setting does not change the format.
 template<class Archive>
 void save(Archive& archive, const Settings& settings) {
   archive(texts_of(settings, [](Affects affects) { return affects != Affects::execution; }));
@@ -39,7 +39,7 @@ void load(Archive& archive, Settings& settings) {
 
 } // namespace phlux::settings
 
-// Structured bindings, so that a member that is added and forgotten here does not compile.
+// With structured bindings, a new member that is not serialized is a compile error.
 namespace phlux::render {
 
 template<class Archive>
@@ -83,7 +83,7 @@ void serialize(Archive& archive, Session& session) {
 
 namespace {
 
-// To be raised with every change of what is written: tests/checkpoint has the length of a small file.
+// Must be raised with every change of the format; tests/checkpoint knows the length of a small file.
 constexpr int format_version = 2;
 constexpr std::string_view magic = "phlux checkpoint ";
 
@@ -92,7 +92,7 @@ std::string digest_of(std::string_view bytes) {
   return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
 }
 
-// Of the same length whatever the rest is.
+// Its length does not depend on `rest`.
 std::string first_line(std::string_view rest) {
   return fmt::format("{}{} {} {:020}\n", magic, format_version, digest_of(rest), rest.size());
 }
@@ -120,9 +120,9 @@ std::string text_of(const std::filesystem::path& file) {
                            version, format_version));
   std::string rest(std::istreambuf_iterator<char>(stream), {});
   if (line == first_line(rest)) return rest;
-  const bool short_of =
+  const bool truncated =
       !line.ends_with('\n') || line.substr(line.rfind(' ')) != fmt::format(" {:020}\n", rest.size());
-  fail(file, fmt::format("{}: {}", short_of ? "is not whole" : "is damaged", remedy));
+  fail(file, fmt::format("{}: {}", truncated ? "is not whole" : "is damaged", remedy));
 }
 
 } // namespace
@@ -149,7 +149,7 @@ Checkpoint read(const std::filesystem::path& file) {
   } catch (const UsageError& error) {
     fail(file, fmt::format("is not of this version of phlux: {}: go on with the phlux that wrote it",
                            error.what()));
-  } catch (const cereal::Exception&) { // the digest is right, and the file was made by nobody's phlux
+  } catch (const cereal::Exception&) { // the digest matches, but phlux did not write the file
     fail(file, fmt::format("is damaged: {}", remedy));
   }
   return result;

@@ -1,4 +1,4 @@
-// A render with all that it takes to go on, in a file.
+// Files from which a render resumes.
 #pragma once
 
 #include <filesystem>
@@ -10,12 +10,12 @@
 
 namespace phlux::checkpoint {
 
-/// A render but for its film.
+/// The state of a render except its film.
 struct Session {
   std::string scene;         ///< the file, as the user named it
   std::string scene_digest;  ///< scene::digest
   settings::Choices choices; ///< of the user
-  render::Settings settings; ///< what they and the scene led to; in a file without where it runs
+  render::Settings settings; ///< from the choices and the scene; a file omits those of execution
   render::RenderState state;
 };
 
@@ -24,12 +24,12 @@ struct Checkpoint {
   film::Film film;
 };
 
-/// The bytes of a file: a line of text with the format's version, the digest of the rest (XXH3, 128 bits) and
-/// its length, and the rest as cereal's portable binary archive.
+/// The bytes of a file: a line of text with the format's version, the digest (XXH3, 128 bits) and the length
+/// of the rest, which is cereal's portable binary archive.
 [[nodiscard]] std::string encode(const Session& session, const film::Film& film);
 
-/// @throws FileError when the file is missing, is no checkpoint, is of another version of the format, is cut
-/// short or is damaged
+/// @throws FileError when the file is missing, no checkpoint, of another version of the format, truncated or
+/// damaged
 [[nodiscard]] Checkpoint read(const std::filesystem::path& file);
 
 } // namespace phlux::checkpoint

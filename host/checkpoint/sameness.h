@@ -1,4 +1,4 @@
-// Whether a checkpoint is of the render that is to go on.
+// Checks that a checkpoint belongs to the render that resumes from it.
 #pragma once
 
 #include <filesystem>
@@ -7,9 +7,9 @@
 
 namespace phlux::checkpoint {
 
-/// Looks at what decides the image: its size, the scene, the settings; and whether there are more samples
-/// than are wanted. `file` is the checkpoint's name, width and height those of `now`.
-/// @throws FileError or UsageError, naming what differs and what would be right
+/// Compares what determines the image: its size, the scene and the settings. `file` is the checkpoint's name;
+/// width and height are those of `now`.
+/// @throws FileError for a difference, UsageError for a checkpoint with more samples than `now` asks for
 void check_same(const Checkpoint& earlier, const Session& now, int width, int height,
                 const std::filesystem::path& file);
 

@@ -9,10 +9,10 @@
 namespace phlux::cli {
 namespace {
 
-// What a user can always do about a checkpoint that does not fit.
+// Adds a remedy to the error of a checkpoint that does not match.
 template<class Function>
-auto or_anew(const Function& function) {
-  constexpr const char* anew = ", or leave out --resume to begin anew";
+auto with_remedy(const Function& function) {
+  constexpr const char* anew = ", or leave out --resume to start anew";
   try {
     return function();
   } catch (const FileError& error) {
@@ -22,22 +22,22 @@ auto or_anew(const Function& function) {
   }
 }
 
-// Whoever made the checkpoint must not choose code that runs here.
+// A checkpoint from elsewhere must not run code on this machine.
 void require_own_strategy(const RenderOptions& options, const settings::Choices& earlier) {
   const auto then = earlier.texts.find("strategy");
   if (then == earlier.texts.end() || options.has("strategy") || !settings::is_strategy_file(then->second))
     return;
-  throw UsageError(
-      fmt::format("--resume {}: its render had --strategy {}, and a checkpoint runs no file of yours by "
-                  "itself: give --strategy {} too",
-                  options.resume.string(), then->second, then->second));
+  throw UsageError(fmt::format(
+      "--resume {}: its render had --strategy {}, and a checkpoint alone must not run your files: "
+      "give --strategy {} too",
+      options.resume.string(), then->second, then->second));
 }
 
 } // namespace
 
 std::optional<checkpoint::Checkpoint> resumed(RenderOptions& options) {
   if (options.resume.empty()) return std::nullopt;
-  checkpoint::Checkpoint earlier = or_anew([&] { return checkpoint::read(options.resume); });
+  checkpoint::Checkpoint earlier = with_remedy([&] { return checkpoint::read(options.resume); });
   require_own_strategy(options, earlier.session.choices);
   options.complete(earlier.session.choices);
   return earlier;
@@ -45,7 +45,7 @@ std::optional<checkpoint::Checkpoint> resumed(RenderOptions& options) {
 
 void check_same(const checkpoint::Checkpoint& earlier, const checkpoint::Session& now,
                 const scene::Camera& camera, const std::filesystem::path& file) {
-  or_anew([&] { checkpoint::check_same(earlier, now, camera.width, camera.height, file); });
+  with_remedy([&] { checkpoint::check_same(earlier, now, camera.width, camera.height, file); });
 }
 
 Checkpoints::Checkpoints(std::filesystem::path file, const RenderOptions& options,
@@ -55,7 +55,7 @@ Checkpoints::Checkpoints(std::filesystem::path file, const RenderOptions& option
           std::chrono::duration<double>(options.checkpoint_seconds.value_or(default_checkpoint_seconds)))),
       next_(Clock::now() + between_) {
   if (!file_.empty() && options.resume.empty() && std::filesystem::is_regular_file(file_))
-    spdlog::warn("--checkpoint {}: takes the place of an earlier one, from which --resume would go on",
+    spdlog::warn("--checkpoint {}: replaces an earlier checkpoint, from which --resume would continue",
                  file_.string());
 }
 
@@ -63,7 +63,7 @@ void Checkpoints::wait() {
   try {
     if (writing_.valid()) writing_.get();
   } catch (const WriteError& error) {
-    spdlog::warn("{}: rendering goes on, with another try later", error.what());
+    spdlog::warn("{}: rendering continues, and the next checkpoint may succeed", error.what());
   }
 }
 

@@ -1,4 +1,4 @@
-// When a render's checkpoints are written, and what they hold.
+// Reads and writes the checkpoints of a render.
 #pragma once
 
 #include <chrono>
@@ -14,23 +14,24 @@ namespace phlux::cli {
 
 inline constexpr double default_checkpoint_seconds = 60.0;
 
-/// The checkpoint that the render goes on from, and what the user chose then and does not choose now.
-/// @throws FileError as checkpoint::read
+/// The checkpoint to resume from, if any; its choices are added to `options` where those are not given.
+/// @throws FileError as checkpoint::read, UsageError for a strategy file that is not given again
 [[nodiscard]] std::optional<checkpoint::Checkpoint> resumed(RenderOptions& options);
 
 /// @throws FileError or UsageError as checkpoint::check_same
 void check_same(const checkpoint::Checkpoint& earlier, const checkpoint::Session& now,
                 const scene::Camera& camera, const std::filesystem::path& file);
 
-/// Writes to one file, again and again. Without a name it does nothing.
+/// Writes checkpoints to one file, each replacing the last. Does nothing without a file name.
 class Checkpoints {
 public:
   Checkpoints(std::filesystem::path file, const RenderOptions& options, checkpoint::Session session);
 
-  /// Now and then, in a thread of its own: the render waits for a copy in memory alone. A checkpoint that
-  /// cannot be written is a warning, as the next may succeed.
+  /// Writes a checkpoint when the interval has passed, in another thread; the render waits only for the copy
+  /// in memory. A failed write is a warning, as the next may succeed.
   void update(const film::Film& film, const render::Progress& progress);
-  /// The last one. Why it could not be written, if so: what else there is to write comes before that.
+  /// Writes the last checkpoint. Returns an error rather than throwing it, so that the image is written
+  /// first.
   [[nodiscard]] std::optional<WriteError> finish(const film::Film& film, const render::RenderState& state);
 
 private:

@@ -25,11 +25,10 @@ void add_settings(CLI::App& app, RenderOptions& options, const std::function<boo
 }
 
 void add_method(CLI::App& app, RenderOptions& options) {
-  app.option_defaults()->group("How light is found");
+  app.option_defaults()->group("Light transport");
   add_lobes(app,
-            "a reflectance model of your own: one kernel file, which the scene names as <bsdf "
-            "type=\"NAME\">; may be "
-            "repeated",
+            "kernel file with a reflectance model of your own, which the scene uses as <bsdf type=\"NAME\">; "
+            "may be repeated",
             options.lobes);
   add_settings(app, options, [](Affects affects) {
     return affects == Affects::expectation || affects == Affects::estimate;
@@ -37,10 +36,10 @@ void add_method(CLI::App& app, RenderOptions& options) {
 }
 
 void add_amount(CLI::App& app, RenderOptions& options) {
-  app.option_defaults()->group("How much");
+  app.option_defaults()->group("Samples and size");
   add_settings(app, options, [](Affects affects) { return affects == Affects::amount; });
   add_value(app, "--size", "WxH",
-            "pixels of the image; default: the scene's. The field of view along fovAxis stays",
+            "image size in pixels; default: the scene's. The field of view along fovAxis is kept",
             [&](const std::string& text) { options.size = settings::size("--size", text); });
   add_settings(app, options, [](Affects affects) { return affects == Affects::samples; });
   add_values(app, "-D", "NAME=VALUE", "replaces $NAME in the scene; may be repeated",
@@ -51,18 +50,17 @@ void add_amount(CLI::App& app, RenderOptions& options) {
 }
 
 void add_device(CLI::App& app, RenderOptions& options) {
-  app.option_defaults()->group("Where it runs");
-  add_values(
-      app, "--device", "SPEC",
-      "P:D as `phlux devices` lists them, cpu, gpu, all, or a part of a platform's or else a device's "
-      "name; may be repeated. Of two drivers for the same CPU, cpu and a part of a name take the first",
-      [&](const std::string& text) { options.devices.push_back(text); });
+  app.option_defaults()->group("Device");
+  add_values(app, "--device", "SPEC",
+             "P:D (platform:device, see phlux devices), cpu, gpu, all, or part of a platform's or device's "
+             "name; may be repeated. Where two drivers offer the same CPU, cpu and names choose the first",
+             [&](const std::string& text) { options.devices.push_back(text); });
   add_settings(app, options, [](Affects affects) { return affects == Affects::execution; });
   add_kernel_dir(app, options.kernel_dir);
 }
 
 void add_files(CLI::App& app, RenderOptions& options) {
-  app.option_defaults()->group("What is written");
+  app.option_defaults()->group("Files and messages");
   const auto add_file = [&](const std::string& names, const std::string& value, const std::string& help,
                             std::filesystem::path& file) {
     add_value(app, names, value, help, [&file, names](const std::string& text) {
@@ -73,37 +71,36 @@ void add_files(CLI::App& app, RenderOptions& options) {
   add_file("-o,--output", "FILE.exr", "the image; default: the scene's name in the working directory",
            options.output);
   add_file("--png", "FILE",
-           "tone-mapped preview, also rewritten while rendering; default: beside the image; none: without",
+           "tone-mapped preview, updated while rendering; default: beside the image; none: no preview",
            options.preview);
-  add_file(
-      "--contributions", "DIR",
-      "bidir and light: an image for every way of making a path, s light and t eye vertices, weighted and "
-      "unweighted, and a contact sheet",
-      options.contributions);
-  add_file("--stats", "FILE.json", "figures of the render", options.statistics);
+  add_file("--contributions", "DIR",
+           "bidir and light: a folder with an image for every technique (s light and t eye vertices), "
+           "weighted and unweighted, and a contact sheet",
+           options.contributions);
+  add_file("--stats", "FILE.json", "statistics of the render, as JSON", options.statistics);
   add_file("--checkpoint", "FILE",
-           "all that the render takes to go on, written now and then, at the end and when it is interrupted; "
-           "default: with --resume, that file; none: without",
+           "file to resume from, written at intervals, at the end and on interruption; default: the file of "
+           "--resume, if given; none: no checkpoint",
            options.checkpoint);
   add_value(app, "--checkpoint-every", "SECONDS",
-            fmt::format("how often; default: {:g}", default_checkpoint_seconds),
+            fmt::format("seconds between checkpoints; default: {:g}", default_checkpoint_seconds),
             [&](const std::string& text) {
               options.checkpoint_seconds = settings::number_within("--checkpoint-every", text, 0.01, 1e9);
             });
   add_file(
       "--resume", "FILE",
-      "goes on from a checkpoint, with the options that it had and this command does not give; -n, --time "
-      "and --error count from its beginning",
+      "continues from a checkpoint, with its options where this command gives none; -n, --time and --error "
+      "include what was rendered before",
       options.resume);
   app.add_flag(
       "--moments", options.moments,
-      "adds channels variance.R, .G and .B: variance of the mean; and reliability: how far to trust it");
+      "adds the channels variance.R, .G and .B (variance of the mean) and reliability (of that variance)");
   app.add_flag(
       "--advise", options.advise,
-      "where the error cannot be trusted, tries the other integrators for a second each and says which "
-      "does better; without it only where that takes 3% of the time");
+      "where the error estimate is unreliable, tries the other integrators for a second each and suggests a "
+      "better one; without this option only where that takes at most 3% of the render time");
   app.add_flag("-q,--quiet", options.quiet, "no progress and no summary");
-  app.add_flag("--verbose", options.verbose, "notes on what was passed over and chosen");
+  app.add_flag("--verbose", options.verbose, "also notes: what was ignored, and what was chosen");
 }
 
 void add_render(CLI::App& program, std::optional<Command>& command) {
@@ -114,7 +111,7 @@ void add_render(CLI::App& program, std::optional<Command>& command) {
   add_amount(app, *options);
   add_method(app, *options);
   add_device(app, *options);
-  app.footer(" "); // not the program's
+  app.footer(" "); // instead of the program's footer
   app.final_callback([&command, options] {
     if (options->has("spp") && (options->has("time") || options->has("error")))
       throw UsageError("--spp: cannot go with --time or --error, which decide how many samples are taken");
@@ -132,7 +129,7 @@ void add_devices(CLI::App& program, std::optional<Command>& command) {
 }
 
 void add_compare(CLI::App& program, std::optional<Command>& command) {
-  CLI::App& app = *program.add_subcommand("compare", "Says how far an image is from a reference");
+  CLI::App& app = *program.add_subcommand("compare", "Compares an image with a reference");
   const auto options = std::make_shared<CompareOptions>();
   app.add_option("A.exr", options->a, "image")->type_name("")->required();
   app.add_option("B.exr", options->b, "reference")->type_name("")->required();
@@ -145,14 +142,14 @@ void add_compare(CLI::App& program, std::optional<Command>& command) {
 }
 
 void add_merge(CLI::App& program, std::optional<Command>& command) {
-  CLI::App& app = *program.add_subcommand("merge", "Makes one image of several renders of a scene");
+  CLI::App& app = *program.add_subcommand("merge", "Merges several renders of a scene into one image");
   const auto options = std::make_shared<MergeOptions>();
   app.add_option("IMAGE.exr", options->images,
-                 "two or more renders of different seeds, or of different samples of one")
+                 "two or more renders with different seeds, or different samples of one seed")
       ->type_name("")
       ->required();
   app.add_option("-o,--output", options->output, "the merged image")->type_name("OUT.exr")->required();
-  app.footer("Images are weighted by their samples. The variance of the mean is merged where all have it.");
+  app.footer("Images are weighted by their samples. Variances are merged where all images have them.");
   app.final_callback([&command, options] { command = [options] { return merge(*options); }; });
 }
 
@@ -165,7 +162,7 @@ std::vector<std::string> option_names(const CLI::App& app) {
   return names;
 }
 
-// The innermost command that the line names.
+// The innermost command on the line.
 const CLI::App& chosen_of(const CLI::App& program) {
   const CLI::App* app = &program;
   while (!app->get_subcommands().empty()) app = app->get_subcommands().front();
@@ -178,7 +175,7 @@ std::string full_name(const CLI::App& app) {
                                      : fmt::format("{} {}", full_name(*app.get_parent()), app.get_name());
 }
 
-// CLI11 puts what it does not know aside; the first such option explains more than what it then misses.
+// CLI11 collects unknown arguments. The first unknown option is reported before anything that is missing.
 [[noreturn]] void reject(const CLI::App& program, const CLI::ParseError& error) {
   const CLI::App& app = chosen_of(program);
   const std::string help = full_name(app) + " --help";
@@ -214,13 +211,12 @@ std::optional<Command> parse(int argc, char** argv) {
   CLI::App program("phlux: path tracing of Mitsuba scenes on any OpenCL device", "phlux");
   program.set_version_flag(
       "--version", version_report,
-      "version, commit, compiler, libraries and OpenCL platforms: what a report should say");
+      "prints version, commit, compiler, libraries and OpenCL platforms, for bug reports");
   program.require_subcommand(1);
-  program.get_formatter()->label("REQUIRED", ""); // the usage line says it
+  program.get_formatter()->label("REQUIRED", ""); // the usage line shows it already
   program.footer("phlux COMMAND --help lists the options of a command.\n"
-                 "Exit codes: 0 done, 1 a check or comparison failed, 2 wrong usage, 3 bad scene or file, 4 "
-                 "no device or it "
-                 "failed,\n5 write failed, 130 interrupted.");
+                 "Exit codes: 0 done, 1 a check or comparison failed, 2 wrong usage, 3 bad scene or file,\n"
+                 "4 no device or it failed, 5 write failed, 130 interrupted.");
   add_render(program, command);
   add_devices(program, command);
   add_compare(program, command);

@@ -1,4 +1,4 @@
-// The grammar of the command line.
+// Parses the command line.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@ namespace phlux::cli {
 /// A command with all its options, ready to run; returns the exit code.
 using Command = std::function<int()>;
 
-/// Parses the command line. Help and the version are printed here; then there is no command.
+/// Parses the command line. Returns no command where it asks for help or the version, which are printed here.
 /// @throws UsageError
 [[nodiscard]] std::optional<Command> parse(int argc, char** argv);
 

@@ -1,11 +1,11 @@
 #include <algorithm>
-#include <array>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "cli/commands.h"
+#include "cli/table.h"
 #include "device/device.h"
 #include "errors.h"
 #include "files/json.h"
@@ -17,8 +17,7 @@ std::string specification(const device::DeviceInfo& info) {
   return fmt::format("{}:{}", info.platform_index, info.device_index);
 }
 
-// What a render without --device would use; nothing when that cannot be opened, or PHLUX_DEVICE names
-// nothing.
+// The devices of a render without --device; none when they cannot be opened or PHLUX_DEVICE matches none.
 std::vector<std::string> default_specifications() {
   std::vector<std::string> specifications;
   try {
@@ -49,7 +48,7 @@ std::string gibibytes(std::uint64_t bytes) {
   return fmt::format("{:.1f} GiB", static_cast<double>(bytes) * 0x1p-30);
 }
 
-using Row = std::array<std::string, 11>;
+using Row = std::vector<std::string>;
 const Row headings = {"DEVICE", "TYPE",   "NAME",           "PLATFORM",     "DRIVER", "OPENCL C",
                       "UNITS",  "MEMORY", "LARGEST BUFFER", "NATIVE WIDTH", "WIDTH"};
 
@@ -65,20 +64,6 @@ Row to_row(const device::DeviceInfo& info, bool is_default) {
           gibibytes(info.largest_buffer),
           fmt::format("{}", info.native_float_width),
           fmt::format("{}", info.lanes)};
-}
-
-void print_table(const std::vector<Row>& rows) {
-  std::array<std::size_t, std::tuple_size_v<Row>> widths{};
-  for (const Row& row : rows)
-    for (std::size_t column = 0; column < row.size(); ++column)
-      widths[column] = std::max(widths[column], row[column].size());
-  for (const Row& row : rows) {
-    std::string line;
-    for (std::size_t column = 0; column < row.size(); ++column)
-      line += fmt::format("{:<{}}  ", row[column], widths[column]);
-    line.erase(line.find_last_not_of(' ') + 1);
-    fmt::print("{}\n", line);
-  }
 }
 
 } // namespace

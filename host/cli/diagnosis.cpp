@@ -11,11 +11,11 @@
 namespace phlux::cli {
 namespace {
 
-constexpr double share_for_trials = 0.03; // of the render's time
-constexpr double gross = 0.3;             // part of a standard error that is likely to be missing
+constexpr double share_for_trials = 0.03;   // of the render's time
+constexpr double grossly_understated = 0.3; // share of the standard error that is likely to be missing
 constexpr double longest_trial = 1.0, shortest_trial = 0.2;
 
-// Seconds for each of so many trials; 0: none.
+// Seconds per trial; 0: no trials.
 double trial_seconds(const render::Statistics& statistics, std::size_t trials, bool insist) {
   if (insist) return longest_trial;
   const double before = statistics.seconds_setup + statistics.seconds_build_kernels;
@@ -23,7 +23,7 @@ double trial_seconds(const render::Statistics& statistics, std::size_t trials, b
   return seconds < shortest_trial ? 0.0 : std::min(seconds, longest_trial);
 }
 
-// Whether the error cannot be trusted though the image could be other than black.
+// Whether the error estimate is unreliable; that of a scene without light is exact.
 bool doubtful(const film::Reliability& reliability, const render::Statistics& statistics) {
   return !reliability.trusted && statistics.shines;
 }
@@ -54,7 +54,7 @@ void report(const Diagnosis& diagnosis, const film::Film& film, const render::St
   const film::Reliability& r = diagnosis.reliability;
   if (!doubtful(r, statistics) || film.samples_per_pixel() < film::least_samples) return;
   const bool nearly =
-      r.reasons.size() == 1 && r.understated > film::most_understated && r.understated < gross;
+      r.reasons.size() == 1 && r.understated > film::most_understated && r.understated < grossly_understated;
   std::string text = fmt::format("the error estimate is not {}to be trusted: {}", nearly ? "quite " : "",
                                  fmt::join(r.reasons, "; "));
   if (r.worst_share > 0.5)

@@ -1,4 +1,4 @@
-// What a render says of itself at its end.
+// The report at the end of a render: reliability of its error estimate, and advice.
 #pragma once
 
 #include <string>
@@ -13,13 +13,13 @@ struct Diagnosis {
   std::string advice; ///< empty where there is none
 };
 
-/// Looks at the film, and where its error cannot be trusted tries other methods: for a second each where
-/// `insist`, else only where that and what came before, such as building kernels, fit 3% of the render's
-/// time. The scene is not needed any more.
+/// Estimates the reliability of the film's error, and tries other methods where it is unreliable: for a
+/// second each if `insist`, else only where the trials and the setup together take at most 3% of the render's
+/// time.
 [[nodiscard]] Diagnosis diagnose(const film::Film& film, const render::Statistics& statistics,
                                  const render::Settings& settings, scene::Scene&& scene, bool insist);
 
-/// In the log: what was not finite, what was clamped, why the error cannot be trusted, and what to try.
+/// Logs contributions that were not finite or clamped, why the error estimate is unreliable, and the advice.
 void report(const Diagnosis& diagnosis, const film::Film& film, const render::Statistics& statistics,
             const render::Settings& settings);
 

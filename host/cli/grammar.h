@@ -1,4 +1,4 @@
-// How the command line's options are declared, whichever the command.
+// Declares options that several commands share.
 #pragma once
 
 #include <filesystem>
@@ -19,8 +19,7 @@ inline constexpr std::size_t first_column = 30, last_column = 100;
 
 [[nodiscard]] std::string wrapped(const std::string& text);
 
-// An option with one value, which `set` is given as text; when repeated, the last one counts, as scripts
-// expect.
+// An option with one value, which is passed to `set` as text; when repeated, the last value counts.
 template<class Set>
 CLI::Option* add_value(CLI::App& app, const std::string& names, const std::string& value,
                        const std::string& help, Set set) {
@@ -61,7 +60,7 @@ void add_lobes(CLI::App& app, const std::string& help, std::vector<std::filesyst
 void add_one_device(CLI::App& app, std::vector<std::string>& devices, int& lanes,
                     std::filesystem::path& kernel_dir);
 
-/// `phlux bench`, with all that it measures. @throws UsageError while parsing
+/// `phlux bench` and its subcommands. @throws UsageError while parsing
 void add_bench(CLI::App& program, std::optional<Command>& command);
 
 /// `phlux verify`. @throws UsageError while parsing

@@ -9,8 +9,8 @@ namespace {
 volatile std::sig_atomic_t interrupted = 0;
 volatile std::time_t first_signal = 0;
 
-// A second signal ends the program at once, but not one of the same keystroke: wrappers pass theirs on to a
-// program that the terminal has told already.
+// A second signal ends the program at once, unless it follows within two seconds: one keystroke can arrive
+// twice, from the terminal and from a wrapper program that passes it on.
 extern "C" void note_interrupt(int signal) {
   std::timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now); // async-signal-safe

@@ -1,12 +1,12 @@
-// SIGINT and SIGTERM as a question that the dispatch loop asks.
+// SIGINT and SIGTERM as a flag that the dispatch loop polls.
 #pragma once
 
 namespace phlux::cli {
 
 inline constexpr int interrupted_exit_code = 130;
 
-/// While one lives, the first SIGINT or SIGTERM only sets a flag; a second one ends the process at once. One
-/// at a time.
+/// During its lifetime the first SIGINT or SIGTERM only sets a flag; a second one ends the process at once.
+/// There must be only one at a time.
 class InterruptGuard {
 public:
   InterruptGuard();

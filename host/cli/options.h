@@ -1,4 +1,4 @@
-// What the user asked for on the command line.
+// The options of each command.
 #pragma once
 
 #include <cstdint>
@@ -47,9 +47,9 @@ struct VerifyOptions {
   std::vector<std::string> devices;                            ///< one at most
   std::vector<std::string> strategies;                         ///< names and kernel files; empty: all names
   std::vector<std::filesystem::path> lobes;                    ///< kernel files of the user's models
-  std::vector<std::string> models;                             ///< names of models that ship
+  std::vector<std::string> models;                             ///< names of built-in models
   std::vector<std::pair<std::string, std::string>> parameters; ///< NAME and VALUE
-  int lanes = 0;                                               ///< 0: what suits the device
+  int lanes = 0;                                               ///< 0: the device's
   std::size_t samples = 0;                                     ///< per case; 0: the default
   std::filesystem::path kernel_dir, json;
   bool quick = false;

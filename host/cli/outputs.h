@@ -1,4 +1,4 @@
-// Where a render's files go.
+// The files that a render writes.
 #pragma once
 
 #include <filesystem>
@@ -8,21 +8,21 @@
 
 namespace phlux::cli {
 
-/// Empty where nothing is written.
+/// An empty name: not written.
 struct Outputs {
   std::filesystem::path image, preview, statistics, checkpoint;
 };
 
-/// The options' files or their defaults; a resumed render writes its checkpoints where it was resumed from.
-/// No preview goes beside what is not a regular file (/dev/null).
-/// @throws UsageError for one name given twice, or an image named as another format
+/// The options' files or their defaults; the default checkpoint is the file that the render resumes from.
+/// There is no default preview for an image that is not a regular file (/dev/null).
+/// @throws UsageError for a name given twice, or the name of another image format
 [[nodiscard]] Outputs outputs_of(const RenderOptions& options);
 
-/// @throws WriteError for the first that could not be written
+/// @throws WriteError for the first file that cannot be written
 void check_writable(const Outputs& outputs);
 
-/// Rewrites the preview while the render goes on, every three seconds or less often: at most 2% of the time
-/// is spent on it. A preview that cannot be written is left to the end to complain about.
+/// Rewrites the preview during the render, at most every three seconds and for at most 2% of the time. A
+/// failed write is only noted; the last one, at the end of the render, throws.
 class PreviewRefresher {
 public:
   explicit PreviewRefresher(std::filesystem::path file) : file_(std::move(file)) {}

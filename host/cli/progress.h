@@ -1,5 +1,4 @@
-// What the user sees while a render runs: one line that changes on a terminal, a plain line now and then
-// elsewhere.
+// Progress of a render: one changing line on a terminal, elsewhere a new line every ten seconds.
 #pragma once
 
 #include <functional>
@@ -10,8 +9,8 @@
 
 namespace phlux::cli {
 
-/// The part of the render that is done, in [0, 1]; 0 while unknown. The error falls with the root of the
-/// samples, so (target / error)^2 of the work for a target error is done.
+/// The fraction of the render that is done, in [0, 1]; 0 while unknown. For a target error it is
+/// (target / error)^2, as the error falls with the square root of the samples.
 [[nodiscard]] double fraction_done(const render::Progress& progress, std::optional<double> time_limit,
                                    std::optional<double> target_error, double error);
 
@@ -27,9 +26,9 @@ public:
   ProgressDisplay& operator=(const ProgressDisplay&) = delete;
 
   void building_kernels();
-  /// To be called often; asks for `error`, the relative standard error so far, only when it shows it.
+  /// To be called often; computes `error`, the relative standard error so far, only when it shows it.
   void update(const render::Progress& progress, const std::function<double()>& error);
-  /// Takes the changing line away, for whatever comes next.
+  /// Erases the changing line.
   void clear();
 
 private:

@@ -27,8 +27,8 @@
 namespace phlux::cli {
 namespace {
 
-// The film's relative standard error, computed at most twice a second and for at most 2% of the time; in
-// between it falls with the root of the samples.
+// The film's relative standard error, computed at most twice a second and for at most 2% of the time. Between
+// computations it is extrapolated: it falls with the square root of the samples.
 class ErrorSoFar {
 public:
   explicit ErrorSoFar(const film::Film& film) : film_(film) {}
@@ -58,7 +58,7 @@ render::Settings settings_of(const RenderOptions& options, const scene::RenderDe
   return settings::settings_of(options, scene, defaults);
 }
 
-// The renderer knows no files; the user should read which one is to blame.
+// Adds the file name, which the renderer does not know, to its errors.
 render::Statistics render_scene(const scene::Scene& scene, const render::Settings& settings, film::Film& film,
                                 const render::Events& events, const render::RenderState& from,
                                 const std::filesystem::path& file) try {
@@ -109,7 +109,7 @@ files::RenderInfo info_of(const checkpoint::Session& session, const film::Film& 
 
 void warn_of_moments(const files::Image& image) {
   if (image.channels.size() == 3) {
-    spdlog::warn("--moments: a variance takes two samples in every pixel: its channels are left out");
+    spdlog::warn("--moments: variances need two samples in every pixel: their channels are left out");
     return;
   }
   for (const auto& [name, values] : image.channels)
@@ -177,7 +177,7 @@ int render(const RenderOptions& given) {
   }
   const std::optional<WriteError> failure = checkpoints.finish(film, statistics);
   const files::RenderInfo info = info_of(session, film, statistics);
-  // The image is safe before anything else is tried.
+  // Before the diagnosis, which may fail.
   write(outputs, info, film, options.moments);
   const Diagnosis diagnosis = diagnose(film, statistics, settings, std::move(scene), options.advise);
   if (!outputs.statistics.empty())

@@ -25,7 +25,7 @@ void set_up_log() {
   spdlog::set_level(spdlog::level::warn);
 }
 
-// One line, whatever the message: what follows the first, such as a compiler's log, is for --verbose.
+// Prints the first line of the message; further lines, such as a compiler's log, only with --verbose.
 int report(const std::string& error, int exit_code) {
   const std::string message = with_options(error);
   const std::size_t end = message.find('\n');

@@ -1,11 +1,11 @@
-// What the libraries call `NAME` is the option --NAME here.
+// Names of settings in messages: the libraries write `NAME`, the command line --NAME.
 #pragma once
 
 #include <string>
 
 namespace phlux::cli {
 
-/// `text` with options in place of the settings that it names.
+/// Replaces each setting's name in backquotes by its option.
 [[nodiscard]] std::string with_options(const std::string& text);
 
 } // namespace phlux::cli

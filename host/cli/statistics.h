@@ -1,4 +1,4 @@
-// What `--stats` writes.
+// The JSON of --stats.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -10,9 +10,8 @@
 
 namespace phlux::cli {
 
-/// All keys of CONTRACT.md, the settings of the image and its samples, and version, scene, lanes, traversal,
-/// parts (what the kernel holds code for), interrupted. `variance` and `relative_standard_error` are the
-/// film's; an infinite one becomes null.
+/// The settings of the image and of its samples, and the statistics of the render, of the film and of its
+/// error estimate. `parts` are those that the kernel has code for. Infinite values become null.
 [[nodiscard]] nlohmann::ordered_json statistics_json(const render::Statistics& statistics,
                                                      const render::Settings& settings,
                                                      const files::RenderInfo& info, const film::Film& film,

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "cli/commands.h"
+#include "cli/table.h"
 #include "clock.h"
 #include "device/device.h"
 #include "files/json.h"
@@ -34,22 +35,6 @@ std::vector<std::string> distinct(const Report& report, bool of_strategies, std:
   return names;
 }
 
-void print_grid(const std::vector<std::vector<std::string>>& rows) {
-  std::vector<std::size_t> widths;
-  for (const auto& row : rows)
-    for (std::size_t column = 0; column < row.size(); ++column) {
-      if (column == widths.size()) widths.push_back(0);
-      widths[column] = std::max(widths[column], row[column].size());
-    }
-  for (const auto& row : rows) {
-    std::string line;
-    for (std::size_t column = 0; column < row.size(); ++column)
-      line += fmt::format("{:<{}}  ", row[column], widths[column]);
-    line.erase(line.find_last_not_of(' ') + 1);
-    fmt::print("{}\n", line);
-  }
-}
-
 std::string limit_text(const Result& result) {
   return fmt::format("{} {:.3g}", result.sense == Sense::probability ? "p >" : "<=", result.limit);
 }
@@ -68,7 +53,7 @@ std::vector<std::string> column_of(const Report& report, const std::string& chec
   return column;
 }
 
-// In blocks of columns that fit a terminal.
+// In blocks of columns as wide as a terminal.
 void print_strategies(const Report& report) {
   constexpr std::size_t columns_per_block = 7;
   const auto strategies = distinct(report, true, &Result::strategy),
@@ -80,18 +65,18 @@ void print_strategies(const Report& report) {
       const auto column = column_of(report, checks[i], strategies);
       for (std::size_t row = 0; row < rows.size(); ++row) rows[row].push_back(column[row]);
     }
-    print_grid(rows);
+    print_table(rows);
     fmt::print("\n");
   }
 }
 
-// The checks below each other that are of the model, or of the one of this name.
+// One row per check of the strategy or model of this name; empty: of the Phong model.
 void print_model(const Report& report, const std::string& name) {
   std::vector<std::vector<std::string>> rows{{name.empty() ? "MODEL" : name, "worst", "limit", "where"}};
   for (const Result& result : report.results())
     if (result.strategy == name)
       rows.push_back({result.check, figure(result), limit_text(result), result.where});
-  if (rows.size() > 1) print_grid(rows);
+  if (rows.size() > 1) print_table(rows);
 }
 
 void print_notes(const Report& report) {
@@ -118,7 +103,7 @@ nlohmann::ordered_json json_of(const Report& report, const device::Device& devic
                                  {"portable_lanes", device::portable_lanes(device)},
                                  {"seconds", seconds},
                                  {"false_alarm_rate", verify::false_alarm_rate},
-                                 {"p_values", report.questions()},
+                                 {"p_values", report.p_values()},
                                  {"passed", report.passed()},
                                  {"results", nlohmann::ordered_json::array()}};
   for (const Result& r : report.results())
@@ -135,7 +120,8 @@ nlohmann::ordered_json json_of(const Report& report, const device::Device& devic
   return json;
 }
 
-// What is verified without closed forms: all that was asked for, as soon as something is the user's own.
+// The models to verify without closed forms: all that were named, if any of them is not the Phong model with
+// built-in strategies.
 std::vector<verify::LobeToVerify> lobes_of(const VerifyOptions& options) {
   const lobes::Library library(options.lobes);
   std::vector<verify::LobeToVerify> list;
@@ -154,7 +140,7 @@ Report run_lobes(const device::Device& device, const verify::Settings& settings,
                  const std::vector<verify::LobeToVerify>& lobes, std::vector<std::string>& conclusions) {
   Report report;
   for (const verify::LobeToVerify& lobe : lobes)
-    verify::see_lobe(device, settings, lobe, options.parameters, report);
+    verify::check_lobe(device, settings, lobe, options.parameters, report);
   report.judge();
   for (const verify::LobeToVerify& lobe : lobes)
     for (const std::string& text : verify::explain(report, lobe.name, lobe.model->name))
@@ -198,7 +184,7 @@ int verify(const VerifyOptions& options) {
   if (device::portable_lanes(device))
     fmt::print("portable lanes: the compiler refuses the processor's own instructions\n");
   fmt::print("{}: {} checks, {} p-values with a false alarm in {:g} runs, {:.1f} s\n",
-             report.passed() ? "passed" : "FAILED", report.results().size(), report.questions(),
+             report.passed() ? "passed" : "FAILED", report.results().size(), report.p_values(),
              1 / verify::false_alarm_rate, seconds);
   return report.passed() ? 0 : 1;
 }

@@ -18,13 +18,14 @@ void add_amount(CLI::App& app, VerifyOptions& options) {
   add_values(
       app, "--strategy", "NAME|FILE.cl",
       fmt::format(
-          "of the phong model, may be repeated: {}, or a kernel file of your own; default: all of these",
+          "sampling strategy of the phong model: {}, or a kernel file of your own; may be repeated; default: "
+          "all of these",
           fmt::join(render::strategy_names(), ", ")),
       [&options](const std::string& text) {
         options.strategies.push_back(settings::strategy("--strategy", text));
       });
   app.add_flag("--quick", options.quick, "fewer materials, angles and samples: about a third of the time");
-  add_value(app, "--samples", "N", "of each material and angle; default: 16384, quick 8192",
+  add_value(app, "--samples", "N", "samples per material and angle; default: 16384, or 8192 with --quick",
             [&options](const std::string& text) {
               constexpr std::uint64_t least = 16, most = 1u << 24;
               options.samples = settings::whole_number("--samples", text, least, most);
@@ -37,7 +38,7 @@ void add_models(CLI::App& app, VerifyOptions& options) {
       "verifies a reflectance model of your own instead: its functions against one another; may be repeated",
       options.lobes);
   add_values(app, "--model", "NAME",
-             "the same for a model that ships: diffuse, phong, anisotropicphong or conductor",
+             "the same for a built-in model: diffuse, phong, anisotropicphong or conductor; may be repeated",
              [&options](const std::string& text) {
                const lobes::Library library;
                std::vector<std::string> names;
@@ -46,8 +47,8 @@ void add_models(CLI::App& app, VerifyOptions& options) {
              });
   add_values(
       app, "--set", "NAME=VALUE",
-      "a parameter of that model, such as exponent=90 or specularReflectance=0.9,0.6,0.2, beside its default "
-      "and the ends of its range; may be repeated",
+      "value of a parameter of that model, such as exponent=90 or specularReflectance=0.9,0.6,0.2, tested "
+      "besides its default and the ends of its range; may be repeated",
       [&options](const std::string& text) {
         options.parameters.push_back(settings::definition("--set", text));
       });
@@ -64,18 +65,17 @@ void require_model_to_set(const VerifyOptions& options) {
 
 void add_verify(CLI::App& program, std::optional<Command>& command) {
   CLI::App& app =
-      *program.add_subcommand("verify", "Proves that a reflectance model's functions agree on a device");
+      *program.add_subcommand("verify", "Checks that the functions of a reflectance model agree on a device");
   const auto options = std::make_shared<VerifyOptions>();
   add_one_device(app, options->devices, options->lanes, options->kernel_dir);
   add_models(app, *options);
   add_amount(app, *options);
-  add_value(app, "--json", "FILE", "every figure, as JSON", [options](const std::string& text) {
+  add_value(app, "--json", "FILE", "all results, as JSON", [options](const std::string& text) {
     if (text.empty()) throw UsageError("--json '': must be a file name");
     options->json = text;
   });
-  app.footer(
-      "Exit code: 0, or 1 when a check failed; what was expected and what was seen is then in verify-*.csv "
-      "and .png.");
+  app.footer("Exit code: 0, or 1 when a check failed; expected and observed values are then in verify-*.csv "
+             "and .png.");
   app.final_callback([&command, options] {
     require_model_to_set(*options);
     command = [options] { return verify(*options); };

@@ -1,4 +1,4 @@
-# What cli/version.cpp says of this build. Every build asks git for the commit; only version.cpp is compiled for a new one.
+# Definitions for cli/version.cpp. Every build asks git for the commit; a new one recompiles only version.cpp.
 set(libraries)
 foreach(library "OpenEXR ${OpenEXR_VERSION}" "Embree ${embree_VERSION}" "pugixml ${pugixml_VERSION}"
         "fmt ${fmt_VERSION}" "spdlog ${spdlog_VERSION}" "CLI11 ${CLI11_VERSION}"

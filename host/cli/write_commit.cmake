@@ -1,7 +1,7 @@
-# Writes the commit of SOURCE to OUTPUT, a header, where that is another than before.
+# Writes the commit of SOURCE to the header OUTPUT if it has changed.
 cmake_minimum_required(VERSION 3.25)
 
-# git refuses a clone of another user's unless told that it is safe; nothing of it is run here.
+# git refuses to read another user's clone unless it is declared safe; these commands run nothing from it.
 function(ask_git result)
   set(${result} "" PARENT_SCOPE)
   if(NOT GIT)
@@ -12,7 +12,7 @@ function(ask_git result)
   set(${result} "${answer}" PARENT_SCOPE)
 endfunction()
 
-ask_git(folder rev-parse --show-toplevel) # SOURCE may lie in a repository of something else
+ask_git(folder rev-parse --show-toplevel) # SOURCE may be inside another repository
 get_filename_component(source "${SOURCE}" REALPATH)
 set(commit unknown)
 if(folder STREQUAL source)

@@ -9,7 +9,7 @@
 namespace phlux::device {
 namespace {
 
-// The bindings' string may end with the C string's 0.
+// The C++ bindings may return strings with their terminating 0.
 std::string without_end(const std::string& text) {
   return text.substr(0, text.find('\0'));
 }
@@ -38,7 +38,7 @@ ArgumentNames argument_names(cl::Program program) {
   return names;
 }
 
-// A line for each kernel, its name and those of its arguments; a 0; the binary.
+// A line per kernel with its name and those of its arguments; a 0 byte; the binary.
 std::vector<unsigned char> encode(const NamedBinary& named) {
   std::string text;
   for (const auto& [kernel, arguments] : named.arguments)

@@ -1,4 +1,4 @@
-// What the arguments of a program's kernels are called in its source.
+// The names of kernels' arguments.
 #pragma once
 
 #include <map>
@@ -12,11 +12,11 @@ namespace phlux::device {
 /// The names of each kernel's arguments, in their order.
 using ArgumentNames = std::map<std::string, std::vector<std::string>>;
 
-/// As the driver says, which need not know them of a program that was loaded from a binary; without the
-/// kernels whose arguments it does not name.
+/// From the driver, without the kernels whose names it does not know, such as those of a program from a
+/// binary.
 [[nodiscard]] ArgumentNames argument_names(cl::Program program);
 
-/// A program's binary with the names of its kernels' arguments before it, to be kept, and back.
+/// A program's binary with the names of its kernels' arguments, as the binary cache stores it.
 struct NamedBinary {
   ArgumentNames arguments;
   std::vector<unsigned char> binary;

@@ -67,7 +67,7 @@ std::optional<fs::path> temporary_cache_folder(const std::string& name) {
   if (failed) return std::nullopt;
   const fs::path own = temporary / fmt::format("phlux-{}", getuid());
   mkdir(own.c_str(), 0700);
-  // Whoever made it first owns what we would run from it, so take it only if that was this user.
+  // Binaries from a folder of another user must not be run.
   struct stat found {};
   if (lstat(own.c_str(), &found) != 0 || !S_ISDIR(found.st_mode) || found.st_uid != getuid() ||
       (found.st_mode & (S_IWGRP | S_IWOTH)) != 0)

@@ -1,4 +1,4 @@
-// Folders for what may be thrown away: phlux's kernel binaries and PoCL's own cache.
+// Cache folders: of phlux's kernel binaries and of PoCL.
 #pragma once
 
 #include <filesystem>
@@ -10,15 +10,14 @@ namespace phlux::device {
 /// $XDG_CACHE_HOME/name, else $HOME/.cache/name; nothing when neither variable is set.
 [[nodiscard]] std::optional<std::filesystem::path> user_cache_folder(const std::string& name);
 
-/// True when the folder exists, or could be made, and a file could be written into it just now.
+/// Whether the folder exists or was created, and a file could be created in it.
 [[nodiscard]] bool writable_folder(const std::filesystem::path& folder);
 
-/// A private folder under the system's temporary one that no other user can have made. Nothing when that
-/// fails too.
+/// A folder in the system's temporary one that only this user can write to; nothing when there can be none.
 [[nodiscard]] std::optional<std::filesystem::path> temporary_cache_folder(const std::string& name);
 
-/// Sees to it, once, that POCL_CACHE_DIR names a folder that PoCL can write: with one that it cannot,
-/// PoCL 3.1 finds no device. Must be called before the first OpenCL call of the process.
+/// Sets POCL_CACHE_DIR, once, to a writable folder, without which PoCL 3.1 finds no device. Must be called
+/// before the first OpenCL call of the process.
 void prepare_pocl_cache();
 
 } // namespace phlux::device

@@ -59,9 +59,9 @@ bool same_cores(const DeviceInfo& a, const DeviceInfo& b) {
   return a.type == "cpu" && b.type == "cpu" && a.platform_index != b.platform_index;
 }
 
-// The first of `indices` that is a CPU of another platform than devices[index], where that is one.
-std::optional<std::size_t> sharer(const Indices& indices, std::size_t index,
-                                  const std::vector<DeviceInfo>& devices) {
+// The first of `indices` that is the same CPU as devices[index] on another platform.
+std::optional<std::size_t> same_cpu(const Indices& indices, std::size_t index,
+                                    const std::vector<DeviceInfo>& devices) {
   const auto found =
       std::ranges::find_if(indices, [&](std::size_t i) { return same_cores(devices[i], devices[index]); });
   return found == indices.end() ? std::nullopt : std::optional(*found);
@@ -71,7 +71,7 @@ Indices once_per_core(const Indices& indices, const std::vector<DeviceInfo>& dev
                       std::vector<std::string>& notes) {
   Indices kept;
   for (const std::size_t i : indices) {
-    const auto other = sharer(kept, i, devices);
+    const auto other = same_cpu(kept, i, devices);
     if (other)
       notes.push_back(fmt::format("{} is the same cores as {}: left out unless it is named as {}:{}",
                                   described(devices[i]), described(devices[*other]),
@@ -119,7 +119,7 @@ Choice choose(const std::vector<std::string>& specifications, const std::vector<
       throw DeviceError(fmt::format("no OpenCL device '{}': there is {}", specification, listing(devices)));
     for (const std::size_t i : meant) {
       if (std::ranges::find(choice.devices, i) != choice.devices.end()) continue;
-      if (const auto other = sharer(choice.devices, i, devices))
+      if (const auto other = same_cpu(choice.devices, i, devices))
         choice.notes.push_back(fmt::format("{} and {} are the same cores: each slows the other",
                                            described(devices[*other]), described(devices[i])));
       choice.devices.push_back(i);

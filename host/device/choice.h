@@ -1,4 +1,4 @@
-// Which of the devices that there are the user means.
+// Selects devices by the user's specifications.
 #pragma once
 
 #include <cstddef>
@@ -10,17 +10,17 @@
 namespace phlux::device {
 
 struct Choice {
-  std::vector<std::size_t> devices; ///< indices into those that there are, each once, in the order named
-  std::vector<std::string> notes;   ///< one line for each that was left out, or shares its cores with another
+  std::vector<std::size_t> devices; ///< distinct indices into the devices, in the order of specifications
+  std::vector<std::string> notes;   ///< a line for each that was left out or shares its cores with another
 };
 
-/// The devices that `specifications` name; the first CPU, else the first device, where there are none.
+/// The devices that match `specifications`; without any, the first CPU, else the first device.
 ///
-/// A specification is "P:D", "cpu", "gpu", "all", or a part of a name in any case: of platforms' names, and
-/// of devices' names where no platform's has it, for a device's name can hold its processor's maker. CPUs of
-/// two platforms are the same cores under two drivers: "cpu" and a part of a name take those of the first
-/// platform alone; "all" and several specifications take them all. Either gives a note.
-/// @throws DeviceError when a specification names nothing, listing what there is
+/// A specification is "P:D", "cpu", "gpu", "all", or a part of a name, case-insensitive. It is compared with
+/// platforms' names first, and with devices' names only if no platform matches, as a device's name may
+/// contain its vendor. CPUs of two platforms are the same cores under two drivers: "cpu" and a part of a name
+/// choose those of the first platform; "all" and several specifications choose all. Both add a note.
+/// @throws DeviceError when a specification matches nothing, with a list of all devices
 [[nodiscard]] Choice choose(const std::vector<std::string>& specifications,
                             const std::vector<DeviceInfo>& devices);
 

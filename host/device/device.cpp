@@ -19,7 +19,7 @@ namespace phlux::device {
 
 namespace {
 
-// Drivers return names with blanks around them, and some with the terminating zero inside.
+// Some drivers return names with blanks around them or with the terminating 0.
 std::string trimmed(std::string text) {
   const auto blank = [](unsigned char c) { return c == '\0' || std::isspace(c) != 0; };
   while (!text.empty() && blank(static_cast<unsigned char>(text.back()))) text.pop_back();
@@ -33,7 +33,7 @@ std::string type_name(cl_device_type type) {
   return "accelerator";
 }
 
-// WIDTH 2 does not exist: what is gained by two lanes is lost to the masks.
+// There is no WIDTH 2: masks cost what two lanes gain.
 int lanes_of(const std::string& type, std::uint32_t native_float_width) {
   if (type != "cpu") return 1;
   for (int lanes : {16, 8, 4})
@@ -63,8 +63,8 @@ DeviceInfo describe_device(const cl::Device& device, const std::string& platform
 constexpr const char* what_to_install =
     "install a driver, such as the package pocl-opencl-icd for the CPU or the one of the GPU's vendor";
 
-// What the drivers show, found once: a second question could number the devices differently, and a warning
-// should not come twice.
+// All platforms and devices, enumerated once: a second time their order could differ, and warnings would be
+// repeated.
 struct Found {
   std::vector<PlatformInfo> platforms;
   std::vector<DeviceInfo> devices;
@@ -72,7 +72,7 @@ struct Found {
   std::string failure;             // why there is no platform
 };
 
-// Either result of the drivers: none, or CL_PLATFORM_NOT_FOUND_KHR.
+// Without platforms, loaders return an empty list or fail with CL_PLATFORM_NOT_FOUND_KHR.
 std::vector<cl::Platform> all_platforms(std::string& failure) {
   prepare_pocl_cache();
   std::vector<cl::Platform> platforms;

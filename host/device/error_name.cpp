@@ -4,7 +4,7 @@
 
 namespace phlux::device {
 
-// Not in the OpenCL 1.2 headers: what the ICD loader (cl_khr_icd) answers when it finds no platform.
+// Not in the OpenCL 1.2 headers: the ICD loader (cl_khr_icd) found no platform.
 #ifndef CL_PLATFORM_NOT_FOUND_KHR
 #define CL_PLATFORM_NOT_FOUND_KHR -1001
 #endif

@@ -12,7 +12,7 @@ namespace phlux::device {
 
 namespace {
 
-// Whether a block comment is open after `line`, if it was before as `open` says.
+// Whether a block comment is open after `line`; `open`: before it.
 bool leaves_comment_open(const std::string& line, bool open) {
   for (std::size_t at = 0; at < line.size(); ++at) {
     const auto two = line.compare(at, 2, "*/") == 0   ? 'e'
@@ -62,7 +62,7 @@ public:
   [[nodiscard]] std::string text() && { return std::move(text_); }
 
 private:
-  // The file that a define names, such as PHONG_STRATEGY.
+  // The file name that is the value of a define, such as PHONG_STRATEGY.
   [[nodiscard]] std::string included_by(const std::string& macro) const {
     const auto value = source_.defines.find(macro);
     if (value == source_.defines.end() || value->second.size() < 2)
@@ -75,7 +75,7 @@ private:
       add_file(include[1].matched ? include[1].str() : included_by(include[2]));
     } catch (const DeviceError& error) {
       if (blamed_) throw;
-      blamed_ = true; // the innermost #include
+      blamed_ = true; // the innermost #include is reported
       throw DeviceError(fmt::format("{}:{}: {}", file, line, error.what()));
     }
   }

@@ -1,4 +1,4 @@
-// An extension is asked for without a platform only by a call that OpenCL 1.2 deprecates.
+// clGetExtensionFunctionAddress, deprecated in OpenCL 1.2, is the only query that needs no platform.
 #define CL_USE_DEPRECATED_OPENCL_1_1_APIS
 #include <fmt/format.h>
 

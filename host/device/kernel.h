@@ -11,11 +11,10 @@ namespace phlux::device {
 
 class Kernel {
 public:
-  /// @throws DeviceError where the program has no kernel of that name, or nothing says what its arguments are
-  /// called
+  /// @throws DeviceError where the program has no kernel of that name, or its arguments' names are not known
   Kernel(const BuiltProgram& program, const std::string& name);
 
-  /// Sets an argument; does nothing where the kernel has none of that name.
+  /// Sets an argument; does nothing if the kernel has none of that name.
   /// @throws DeviceError for a value of another size than the kernel's
   template<class Value>
   void set(const std::string& argument, const Value& value) {
@@ -32,9 +31,9 @@ public:
     is_set_.at(index) = true;
   }
 
-  /// The first argument that has not been set; as many as there are where all have.
+  /// Index of the first argument that has not been set; the number of arguments if all have.
   [[nodiscard]] cl_uint first_unset() const;
-  /// To be enqueued. @throws DeviceError naming the arguments that have not been set
+  /// The kernel, to be enqueued. @throws DeviceError naming the arguments that have not been set
   [[nodiscard]] const cl::Kernel& ready() const;
 
 private:

@@ -1,5 +1,4 @@
-// The one place that includes the OpenCL C++ bindings, so that every file sees the same configuration of
-// them.
+// Includes the OpenCL C++ bindings, with one configuration for all files.
 #pragma once
 
 #define CL_HPP_TARGET_OPENCL_VERSION 120
@@ -18,7 +17,7 @@
 
 namespace phlux::device {
 
-/// "CL_OUT_OF_RESOURCES" for -5 and so on; "OpenCL error N" for a code that no OpenCL 1.2 header names.
+/// "CL_OUT_OF_RESOURCES" for -5 and so on; "OpenCL error N" for an unknown code.
 [[nodiscard]] std::string error_name(cl_int code);
 
 /// The call that failed and the code's name: "clEnqueueNDRangeKernel: CL_OUT_OF_RESOURCES".

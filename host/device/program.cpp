@@ -23,9 +23,9 @@ namespace phlux::device {
 
 namespace {
 
-constexpr std::chrono::milliseconds patience{200};
+constexpr std::chrono::milliseconds delay{200};
 
-// Calls `slow` from a thread of its own unless it is destroyed within `patience`.
+// Calls `slow` from another thread unless it is destroyed within `delay`.
 class Watcher {
 public:
   explicit Watcher(const std::function<void()>& slow) {
@@ -45,7 +45,7 @@ public:
 private:
   void wait(const std::function<void()>& slow) {
     std::unique_lock lock(mutex_);
-    if (!changed_.wait_for(lock, patience, [this] { return done_; })) slow();
+    if (!changed_.wait_for(lock, delay, [this] { return done_; })) slow();
   }
 
   std::mutex mutex_;
@@ -61,9 +61,9 @@ std::string cache_key(const Device& device, const std::string& text) {
                      build_options(), significant(text));
 }
 
-// Where the driver itself keeps what it built; nothing when it does not. PoCL does, and when asked for a
-// binary compiles every kernel a second time, as long again as the first: so it is not asked, and records
-// beside its own files say what it has. They vanish together.
+// The cache folder of a driver that caches programs itself, if it does. PoCL does; a query for a binary would
+// make it compile every kernel a second time. Records in its own folder say which programs it has cached, and
+// are deleted with them.
 std::optional<std::filesystem::path> driver_cache(const Device& device) {
   if (device.info.platform != "Portable Computing Language") return std::nullopt;
   const char* folder = std::getenv("POCL_CACHE_DIR"); // device.cpp has set it
@@ -108,10 +108,10 @@ cl::Program build_text(const Device& device, const std::string& name, const std:
   }
 }
 
-// The macro by which lanes.h leaves out the processor's own instructions.
+// Selects, in lanes.h, code without the processor's own instructions.
 constexpr const char* portable_lanes_macro = "LANES_PORTABLE";
 
-// The devices whose compiler refused those instructions' builtins.
+// The devices whose compiler rejects the builtins of those instructions.
 class PortableDevices {
 public:
   [[nodiscard]] bool has(const Device& device) const {
@@ -133,7 +133,7 @@ PortableDevices& portable_devices() {
   return devices;
 }
 
-// Empty when the driver gives no binary, as it may.
+// Empty when the driver returns no binary, which OpenCL allows.
 std::vector<unsigned char> binary_of(const cl::Program& program) {
   try {
     const auto binaries = program.getInfo<CL_PROGRAM_BINARIES>();
@@ -144,8 +144,8 @@ std::vector<unsigned char> binary_of(const cl::Program& program) {
   }
 }
 
-// The name of a #line tag that is `file`, up to words that a compiler's message has before it or that it has
-// before its last blank; empty if there is none.
+// The name in a #line tag that `file`, from a compiler's message, refers to; empty if there is none. The
+// message may have words before the name, or only the part of the name after its last blank.
 std::string tagged_file(const std::string& text, const std::string& file) {
   static const std::regex tag(R"re((?:^|\n)#line \d+ "([^"\n]*)")re");
   for (std::sregex_iterator each(text.begin(), text.end(), tag), none; each != none; ++each) {
@@ -155,8 +155,7 @@ std::string tagged_file(const std::string& text, const std::string& file) {
   return {};
 }
 
-// The kernel file and line of a line of expanded text, by its #line tags: oclgrind's messages pass over
-// those.
+// The kernel file and line of a line of expanded text, by its #line tags, which oclgrind's messages ignore.
 std::pair<std::string, int> place_in(const std::string& text, int wanted) {
   static const std::regex tag(R"re(#line (\d+) "(.*)")re");
   std::pair<std::string, int> place{"defines", 0};
@@ -208,7 +207,7 @@ BuiltProgram build_expanded(const Device& device, const std::string& name, const
     return {program, known, 0, argument_names(program)};
   }
   const BinaryCache cache(binary_cache_folder());
-  if (const auto bytes = cache.load(key)) { // with names: drivers need not know them of binaries
+  if (const auto bytes = cache.load(key)) { // with names, which a driver may not know for a binary
     NamedBinary kept = decode(*bytes);
     if (const auto program = build_binary(device, kept.binary))
       return {*program, true, 0, std::move(kept.arguments)};
@@ -225,14 +224,14 @@ BuiltProgram build_portable(const Device& device, const sources::KernelFiles& fi
   return build_expanded(device, name, expand(files, source));
 }
 
-// Whether the first error of a refused text may be of the processor's own instructions, which are in lanes/.
-bool may_be_of_lanes(const std::string& refusal) {
+// Whether the first error may be in code for the processor's own instructions, which is in lanes/.
+bool may_be_of_lanes(const std::string& error) {
   static const std::regex other_file(R"((?!lanes/).*:\d+: .*)");
-  return !std::regex_match(refusal, other_file);
+  return !std::regex_match(error, other_file);
 }
 
-// Where the text leaves it to the compiler whether the lanes use the processor's own instructions, a compiler
-// that knows their builtins and refuses how they are used gets the text without them.
+// Builds again with portable lanes where the compiler rejects the builtins of the processor's own
+// instructions. If both builds fail, the error of the portable one is reported.
 BuiltProgram build_either(const Device& device, const sources::KernelFiles& files,
                           const ProgramSource& source, const std::string& name) {
   const std::string text = expand(files, source);

@@ -13,17 +13,11 @@
 namespace phlux::files {
 namespace {
 
-constexpr std::array<const char*, 3> radiance_names = {"R", "G", "B"};
-constexpr std::array<const char*, 3> variance_names = {"variance.R", "variance.G", "variance.B"};
-constexpr double darkness = 1e-4;          // what relmse adds to b^2, so that black pixels do not divide by 0
+constexpr double relmse_offset = 1e-4;     // added to b^2, which is 0 in black pixels
 constexpr double rounding_share = 0x1p-16; // 256 x 2^-24: a float32 sum of 256 equal samples
 constexpr std::size_t trim_one_in = 1000;
 
 using Channels = std::array<const std::vector<float>*, 3>;
-
-bool has(const Image& image, const std::array<const char*, 3>& names) {
-  return std::ranges::all_of(names, [&](const char* name) { return image.channels.contains(name); });
-}
 
 Channels channels_of(const Image& image, const std::array<const char*, 3>& names, const std::string& file) {
   Channels channels{};
@@ -45,7 +39,7 @@ std::uint64_t nonfinite_values(const std::vector<Channels>& groups, std::size_t 
 
 // Sums over the finite pixels.
 struct Sums {
-  std::vector<double> relative_squares; // one a pixel, its mean over channels
+  std::vector<double> relative_squares; // per pixel, mean over channels
   double a = 0.0, b = 0.0, squares = 0.0;
   double max_z = 0.0;
   std::uint64_t z_over_3 = 0;
@@ -58,7 +52,7 @@ struct Sums {
       a += value_a;
       b += value_b;
       squares += square;
-      relative += square / (value_b * value_b + darkness) / 3.0;
+      relative += square / (value_b * value_b + relmse_offset) / 3.0;
     }
     relative_squares.push_back(relative);
   }
@@ -110,7 +104,7 @@ Comparison compare(const Image& a, const Image& b, const std::string& name_a, co
                     a.width, a.height, name_b, b.width, b.height));
   std::vector<Channels> groups = {channels_of(a, radiance_names, name_a),
                                   channels_of(b, radiance_names, name_b)};
-  const bool with_z = has(a, variance_names) && has(b, variance_names);
+  const bool with_z = a.has(variance_names) && b.has(variance_names);
   if (with_z) {
     groups.push_back(channels_of(a, variance_names, name_a));
     groups.push_back(channels_of(b, variance_names, name_b));

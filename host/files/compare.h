@@ -1,4 +1,4 @@
-// How far two images of the same scene are apart.
+// Error metrics between two images of the same scene.
 #pragma once
 
 #include <cstdint>
@@ -10,19 +10,17 @@
 
 namespace phlux::files {
 
-/// Figures over R, G, B of the pixels that are finite in both images; b is the reference. NaN where nothing
-/// is left.
+/// Over R, G, B of the pixels that are finite in both images; b is the reference. NaN if there are none.
 struct Comparison {
   double mean_a = 0.0, mean_b = 0.0; ///< over pixels and channels
   double mean_ratio = 0.0;           ///< mean_a / mean_b
   double rmse = 0.0;                 ///< root of the mean of (a-b)^2
   double relmse = 0.0;               ///< mean of (a-b)^2 / (b^2 + 1e-4)
-  double relmse_trimmed =
-      0.0; ///< without the largest 0.1% of pixels (rounded down), by their mean over channels
+  double relmse_trimmed = 0.0;       ///< without the 0.1% of pixels of largest error (rounded down)
 
-  /// Where both images have variance channels: z = |a-b| / sqrt(variance_a + variance_b + r^2), its largest
-  /// value and the share of pixels' channels above 3. The rounding r = 2^-16 max(|a|, |b|) of float32 sums
-  /// of up to 256 samples keeps z finite, and small, where there is no noise.
+  /// If both images have variance channels: z = |a-b| / sqrt(variance_a + variance_b + r^2), its largest
+  /// value and the share of values above 3. r = 2^-16 max(|a|, |b|) bounds the rounding of float32 sums of up
+  /// to 256 samples; without noise it keeps z finite and small.
   std::optional<double> max_z, z_share_over_3;
 
   std::uint64_t nonfinite = 0; ///< values, in the channels above, that are NaN or infinite
@@ -32,7 +30,7 @@ struct Comparison {
 [[nodiscard]] Comparison compare(const Image& a, const Image& b, const std::string& name_a,
                                  const std::string& name_b);
 
-/// The fields of Comparison by their names; absent figures are left out, NaN becomes null.
+/// The members of Comparison by their names; absent ones are left out, NaN becomes null.
 [[nodiscard]] nlohmann::ordered_json to_json(const Comparison& comparison);
 
 } // namespace phlux::files

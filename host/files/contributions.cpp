@@ -14,14 +14,13 @@ namespace {
 
 using film::Technique;
 using Pixels = std::vector<std::array<double, 3>>;
-constexpr const char* names[3] = {"R", "G", "B"};
 
 Image blank(int width, int height, const RenderInfo& info) {
   Image image;
   image.width = width;
   image.height = height;
   image.info = info;
-  for (const char* name : names)
+  for (const char* name : radiance_names)
     image.channels[name].resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   return image;
 }
@@ -30,11 +29,11 @@ Image image_of(const Pixels& pixels, int width, int height, const RenderInfo& in
   Image image = blank(width, height, info);
   for (std::size_t channel = 0; channel < 3; ++channel)
     for (std::size_t pixel = 0; pixel < pixels.size(); ++pixel)
-      image.channels[names[channel]][pixel] = static_cast<float>(pixels[pixel][channel]);
+      image.channels[radiance_names[channel]][pixel] = static_cast<float>(pixels[pixel][channel]);
   return image;
 }
 
-// Tiles of a film, shrunk by a whole factor to about 128 pixels across, in rows by edges and columns by s.
+// Images downsampled by a whole factor to about 128 pixels across: a row per number of edges, a column per s.
 class Sheet {
 public:
   Sheet(int width, int height, int most_edges, const RenderInfo& info)
@@ -50,7 +49,7 @@ public:
     for (std::size_t channel = 0; channel < 3; ++channel)
       for (int y = 0; y < tile_height_; ++y)
         for (int x = 0; x < tile_width_; ++x)
-          image_.channels[names[channel]][index(left + x, top + y, image_.width)] =
+          image_.channels[radiance_names[channel]][index(left + x, top + y, image_.width)] =
               static_cast<float>(mean_of(pixels, x * factor_, y * factor_, channel));
   }
 

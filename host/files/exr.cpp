@@ -46,11 +46,11 @@ private:
 };
 
 Imf::Slice slice_of(const std::vector<float>& values, const Imath::Box2i& window) {
-  // OpenEXR takes the same, non-const pointer to read from and to write to.
+  // OpenEXR takes a non-const pointer even for writing a file.
   return Imf::Slice::Make(Imf::FLOAT, const_cast<float*>(values.data()), window);
 }
 
-// "0, 7": each once.
+// "0, 7", without repetitions.
 std::string seeds_text(const RenderInfo& info) {
   std::vector<std::uint64_t> seeds = {info.seed};
   for (const SampleRange& range : info.ranges)
@@ -58,7 +58,7 @@ std::string seeds_text(const RenderInfo& info) {
   return fmt::format("{}", fmt::join(seeds, ", "));
 }
 
-// "0:0-64, 7:0-32": the seed and the samples, the last one not among them.
+// "0:0-64, 7:0-32": seed, first sample, end of the samples.
 std::string ranges_text(const std::vector<SampleRange>& ranges) {
   std::string text;
   for (const SampleRange& range : ranges)

@@ -15,9 +15,9 @@ namespace phlux::files {
 /// encode_exr to a file. @throws WriteError
 void write_exr(const std::filesystem::path& file, const Image& image);
 
-/// Every channel of the first part as float32 (half and integer channels are converted). Attributes that a
-/// file lacks keep RenderInfo's defaults.
-/// @throws FileError when the file is missing, is no EXR image, is damaged, or has subsampled channels
+/// Every channel of the first part as float32 (half and integer channels are converted). Missing attributes
+/// keep RenderInfo's defaults.
+/// @throws FileError when the file is missing, no EXR image, damaged, or has subsampled channels
 [[nodiscard]] Image read_exr(const std::filesystem::path& file);
 
 } // namespace phlux::files

@@ -1,18 +1,14 @@
 #include "files/image.h"
 
-#include <array>
+#include <algorithm>
 
 #include "film/reliability.h"
 
 namespace phlux::files {
 namespace {
 
-constexpr std::array<const char*, 3> radiance_names = {"R", "G", "B"};
-constexpr std::array<const char*, 3> variance_names = {"variance.R", "variance.G", "variance.B"};
-
 template<class Function>
-void add_channels(Image& image, const std::array<const char*, 3>& names, std::size_t pixels,
-                  Function values_of) {
+void add_channels(Image& image, const ChannelNames& names, std::size_t pixels, Function values_of) {
   std::array<float*, 3> channels{};
   for (std::size_t channel = 0; channel < names.size(); ++channel)
     channels[channel] = image.channels.emplace(names[channel], pixels).first->second.data();
@@ -28,6 +24,10 @@ void add_channels(Image& image, const std::array<const char*, 3>& names, std::si
 std::string RenderInfo::text(const std::string& setting) const {
   const auto found = settings.find(setting);
   return found == settings.end() ? std::string() : settings::text_of(found->second);
+}
+
+bool Image::has(const ChannelNames& names) const {
+  return std::ranges::all_of(names, [&](const char* name) { return channels.contains(name); });
 }
 
 bool is_stored(const settings::Setting& setting) {

@@ -1,6 +1,7 @@
-// An image as files hold it: named float32 channels and what is known about the render.
+// An image as it is stored: named float32 channels and information about the render.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -11,47 +12,53 @@
 
 namespace phlux::files {
 
-/// Samples [first, end) of every pixel, as a seed makes them; of some pixels without the last ones where time
-/// or a signal ended the render.
+/// Samples [first, end) of a seed in every pixel; some pixels lack the last ones if a time limit or a signal
+/// ended the render.
 struct SampleRange {
   std::uint64_t seed = 0;
   std::int64_t first = 0, end = 0;
   bool operator==(const SampleRange&) const = default;
 };
 
-/// The attributes of CONTRACT.md, by their names there. In EXR files the texts and the seed (64 bits, which
-/// no number of EXR holds) are strings, the others doubles. Each setting is there by its name, as maxDepth.
+/// The attributes of an image file. In EXR files texts and the seed are strings, as EXR has no 64-bit
+/// integers; the others are doubles. Settings have their own names in camel case, such as maxDepth.
 struct RenderInfo {
-  std::string version;      ///< of phlux; empty in a file that another program wrote
+  std::string version;      ///< of phlux; empty in a file of another program
   std::string scene;        ///< the file, as the user named it
   std::string scene_digest; ///< scene::digest
-  /// Those that affect the image's expectation or its estimate, by name; in a merged image texts such as
-  /// "path, bidir" where they differ.
+  /// By name, those that affect the image's expectation or its estimate; lists such as "path, bidir" where
+  /// the sources of a merged image differ.
   std::map<std::string, settings::Value> settings;
-  double samples = 0.0; ///< per pixel, a mean where pixels differ
-  std::uint64_t seed = 0;
-  std::vector<SampleRange> ranges; ///< several in a merged image, of which `seed` is the first's
+  double samples = 0.0;            ///< per pixel; the mean if pixels differ
+  std::uint64_t seed = 0;          ///< of the first range
+  std::vector<SampleRange> ranges; ///< several in a merged image
   std::string device, driver;
   double seconds = 0.0;       ///< of rendering
-  double clamped_share = 0.0; ///< of the light, that clamping took away
+  double clamped_share = 0.0; ///< share of the light that clamping removed
 
-  /// Of a setting; empty where it is absent or not known.
+  /// A setting as text; empty if it is absent.
   [[nodiscard]] std::string text(const std::string& setting) const;
 };
 
-/// Whether images say it: RenderInfo::settings.
+/// Whether RenderInfo::settings has it.
 [[nodiscard]] bool is_stored(const settings::Setting& setting);
-/// Those of a render.
+/// RenderInfo::settings of a render.
 [[nodiscard]] std::map<std::string, settings::Value> stored(const settings::Settings& settings);
+
+using ChannelNames = std::array<const char*, 3>;
+inline constexpr ChannelNames radiance_names = {"R", "G", "B"};
+inline constexpr ChannelNames variance_names = {"variance.R", "variance.G", "variance.B"};
 
 struct Image {
   int width = 0, height = 0;
   std::map<std::string, std::vector<float>> channels; ///< each width * height values, row by row from the top
   RenderInfo info;
+
+  [[nodiscard]] bool has(const ChannelNames& names) const;
 };
 
-/// Channels R, G, B: mean radiance, linear, neither exposed nor clamped. With `moments` also variance.R,
-/// variance.G and variance.B: the variance of that mean; and reliability, see film::reliability_map.
+/// Channels R, G, B: mean radiance, linear, neither exposed nor clamped. With `moments` also variance.R, .G
+/// and .B, the variance of that mean, and reliability, see film::reliability_map.
 [[nodiscard]] Image image_of(const film::Film& film, const RenderInfo& info, bool moments);
 
 } // namespace phlux::files

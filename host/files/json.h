@@ -1,4 +1,4 @@
-// JSON as files and standard output get it.
+// JSON text for files and standard output.
 #pragma once
 
 #include <string>
@@ -7,8 +7,7 @@
 
 namespace phlux::files {
 
-/// Indented by two, one line feed at the end. Bytes of names that are not UTF-8 become U+FFFD; NaN and
-/// infinity null.
+/// Indented by two spaces, with a line feed at the end. Invalid UTF-8 becomes U+FFFD; NaN and infinity null.
 [[nodiscard]] inline std::string json_text(const nlohmann::ordered_json& json) {
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

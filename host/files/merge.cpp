@@ -9,14 +9,7 @@
 namespace phlux::files {
 namespace {
 
-constexpr std::array<const char*, 3> radiance_names = {"R", "G", "B"};
-constexpr std::array<const char*, 3> variance_names = {"variance.R", "variance.G", "variance.B"};
-
-bool has(const Image& image, const std::array<const char*, 3>& names) {
-  return std::ranges::all_of(names, [&](const char* name) { return image.channels.contains(name); });
-}
-
-void add_weighted(const Image& image, const std::array<const char*, 3>& names, double weight,
+void add_weighted(const Image& image, const ChannelNames& names, double weight,
                   std::array<std::vector<double>, 3>& sums) {
   for (std::size_t channel = 0; channel < names.size(); ++channel) {
     const std::vector<float>& values = image.channels.at(names[channel]);
@@ -26,14 +19,14 @@ void add_weighted(const Image& image, const std::array<const char*, 3>& names, d
   }
 }
 
-void write_channels(const std::array<std::vector<double>, 3>& sums, double factor,
-                    const std::array<const char*, 3>& names, Image& image) {
+void write_channels(const std::array<std::vector<double>, 3>& sums, double factor, const ChannelNames& names,
+                    Image& image) {
   for (std::size_t channel = 0; channel < names.size(); ++channel)
     for (const double sum : sums[channel])
       image.channels[names[channel]].push_back(static_cast<float>(factor * sum));
 }
 
-// Whether a list of names, "path, bidir", has this one.
+// Whether a list of names such as "path, bidir" has this one.
 bool contains(const std::string& list, const std::string& name) {
   return (", " + list + ", ").find(", " + name + ", ") != std::string::npos;
 }
@@ -42,7 +35,7 @@ void append(const std::string& text, std::string& list) {
   if (!contains(list, text)) list += ", " + text;
 }
 
-// A setting that one of them does not say is not said of both.
+// Keeps the settings that both have.
 void append(const std::map<std::string, settings::Value>& more, std::map<std::string, settings::Value>& all) {
   std::erase_if(all, [&](const auto& setting) { return !more.contains(setting.first); });
   for (auto& [name, value] : all) {
@@ -52,14 +45,14 @@ void append(const std::map<std::string, settings::Value>& more, std::map<std::st
   }
 }
 
-// What decides the image that a render converges to, as that of `of` says it or else by default.
-settings::Value expected_value(const settings::Setting& setting, const RenderInfo& of) {
+// The value of a setting in `of`, or its default.
+settings::Value value_in(const settings::Setting& setting, const RenderInfo& of) {
   const auto found = of.settings.find(setting.name);
   return found == of.settings.end() ? setting.value({}) : found->second;
 }
 
 std::string given(const settings::Setting& setting, const RenderInfo& of) {
-  const std::string text = settings::text_of(expected_value(setting, of));
+  const std::string text = settings::text_of(value_in(setting, of));
   return text.empty() ? "without " + settings::quoted(setting.name)
                       : fmt::format("with {} {}", settings::quoted(setting.name), text);
 }
@@ -90,7 +83,7 @@ bool overlap(const SampleRange& a, const SampleRange& b) {
   return a.seed == b.seed && a.first < b.end && b.first < a.end;
 }
 
-// Two images that share samples would count them twice, and the variance would be wrong.
+// Samples that two images share would count twice, and the variance would be wrong.
 void check_ranges(const std::string& name, const RenderInfo& info, const std::string& other_name,
                   const RenderInfo& other) {
   for (const SampleRange& range : info.ranges)
@@ -106,7 +99,7 @@ void check_ranges(const std::string& name, const RenderInfo& info, const std::st
 
 void Merger::check(const Source& source, const Image& image) const {
   const auto& [name, info, variance] = source;
-  if (!has(image, radiance_names))
+  if (!image.has(radiance_names))
     throw FileError(fmt::format("{}: lacks a channel of R, G and B: name a render of phlux", name));
   if (!(info.samples > 0.0) || info.ranges.empty())
     throw FileError(
@@ -123,7 +116,7 @@ void Merger::check(const Source& source, const Image& image) const {
                                 name, info.scene, first, other.scene));
   for (const settings::Setting& setting : settings::all())
     if (setting.affects == settings::Affects::expectation &&
-        expected_value(setting, info) != expected_value(setting, other))
+        value_in(setting, info) != value_in(setting, other))
       throw FileError(
           fmt::format("{}: was rendered {}, but {} {}: only images of the same light can be merged", name,
                       given(setting, info), first, given(setting, other)));
@@ -134,7 +127,7 @@ void Merger::check(const Source& source, const Image& image) const {
 }
 
 void Merger::add(const std::string& name, const Image& image) {
-  const Source source{name, image.info, has(image, variance_names)};
+  const Source source{name, image.info, image.has(variance_names)};
   check(source, image);
   width_ = image.width;
   height_ = image.height;
@@ -161,10 +154,10 @@ std::vector<std::string> Merger::notes() const {
   const Source& first = sources_.front();
   for (const Source& source : sources_)
     if (method_of(source.info) != method_of(first.info)) {
-      notes.push_back(
-          fmt::format("{} is by {}, and {} by {}: the mean is right, but weights by samples are not "
-                      "the best for methods that differ in noise",
-                      source.name, method_of(source.info), first.name, method_of(first.info)));
+      notes.push_back(fmt::format(
+          "{} is by {}, and {} by {}: the mean is right, but weights by samples are not optimal for "
+          "methods of different variance",
+          source.name, method_of(source.info), first.name, method_of(first.info)));
       break;
     }
   const auto without = std::ranges::find(sources_, false, &Source::variance);

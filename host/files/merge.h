@@ -1,4 +1,4 @@
-// One image of several renders of a scene.
+// Merges several renders of a scene into one image.
 #pragma once
 
 #include <array>
@@ -9,18 +9,16 @@
 
 namespace phlux::files {
 
-/// Weighs images by their samples, one after the other. The result has the radiance channels and, where all
-/// images have them, those of the variance of the mean, which for means m_i of n_i independent samples, N in
-/// all, is sum (n_i / N)^2 var(m_i).
+/// Weights images by their samples. The result has the radiance channels and, if all images have them, those
+/// of the variance of the mean: sum (n_i / N)^2 var(m_i) for means m_i of n_i independent samples, N in all.
 class Merger {
 public:
-  /// @throws FileError for an image that does not go with those before: of another size, scene or depth,
-  /// clamped otherwise, or with samples that one of them has; and for one that does not say what it has
+  /// @throws FileError for an image without the attributes of a render; and for one that differs from those
+  /// before in size, scene, bias or a setting that affects the expectation, or shares samples with them
   void add(const std::string& name, const Image& image);
-  /// Of at least one image. Its attributes are those of the first where images agree, lists where not, sums
-  /// of samples and seconds.
+  /// The merged image of at least one. Attributes that differ become lists; samples and seconds are added.
   [[nodiscard]] Image result() const;
-  /// What a user should know of the result though it is right.
+  /// Warnings about a result that is correct but not as good as it could be.
   [[nodiscard]] std::vector<std::string> notes() const;
 
 private:
@@ -33,7 +31,7 @@ private:
 
   int width_ = 0, height_ = 0;
   std::vector<Source> sources_;
-  std::array<std::vector<double>, 3> radiance_, variance_; // weighted sums; no variance_ once one has none
+  std::array<std::vector<double>, 3> radiance_, variance_; // weighted sums
 };
 
 } // namespace phlux::files

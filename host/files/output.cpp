@@ -42,7 +42,7 @@ bool is_special(const fs::path& path) {
   return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
 }
 
-// A file open for writing, closed in the end.
+// A file open for writing, closed by the destructor.
 class OpenFile {
 public:
   OpenFile(const char* name, int flags) : descriptor_(::open(name, flags | O_WRONLY | O_CLOEXEC, 0666)) {}
@@ -68,7 +68,7 @@ private:
   int descriptor_;
 };
 
-// Is removed unless it was renamed.
+// Removed by the destructor unless it was renamed.
 class TemporaryFile {
 public:
   explicit TemporaryFile(const fs::path& target)
@@ -93,7 +93,7 @@ private:
   bool renamed_ = false;
 };
 
-// Where the rename goes: behind the links, so that a link stays one.
+// The target of the rename. Symbolic links are followed, and so kept.
 fs::path destination(const fs::path& path) {
   std::error_code error;
   if (path.empty()) fail(path, ENOENT);

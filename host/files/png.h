@@ -1,4 +1,4 @@
-// The preview: a tone-mapped picture for people, where the EXR file is for programs.
+// The preview: a tone-mapped image.
 #pragma once
 
 #include <filesystem>
@@ -8,8 +8,7 @@
 
 namespace phlux::files {
 
-/// The bytes of an 8-bit sRGB PNG file: exposure, highlights and encoding of tone_map.h, per channel. The
-/// same image gives the same bytes.
+/// The bytes of an 8-bit sRGB PNG file, tone-mapped per channel by tone_map.h. Deterministic.
 [[nodiscard]] std::string encode_png(const Image& image);
 
 /// encode_png to a file. @throws WriteError

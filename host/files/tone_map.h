@@ -1,4 +1,4 @@
-// From linear radiance to what a screen shows.
+// Tone mapping: from linear radiance to sRGB.
 #pragma once
 
 #include <array>
@@ -8,16 +8,16 @@
 
 namespace phlux::files {
 
-/// The factor that brings the image's log-average luminance to middle grey, 0.18 (Reinhard and others 2002,
-/// "Photographic tone reproduction for digital images", equations 1 and 2), or less where the bright parts of
-/// a picture of high contrast would burn out: the 95th percentile is exposed to 1 at most. Black pixels do
-/// not count, and the darkest and brightest 5% of the others not in the average, so that neither a light in
-/// view nor a dark background decides; 1 for a black image. `image` has channels R, G, B.
+/// The factor that maps the image's log-average luminance to middle grey, 0.18 (Reinhard and others 2002,
+/// "Photographic tone reproduction for digital images", equations 1 and 2), reduced so that the 95th
+/// percentile is at most 1. Black pixels are ignored, and the darkest and brightest 5% of the others are not
+/// averaged, so that neither a visible light nor a dark background determines the exposure. 1 for a black
+/// image. `image` needs channels R, G, B.
 [[nodiscard]] float exposure(const Image& image);
 
-/// One exposed linear value >= 0 to [0, 1): itself up to 0.6, above that a shoulder that nears 1 with a
-/// continuous slope, so that middle tones keep their colours and highlights fade into white. NaN and negative
-/// values become 0.
+/// Maps an exposed linear value to [0, 1): the identity up to 0.6, above it an exponential shoulder towards 1
+/// with a continuous slope, so that middle tones keep their colours and highlights fade to white. NaN and
+/// negative values become 0.
 [[nodiscard]] float compress_highlights(float value);
 
 /// The sRGB code of a linear value, IEC 61966-2-1; clamped to [0, 255].

@@ -1,5 +1,4 @@
-// How large contributions are: a histogram that tells what sums hide, namely whether a few of them made the
-// most of a variance.
+// A histogram of contributions to the variance, which shows whether a few of them dominate it.
 #pragma once
 
 #include <algorithm>
@@ -13,20 +12,20 @@
 
 namespace phlux::film {
 
-/// Contributions to a variance, relative to the squared mean radiance where they arrived: how many of each
-/// size, in quarters of an octave.
+/// Numbers of contributions to the variance by size, in bins of a quarter octave. Sizes are relative to the
+/// squared mean radiance of the pixel.
 class ContributionSizes {
 public:
-  /// size >= 0; it stands for `count` of them.
+  /// Adds `count` contributions of a size >= 0.
   void add(double size, std::uint32_t count = 1) {
     const auto bounded = static_cast<float>(std::min(size, double{std::numeric_limits<float>::max()}));
     counts_[std::bit_cast<std::uint32_t>(bounded) >> dropped_bits] += count;
   }
-  [[nodiscard]] double largest() const; ///< 0 without any
-  /// Share of the `count` largest in the sum of all; 0 without any.
+  [[nodiscard]] double largest() const; ///< 0 if empty
+  /// Share of the `count` largest in the sum of all; 0 if empty.
   [[nodiscard]] double share_of_largest(double count) const;
-  /// Index a of the tail, where P(size > x) falls as x^-a: Hill's estimate (1975) from at least the `count`
-  /// largest. Nothing where there are fewer, or all of a size.
+  /// Index a of the tail, P(size > x) ~ x^-a: Hill's estimate (1975) from at least the `count` largest.
+  /// Nothing if there are fewer, or all are in one bin.
   [[nodiscard]] std::optional<double> tail_index(double count) const;
 
   template<class Archive>
@@ -39,12 +38,12 @@ private:
   static constexpr unsigned dropped_bits = 21;
   static constexpr std::size_t bins = 255 << 2; // of finite floats
   static double lower_edge(std::size_t bin);
-  static double size_of(std::size_t bin); ///< the bin's middle; bin 0 holds zeros
+  static double size_of(std::size_t bin); ///< the bin's middle; 0 for bin 0
   std::array<std::uint64_t, bins> counts_{};
 };
 
-/// Running means of squares of tile_edge x tile_edge pixels: what a contribution is compared with where its
-/// own pixel has seen little.
+/// Running means over tiles of tile_edge x tile_edge pixels, with which contributions to pixels of few
+/// samples are compared.
 class TileMeans {
 public:
   static constexpr int tile_edge = 16;
@@ -52,7 +51,7 @@ public:
   TileMeans(int width, int height);
   [[nodiscard]] std::size_t count() const { return tiles_.size(); }
   [[nodiscard]] std::size_t tile_of(std::size_t pixel) const {
-    // Quicker than a division, and as exact: the half keeps the quotient off the whole numbers.
+    // Faster than an integer division and as exact: the 0.5 keeps the quotient away from whole numbers.
     const auto row = static_cast<std::uint32_t>((static_cast<double>(pixel) + 0.5) * rows_per_pixel_);
     const std::uint32_t column = static_cast<std::uint32_t>(pixel) - row * width_;
     return std::size_t{row / tile_edge} * tiles_across_ + column / tile_edge;
@@ -66,9 +65,9 @@ public:
     tiles_[tile].mean = tiles_[tile].sum / static_cast<double>(tiles_[tile].samples);
   }
   void add_splat(std::size_t tile, double sum) { tiles_[tile].splats += sum; }
-  /// Of the samples that began in the tile.
+  /// Mean of the samples of the tile's pixels.
   [[nodiscard]] double mean_of_samples(std::size_t tile) const { return tiles_[tile].mean; }
-  /// Of the splats, for one splatting path per pixel.
+  /// Mean of the splats, for one splatting path per pixel.
   [[nodiscard]] double mean_of_splats(std::size_t tile) const {
     return tiles_[tile].splats * tiles_[tile].one_by_pixels;
   }

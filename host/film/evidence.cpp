@@ -6,7 +6,7 @@ namespace phlux::film {
 
 Evidence::Evidence(int width, int height)
     : tiles_(width, height), pixels_(static_cast<double>(width) * height),
-      next_growth_(16 * static_cast<std::uint64_t>(pixels_)) {} // earlier, many pixels are without samples
+      next_growth_(16 * static_cast<std::uint64_t>(pixels_)) {} // before, many pixels have no samples
 
 void Evidence::add_block(std::size_t pixel, double square, double sum, std::uint32_t samples,
                          double mean_before) {

@@ -1,4 +1,4 @@
-// What a film notes of contributions beside their sums, to tell whether its error estimate can be believed.
+// Statistics of contributions from which a film judges whether its error estimate is reliable.
 #pragma once
 
 #include <cstddef>
@@ -20,19 +20,19 @@ struct Growth {
   }
 };
 
-/// Sizes are relative to what the pixel had seen before, so that a firefly is not measured by itself, or to
-/// its tile's mean, whichever is more. Sums are over channels.
+/// Sizes are relative to the larger of the tile's mean and the pixel's mean before the contribution, so that
+/// a firefly is not compared with itself. Sums are over channels.
 class Evidence {
 public:
   Evidence(int width, int height);
 
-  /// A block that brought `sum` to a pixel whose samples had this mean before.
+  /// A block of samples with sum `sum` for a pixel whose mean was `mean_before`.
   void add_block(std::size_t pixel, double square, double sum, std::uint32_t samples, double mean_before);
-  /// A splat that stands for `count` of them, onto a pixel that splats had brought `sum_before`.
+  /// A splat that represents `count` splats, for a pixel whose sum of splats was `sum_before`.
   void add_splat(std::size_t pixel, double square, double sum, std::uint32_t count, double sum_before);
-  /// Of the whole image, so far.
+  /// Their number in the whole image so far.
   void set_splatting_paths(std::uint64_t paths);
-  /// Notes the largest at each doubling of the image's samples.
+  /// Records the largest contribution at each doubling of the image's samples.
   void note_growth(std::uint64_t samples);
 
   [[nodiscard]] const ContributionSizes& sizes() const { return sizes_; }
@@ -49,8 +49,8 @@ private:
   TileMeans tiles_;
   std::vector<Growth> history_;
   double pixels_;
-  double pixels_per_path_ = 0.0; // of the splatting paths so far
-  std::uint64_t next_growth_;    // samples at which the history goes on
+  double pixels_per_path_ = 0.0; // for the splatting paths so far
+  std::uint64_t next_growth_;    // samples at the next entry of the history
 };
 
 } // namespace phlux::film

@@ -13,9 +13,8 @@ namespace {
 
 constexpr std::size_t channel_count = 3;
 
-// Unbiased variance of the mean of n >= 2 values from their sum and the sum of their squares: that of one
-// value is (Q - S^2/n) / (n - 1), and of the mean 1/n of it. By Cauchy-Schwarz it is >= 0; rounding may leave
-// it just below.
+// Unbiased variance of the mean of n >= 2 values from their sum S and the sum of their squares Q:
+// (Q - S^2/n) / (n (n - 1)). Clamped, as rounding can make it negative.
 double variance_of_mean_of(double sum, double sum_of_squares, double n) {
   const double mean = sum / n;
   return std::max(0.0, (sum_of_squares / n - mean * mean) / (n - 1.0));
@@ -35,7 +34,7 @@ void Film::add(std::size_t pixel, const BlockSum& block, std::uint32_t samples) 
   const double mean_before =
       sums.samples > 0
           ? std::accumulate(sums.sum.begin(), sums.sum.end(), 0.0) / static_cast<double>(sums.samples)
-          : block_sum / samples; // a pixel that shows a lamp would stand out else
+          : block_sum / samples; // else every pixel that sees a light would look like an outlier
   sums.samples += samples;
   double square = 0.0;
   for (std::size_t channel = 0; channel < channel_count; ++channel) {
@@ -47,7 +46,7 @@ void Film::add(std::size_t pixel, const BlockSum& block, std::uint32_t samples) 
   }
   sums.sum_of_fourths += square * square;
   evidence_.add_block(pixel, square, block_sum, samples, mean_before);
-  if (clamp_) clamped_ += block.clamped; // else no device writes it
+  if (clamp_) clamped_ += block.clamped; // not written by the device otherwise
   own_samples_ += samples;
   ++blocks_;
   if (splats_.empty()) evidence_.note_growth(this->samples());
@@ -109,12 +108,9 @@ double Film::mean_in_units(std::size_t pixel, std::size_t channel) const {
   return mean;
 }
 
-// The mean of a film whose paths splat and begin in pixels is right once every pixel has the same number of
-// samples; until then what paths bring to their own pixels by splats is off by up to one part in as many as
-// the image has pixels.
-//
-// What a path brings to its own pixel counts among that pixel's samples, so the two parts are of different
-// paths and their variances add.
+// Splats of a path onto its own pixel count as samples of that pixel. The two parts are then of different
+// paths, and their variances add. While pixels differ in their number of samples, the mean of such splats is
+// off by up to one part in the number of pixels.
 double Film::variance_in_units(std::size_t pixel, std::size_t channel) const {
   const Pixel& own = pixels_[pixel];
   const double n = static_cast<double>(own.samples);
@@ -160,7 +156,7 @@ bool Film::has_variance() const {
   return only_splats && splatting_paths_per_pixel() >= 2.0;
 }
 
-// Mean of f(pixel, mean, variance of the mean) over all channels with a mean above 0; 0 without any.
+// Mean of f(pixel, mean, variance of the mean) over all channels with a mean above 0; 0 if there are none.
 template<class Function>
 double Film::mean_where_not_black(Function f) const {
   double total = 0.0;

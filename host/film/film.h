@@ -1,5 +1,5 @@
-// The image in the making: per pixel, float64 sums of radiance and of its square. Knows no device and no
-// file.
+// The image while it is rendered: per pixel, float64 sums of radiance and of its square. Independent of
+// devices and files.
 #pragma once
 
 #include <algorithm>
@@ -14,18 +14,18 @@
 
 namespace phlux::film {
 
-/// What a device hands over for one pixel and one block of samples: float32 sums over `samples` samples.
+/// A device's float32 sums over a block of samples of one pixel.
 struct BlockSum {
   float radiance[3];
   float radiance_squared[3];
   float nonfinite = 0.0F; ///< contributions that were not finite, and are not in the sums
-  float clamped = 0.0F;   ///< sum over channels of the radiance that clamping took away
+  float clamped = 0.0F;   ///< sum over channels of the radiance that clamping removed
 };
 
-/// Sums over the samples that began in a pixel.
+/// Sums over the samples of a pixel.
 struct Pixel {
   std::array<double, 3> sum{}, sum_of_squares{};
-  double sum_of_fourths = 0.0; ///< of blocks: of the square of what one adds to the sum of squared deviations
+  double sum_of_fourths = 0.0; ///< over blocks: squared sum over channels of squared deviations
   std::uint64_t samples = 0;
 
   template<class Archive>
@@ -34,8 +34,8 @@ struct Pixel {
   }
 };
 
-/// Sums over what paths that began elsewhere brought to a pixel; each square is of what one path brought.
-/// One cache line, as splats fall where they like.
+/// Sums over the splats onto a pixel by paths of other pixels; each square is of the sum of one path's
+/// splats. Aligned to a cache line, as splats have no locality.
 struct alignas(64) Splats {
   std::array<double, 3> sum{}, sum_of_squares{};
   double sum_of_fourths = 0.0; ///< of the squared sum over channels of the squares
@@ -46,10 +46,10 @@ struct alignas(64) Splats {
   }
 };
 
-/// Sums stay exact to about 2^-53 times the number of blocks, so that no sample count stalls them (MATH.md
-/// 6). What the float32 blocks themselves round remains: with B samples a block, a mean is good to 2^-24 B of
-/// itself (2^-24 sqrt(B) where samples differ), and a variance of one sample below that part of mean^2 is
-/// rounding, not noise. Squares fit float32 where radiances are between about 1e-18 and 1e18 of the unit.
+/// The relative rounding error of the sums is at most 2^-53 times the number of blocks, so that they do not
+/// stall (MATH.md 6). The float32 sums of blocks of B samples have a relative error of up to 2^-24 B
+/// (2^-24 sqrt(B) where samples differ); a variance of one sample below that part of mean^2 is rounding, not
+/// noise. Squares fit float32 for radiances between about 1e-18 and 1e18 units.
 class Film {
 public:
   /// Black, without samples. Both sizes > 0.
@@ -60,24 +60,24 @@ public:
   [[nodiscard]] std::span<const Pixel> pixels() const { return pixels_; }
   [[nodiscard]] std::span<Pixel> pixels() { return pixels_; }
 
-  /// The radiance that stands as 1 in the sums that devices hand over; 1 unless set. Means and variances are
-  /// radiances whatever it is.
+  /// The radiance that is 1 in the devices' sums; 1 by default. mean() and variance_of_mean() are in
+  /// radiance.
   void set_unit(double radiance) { unit_ = radiance; }
   [[nodiscard]] double unit() const { return unit_; }
 
-  /// Folds one block of `samples` samples of one pixel in. Blocks must come in the same order for the same
-  /// bits.
+  /// Adds a block of `samples` samples of one pixel. The result depends on the order of blocks, by rounding.
   void add(std::size_t pixel, const BlockSum& block, std::uint32_t samples);
 
-  /// No path brings a pixel more than `radiance` in any channel from here on: a bias. What splats bring is
-  /// clamped here, what blocks bring by the device.
+  /// Clamps the contribution of each path to a pixel to at most `radiance` in any channel, which is a bias.
+  /// The film clamps splats; the device clamps samples.
   void set_clamp(double radiance) { clamp_ = radiance / unit_; }
-  /// Share of the light that clamping took away.
+  /// Share of the light that clamping removed.
   [[nodiscard]] double clamped_share() const;
 
-  /// Adds what one path brought to a pixel that it did not begin in. A pixel's radiance is the mean of its
-  /// samples plus the sum of its splats / the number of splatting paths per pixel of the image. Sizes are
-  /// taken of one splat in `sized_one_in` alone: of each they would cost a sixth of light tracing's time.
+  /// Adds a splat: one path's contribution to a pixel other than its own. A pixel's radiance is the mean of
+  /// its samples plus the sum of its splats / the number of splatting paths per pixel of the image. Only one
+  /// splat in `sized_one_in` is added to the ContributionSizes: all would take a sixth of light tracing's
+  /// time.
   void add_splat(std::size_t pixel, std::array<double, 3> value, bool sized = true) {
     if (clamp_) clamp(value);
     Splats& sums = splats_[pixel];
@@ -93,18 +93,18 @@ public:
   }
   static constexpr std::uint32_t sized_one_in = 16;
   void use_splats() { splats_.resize(pixels_.size()); } ///< before the first add_splat()
-  /// Fetches what add_splat() will need soon.
+  /// Prefetches the pixel for add_splat().
   void expect_splat(std::size_t pixel) const { __builtin_prefetch(&splats_[pixel], 1); }
-  /// Counts paths of the whole image that may bring splats, before they do.
+  /// Counts paths of the whole image that may splat; to be called before their splats are added.
   void add_splatting_paths(std::uint64_t paths);
   [[nodiscard]] bool splats() const { return !splats_.empty(); }
 
-  /// Keeps what each technique brings by itself as well, from here on.
+  /// Also records the contributions of each technique from here on.
   void use_techniques() {
     if (!techniques_) techniques_.emplace(pixels_.size());
   }
   [[nodiscard]] Techniques* techniques() { return techniques_ ? &*techniques_ : nullptr; }
-  /// One technique's image, of sums of `techniques()`: radiance per pixel.
+  /// One technique's image from its sums in `techniques()`: radiance per pixel.
   [[nodiscard]] std::vector<std::array<double, 3>>
   technique_image(const std::vector<std::array<double, 3>>& sums) const;
 
@@ -112,33 +112,33 @@ public:
   [[nodiscard]] std::array<double, 3> mean(std::size_t pixel) const;
   /// Unbiased variance of that mean, per channel; 0 with fewer than two samples. Never negative.
   [[nodiscard]] std::array<double, 3> variance_of_mean(std::size_t pixel) const;
-  /// Whether every pixel has the two samples, of its own or of splatting paths, that a variance takes.
+  /// Whether every pixel has at least two samples, its own or splatting paths.
   [[nodiscard]] bool has_variance() const;
 
-  /// Mean over the pixels (and channels) of variance of one sample / mean^2, over pixels that are not black;
-  /// 0 where no pixel has two samples and a mean above 0.
+  /// Mean of variance of one sample / mean^2 over the pixels and channels that are not black; 0 if no pixel
+  /// has two samples and a mean above 0.
   [[nodiscard]] double relative_variance() const;
-  /// Mean over the pixels (and channels) of standard error / mean, over pixels that are not black. Infinite
-  /// before every pixel has two samples, 0 for an image that is black.
+  /// Mean of standard error / mean over the pixels and channels that are not black. Infinite until every
+  /// pixel has two samples, 0 for a black image.
   [[nodiscard]] double relative_standard_error() const;
   [[nodiscard]] double samples_per_pixel() const; ///< mean over the pixels
 
-  /// Of all pixels: samples that began in them, or paths that splat where none did.
+  /// Samples of all pixels, or splatting paths if pixels have no samples of their own.
   [[nodiscard]] std::uint64_t samples() const { return own_samples_ > 0 ? own_samples_ : splatting_paths_; }
-  /// Independent sums that the variance is made from: blocks of samples, and paths that splat.
+  /// The number of independent sums that the variance is estimated from: blocks of samples and splatting
+  /// paths.
   [[nodiscard]] std::uint64_t contributors() const { return blocks_ + splatting_paths_; }
   [[nodiscard]] const Evidence& evidence() const { return evidence_; }
 
-  /// What is known of a pixel's variance; sums over its channels, in units.
+  /// Moments of the contributions to a pixel, summed over its channels, in units.
   struct Spread {
-    double mean = 0.0;    ///< of the pixel, over channels
-    double squares = 0.0; ///< of what contributions differ from the mean: about samples x variance of one
-    double fourths = 0.0; ///< of the squares of those
+    double mean = 0.0;    ///< radiance, mean over channels
+    double squares = 0.0; ///< sum of squared deviations from the mean: about samples x variance of one
+    double fourths = 0.0; ///< sum of the squares of those
   };
   [[nodiscard]] Spread spread(std::size_t pixel) const;
 
-  /// Hands all that the film holds to an archive that writes, or takes it from one that reads: a film that
-  /// has taken what another handed over goes on as that one would, bit for bit.
+  /// The film's whole state: a film that is read from an archive continues as the written one, bit for bit.
   template<class Archive>
   void serialize(Archive& archive) {
     archive(width_, height_, unit_, pixels_, splats_, splatting_paths_, own_samples_, blocks_, evidence_,

@@ -11,13 +11,14 @@ namespace {
 constexpr double channels = 3.0;
 constexpr double top_part = 1e-3;
 constexpr double least_tail = 30.0;            // contributions for an index of the tail
-constexpr double largest_variance_error = 0.2; // a standard error is then good to 10%
+constexpr double largest_variance_error = 0.2; // for a relative error of 10% of the standard error
 constexpr double infinite_variance = 2.0;      // index of the tail
 
-// Of a tile, or of the image: sums over pixels, each relative to the radiance there.
+// Sums over the pixels of a tile or of the image, relative to the radiance of each.
 struct Spread {
   double pixels = 0.0, mean = 0.0, squares = 0.0, fourths = 0.0, variance = 0.0;
-  // Relative variance of `squares`, which is a sum of many, of which blocks are certain to be there.
+  // Relative variance of `squares`. The number of blocks is not random, so that equal blocks have no
+  // variance.
   [[nodiscard]] double relative_variance(double blocks) const {
     if (!(squares > 0.0)) return 0.0;
     const double of_equal_blocks = blocks > 0.0 ? 1.0 / blocks : 0.0;
@@ -46,7 +47,7 @@ std::vector<Spread> spreads_of(const Film& film) {
   return tiles;
 }
 
-// Blocks of samples in a pixel; 0 where splats are a part of what there is, whose number is a chance itself.
+// Blocks of samples per pixel; 0 with splats, whose number is random.
 double blocks_per_pixel(const Film& film) {
   if (film.splats()) return 0.0;
   return static_cast<double>(film.contributors()) / static_cast<double>(film.pixels().size());
@@ -57,15 +58,16 @@ double pixel_relative_variance(const Spread& tile, double blocks) {
   return tile.pixels * tile.relative_variance(blocks * tile.pixels);
 }
 
-// The tail is where the largest are: as many as the root of all, which go to infinity and leave out ever more
-// of what is not the tail. Sizes are squares.
+// From the largest contributions, as many as the square root of their number: that number goes to infinity,
+// and its share to 0, as Hill's estimate requires. Sizes are squares of contributions, whose index is twice
+// theirs.
 std::optional<double> tail_index(const Film& film) {
   const double count = std::max(least_tail, std::sqrt(static_cast<double>(film.contributors())));
   const std::optional<double> of_squares = film.evidence().sizes().tail_index(count);
   return of_squares ? std::optional(2.0 * *of_squares) : std::nullopt;
 }
 
-// Slope of the largest contribution over the last two doublings.
+// Slope of the logarithm of the largest contribution over the last two doublings of the samples.
 std::optional<double> growth_of(const std::vector<Growth>& history) {
   constexpr std::size_t doublings = 2;
   if (history.size() <= doublings) return std::nullopt;
@@ -102,20 +104,20 @@ void sum_tiles(Reliability& r, const Film& film) {
   if (all.variance > 0.0) r.worst_share = worst / all.variance;
 }
 
-std::vector<std::string> doubts(const Reliability& r, double samples_per_pixel) {
+std::vector<std::string> reasons_for_doubt(const Reliability& r, double samples_per_pixel) {
   std::vector<std::string> result;
   if (samples_per_pixel < least_samples)
     return {fmt::format("{:.3g} samples per pixel are too few to tell", samples_per_pixel)};
-  if (!(r.variance > 0.0)) return {"no sample differs from another: what is rare has not been met"};
+  if (!(r.variance > 0.0)) return {"all samples are equal: rare contributions may be missing"};
   if (r.understated > most_understated)
     result.push_back(fmt::format("it may be {:.0f}% too small", 100.0 * r.understated));
   if (r.variance_error > largest_variance_error)
-    result.push_back(fmt::format("the variance rests on about {:.2g} samples",
+    result.push_back(fmt::format("about {:.2g} samples dominate the variance",
                                  1.0 / (r.variance_error * r.variance_error)));
-  // Of an infinite variance a part that does not fall with the samples is always due to a few of them.
+  // With infinite variance, the share of a few largest contributions does not decrease with more samples.
   if (r.tail_index && *r.tail_index <= infinite_variance && r.variance_error > 0.5 * largest_variance_error)
-    result.push_back(fmt::format("the variance may be infinite: contributions x grow rarer as x^-{:.2g} only",
-                                 *r.tail_index));
+    result.push_back(fmt::format(
+        "the variance may be infinite: the tail of contributions x falls as x^-{:.2g}", *r.tail_index));
   return result;
 }
 
@@ -128,7 +130,7 @@ Reliability reliability_of(const Film& film) {
       film.evidence().sizes().share_of_largest(std::ceil(top_part * static_cast<double>(film.samples())));
   r.tail_index = tail_index(film);
   r.growth = growth_of(film.evidence().history());
-  r.reasons = doubts(r, film.samples_per_pixel());
+  r.reasons = reasons_for_doubt(r, film.samples_per_pixel());
   r.trusted = r.reasons.empty();
   return r;
 }

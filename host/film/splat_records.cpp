@@ -9,10 +9,10 @@
 namespace phlux::film {
 namespace {
 
-constexpr std::int32_t merged = -1; // in place of the pixel of a record that another one has taken in
+constexpr std::int32_t merged = -1; // replaces the pixel of a record that was added to another one
 
-// The records were written some 50 ms ago and have left the caches; their arrays are too short for the
-// hardware to see what comes next.
+// The records, written about 50 ms ago, are no longer in the caches, and their arrays are too short for the
+// hardware's prefetching.
 constexpr std::size_t words_per_line = 16;
 void fetch(const SplatRecords& records, std::size_t i) {
   if (i >= records.capacity) return;
@@ -24,15 +24,15 @@ std::size_t path_of(const SplatRecords& records, std::size_t i) {
   return std::bit_cast<std::uint32_t>(records.words[RECORD_PATH * records.capacity + i]);
 }
 
-// One of 64 bits for a pixel: a path that has not set it has not been there.
+// A hash of the pixel to one of 64 bits: a path that has not set it has no record of that pixel.
 std::uint64_t bit_of(std::int32_t pixel) {
   return std::uint64_t{1} << (static_cast<std::uint32_t>(pixel) * 0x9E3779B1u >> 26);
 }
 
 } // namespace
 
-// Adds each record to an earlier one of the same path and pixel, where there is one. Most paths bring two or
-// three records, and seldom two to the same pixel.
+// Adds each record to an earlier one of the same path and pixel, if there is one. Most paths have two or
+// three records, rarely two of the same pixel.
 void SplatFolder::merge(const SplatRecords& records) {
   auto* const pixels = reinterpret_cast<std::int32_t*>(records.words + RECORD_PIXEL * records.capacity);
   const auto* const paths =

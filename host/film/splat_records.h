@@ -1,4 +1,4 @@
-// What a device hands over of light paths and bidirectional paths: records of splats, folded into the film.
+// Records of splats, which devices write for light and bidirectional paths, and their addition to the film.
 #pragma once
 
 #include <cstddef>
@@ -9,35 +9,35 @@
 
 namespace phlux::film {
 
-/// One batch's records as the device wrote them: arrays of `capacity` words each, of which the first `count`
-/// hold (kernels/scene/scene_data.h, RecordWords).
+/// The records of one batch: arrays of `capacity` words each, of which the first `count` are used
+/// (kernels/scene/scene_data.h, RecordWords).
 struct SplatRecords {
   float* words = nullptr;
   std::size_t capacity = 0, count = 0;
-  std::size_t paths = 0; ///< of the batch: its records name paths below that
+  std::size_t paths = 0; ///< of the batch; records have path indices below it
 };
 
-/// Adds up what each path brought to each pixel before it goes to the film, which wants the squares of that.
+/// Sums the splats of each path to each pixel and adds the sums to the film, which needs their squares.
 class SplatFolder {
 public:
-  /// Changes the records. The film uses splats. Returns the paths that brought a pixel what is not finite,
-  /// once for each such pixel; the film does without that.
+  /// Changes the records. The film must use splats. Sums that are not finite are left out; returns their
+  /// paths.
   std::vector<std::size_t> fold(const SplatRecords& records, Film& film);
 
-  /// For records that tell techniques apart, before fold(): hands each to the film's techniques, weights it,
-  /// and takes out those to the paths' own pixels, which the film has already. What is not finite is left to
-  /// fold().
+  /// For records with techniques, before fold(): adds each to the film's techniques, multiplies it by its
+  /// weight, and removes those of the paths' own pixels, which the film already has. Values that are not
+  /// finite are left to fold().
   static void fold_techniques(const SplatRecords& records, Film& film);
 
 private:
   void merge(const SplatRecords& records);
 
   struct PathSoFar {
-    std::uint64_t pixels = 0; ///< a bit for each pixel that it has been to, which pixels share
+    std::uint64_t pixels = 0; ///< bit_of() its records' pixels
     std::int32_t last = -1;   ///< its latest record, -1: none
   };
   std::vector<PathSoFar> paths_;
-  std::vector<std::int32_t> earlier_; ///< per record: the one before of the same path, -1: none
+  std::vector<std::int32_t> earlier_; ///< per record: the previous one of the same path, -1: none
 };
 
 } // namespace phlux::film

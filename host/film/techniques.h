@@ -1,4 +1,4 @@
-// What each way of making a path brings by itself: for teaching, and for finding out what is wrong.
+// Contributions by technique (Veach 10.2), for teaching and debugging.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace phlux::film {
 
-/// s vertices of the path were made from the light, t from the eye.
+/// The technique (s, t): s vertices of the light subpath, t of the eye subpath.
 struct Technique {
   int light_vertices = 0, eye_vertices = 0;
   [[nodiscard]] int edges() const { return light_vertices + eye_vertices - 1; }
@@ -20,7 +20,7 @@ struct Technique {
   }
 };
 
-/// Longer paths are not told apart: there are as many images as pairs (s, t).
+/// Techniques of longer paths are not recorded: each takes two images.
 inline constexpr int most_technique_edges = 8;
 
 class Techniques {
@@ -37,7 +37,7 @@ public:
 
   explicit Techniques(std::size_t pixels = 0) : pixels_(pixels) {}
 
-  /// Radiance that one path brought to a pixel; the technique's share of it is `weight`.
+  /// Adds the unweighted contribution of one path to a pixel, and its product with the MIS weight `weight`.
   void add(Technique technique, std::size_t pixel, const std::array<double, 3>& radiance, double weight);
   [[nodiscard]] const std::map<Technique, Sums>& sums() const { return sums_; }
   [[nodiscard]] std::uint64_t left_out() const { return left_out_; } ///< contributions of longer paths

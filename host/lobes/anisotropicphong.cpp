@@ -5,7 +5,7 @@
 namespace phlux::lobes {
 namespace {
 
-// The diffuse part already decreases where the specular one increases: each alone must stay within 1.
+// The model reduces its diffuse part as the specular one increases, so that each alone must be at most 1.
 double largest_reflectance(const scene::Material& m) {
   return std::max(largest_channel(m.value("diffuse_reflectance")),
                   largest_channel(m.value("specular_reflectance")));

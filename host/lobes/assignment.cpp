@@ -13,7 +13,7 @@
 namespace phlux::lobes {
 namespace {
 
-// specularReflectance as specular_reflectance.
+// "specular_reflectance" for "specularReflectance".
 std::string with_underscores(const std::string& name) {
   std::string result;
   for (const char c : name) {
@@ -44,7 +44,7 @@ scene::Material default_material(const ModelPointer& model) {
   scene::Material material;
   material.model = model;
   for (const scene::Parameter& parameter : model->parameters)
-    material.values.emplace_back(parameter.otherwise);
+    material.values.emplace_back(parameter.default_value);
   return material;
 }
 

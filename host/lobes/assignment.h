@@ -1,4 +1,4 @@
-// Materials by the names and values of their parameters, as a user types them.
+// Materials from parameters as a user types them, NAME=VALUE.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace phlux::lobes {
 
-/// Every parameter by its default.
+/// A material with the default of every parameter.
 [[nodiscard]] scene::Material default_material(const ModelPointer& model);
 
 /// The parameter of this name, specular_reflectance or specularReflectance; null if the model has none.

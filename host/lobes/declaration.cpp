@@ -13,17 +13,14 @@
 namespace phlux::lobes {
 namespace {
 
-std::string upper(std::string name) {
-  for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return name;
-}
+constexpr const char* entry_syntax = "COLOUR or NUMBER(name, default, lowest, highest, \"meaning\")";
 
-/// A kernel file's #defines, as far as a declaration needs them.
+/// The #defines of a kernel file that declare a model.
 class Defines {
 public:
   Defines(std::string file, std::string text) : file_(std::move(file)), text_(std::move(text)) {
     for (std::size_t at = text_.find("\\\n"); at != std::string::npos; at = text_.find("\\\n", at))
-      text_.replace(at, 2, "\f "); // still one line, of the same length
+      text_.replace(at, 2, "\f "); // joins continued lines and keeps positions
   }
 
   [[nodiscard]] bool has(const std::string& name) const {
@@ -58,19 +55,18 @@ private:
 
 scene::Parameter read_entry(const Defines& defines, const Defines::List& list, const std::smatch& entry,
                             std::size_t at) {
-  constexpr const char* right = "COLOUR or NUMBER(name, default, lowest, highest, \"meaning\")";
   scene::Parameter parameter;
   if (entry[1] != list.kinds[0] && entry[1] != list.kinds[1])
-    defines.fail(at, entry[1].str() + " is no kind of parameter", right);
+    defines.fail(at, entry[1].str() + " is no kind of parameter", entry_syntax);
   parameter.kind =
       entry[1] == list.kinds[0] ? scene::Parameter::Kind::colour : scene::Parameter::Kind::number;
   parameter.name = entry[2];
-  parameter.otherwise = std::stod(entry[3]);
+  parameter.default_value = std::stod(entry[3]);
   parameter.lowest = std::stod(entry[4]);
   parameter.highest = std::stod(entry[5]);
   parameter.meaning = entry[6];
-  if (!(parameter.lowest <= parameter.otherwise && parameter.otherwise <= parameter.highest))
-    defines.fail(at, fmt::format("the default of {} is outside its range", parameter.name), right);
+  if (!(parameter.lowest <= parameter.default_value && parameter.default_value <= parameter.highest))
+    defines.fail(at, fmt::format("the default of {} is outside its range", parameter.name), entry_syntax);
   return parameter;
 }
 
@@ -84,23 +80,25 @@ std::vector<scene::Parameter> read_parameters(const Defines& defines, const Defi
   for (std::sregex_iterator each(list.body.begin(), list.body.end(), entry), none; each != none; ++each) {
     const auto at = static_cast<std::size_t>(each->position());
     const std::string between = list.body.substr(end, at - end);
-    if (!std::regex_match(between, blank))
-      defines.fail(list.at + end, "this is no parameter",
-                   "COLOUR or NUMBER(name, default, lowest, highest, \"meaning\")");
+    if (!std::regex_match(between, blank)) defines.fail(list.at + end, "this is no parameter", entry_syntax);
     parameters.push_back(read_entry(defines, list, *each, list.at + at));
     end = at + static_cast<std::size_t>(each->length());
   }
   if (!std::regex_match(list.body.substr(end), std::regex("[\\s\f]*(//.*)?")))
-    defines.fail(list.at + end, "this is no parameter",
-                 "COLOUR or NUMBER(name, default, lowest, highest, \"meaning\")");
+    defines.fail(list.at + end, "this is no parameter", entry_syntax);
   return parameters;
 }
 
 } // namespace
 
+std::string macro_prefix(std::string model) {
+  for (char& c : model) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return model;
+}
+
 scene::Model read_declaration(const std::string& name, const std::string& file, const std::string& text) {
   const Defines defines(file, text);
-  const std::string prefix = upper(name);
+  const std::string prefix = macro_prefix(name);
   scene::Model model;
   model.name = name;
   model.file = file;

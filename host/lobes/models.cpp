@@ -34,7 +34,7 @@ scene::Material material(const std::string& model, std::vector<scene::Rgb> value
   return m;
 }
 
-// A function that is missing would be an error of lobes/material.cl, which calls it.
+// Otherwise the compiler would report a missing function in lobes/material.cl, which calls it.
 void require_functions(const std::string& name, const std::string& path, const std::string& text) {
   for (const char* function : {"_evaluate", "_sample", "_reflectivity"})
     if (text.find(name + function) == std::string::npos)

@@ -1,7 +1,6 @@
 #include "lobes/program.h"
 
 #include <algorithm>
-#include <cctype>
 
 #include <fmt/format.h>
 
@@ -24,17 +23,8 @@ int record_words(const std::vector<ModelPointer>& models) {
   return MATERIAL_HEADER + most;
 }
 
-std::string changed(std::string text, int (*change)(int)) {
-  for (char& c : text) c = static_cast<char>(change(static_cast<unsigned char>(c)));
-  return text;
-}
-
-std::string upper(const std::string& name) {
-  return changed(name, [](int c) { return std::toupper(c); });
-}
-
 std::string capitalised(const std::string& name) {
-  return upper(name.substr(0, 1)) + name.substr(1);
+  return macro_prefix(name.substr(0, 1)) + name.substr(1);
 }
 
 bool has(const std::vector<ModelPointer>& models, bool scene::Model::*property) {
@@ -77,7 +67,7 @@ std::map<std::string, std::string> files_of(const std::vector<ModelPointer>& mod
   std::string text, list;
   int number = 0;
   for (const ModelPointer& model : models) {
-    const std::string name = upper(model->name);
+    const std::string name = macro_prefix(model->name);
     if (model->derived_words == 0) text += fmt::format("#define {}_DERIVED(NUMBER, INDEX)\n", name);
     text += fmt::format("#include \"{}\"\n", model->file);
     if (!model->has_survival)

@@ -1,5 +1,5 @@
-// What the host knows of a model that ships besides its declaration: one such record in a file of its own,
-// and one line in the list.
+// The host's part of the built-in models, besides the declaration in their kernel files. A new model is a
+// ShippedModel in a file of its own and an entry in PHLUX_SHIPPED_MODELS.
 #pragma once
 
 #include <map>
@@ -12,24 +12,24 @@
 
 namespace phlux::lobes {
 
-/// Rows of numbers that models look up; a row for a key is made once.
+/// Tables that models look up values in: one row per model and key.
 struct LobeTables {
   std::vector<float> values;
-  std::map<std::pair<std::string, double>, int> rows; ///< by model and key: the index of the first value
+  std::map<std::pair<std::string, double>, int> rows; ///< model and key -> index of the first value
 };
 
 struct ShippedModel {
   const char* name;
   const char* file; ///< of kernels/
-  /// The largest fraction of light that it may reflect in a channel: at most 1 where energy is conserved.
+  /// Upper bound on the fraction of light reflected in any channel; energy is conserved if it is at most 1.
   double (*largest_reflectance)(const scene::Material&);
-  /// The words of NAME_DERIVED; may add rows to the tables. Null: there are none.
+  /// The words of NAME_DERIVED; may add rows to the tables. Null: no such words.
   std::vector<float> (*derive)(const scene::Material&, LobeTables& tables) = nullptr;
-  /// The same reflectance function by a simpler model. Null: as it is.
+  /// The same reflectance function by a simpler model. Null: none is simpler.
   scene::Material (*simplest)(const scene::Material&) = nullptr;
 };
 
-/// The models that ship, in the order in which messages name them. NAME_model is in a file of host/lobes.
+/// The built-in models, in their order in messages. Each is defined as NAME_model in a file of host/lobes.
 #define PHLUX_SHIPPED_MODELS(MODEL) MODEL(diffuse) MODEL(phong) MODEL(anisotropicphong) MODEL(conductor)
 
 #define PHLUX_DECLARE_MODEL(name) extern const ShippedModel name##_model;
@@ -37,9 +37,9 @@ PHLUX_SHIPPED_MODELS(PHLUX_DECLARE_MODEL)
 #undef PHLUX_DECLARE_MODEL
 
 [[nodiscard]] std::span<const ShippedModel* const> shipped_models();
-[[nodiscard]] const ShippedModel* find_shipped(const scene::Model& model); ///< null for a user's own
+[[nodiscard]] const ShippedModel* find_shipped(const scene::Model& model); ///< null for a user's model
 
 [[nodiscard]] float largest_channel(const scene::Rgb& rgb);
-[[nodiscard]] float bits_of(int index); ///< an index among words that are floats
+[[nodiscard]] float bits_of(int index); ///< an index, bit for bit, in an array of float
 
 } // namespace phlux::lobes

@@ -26,12 +26,12 @@ struct Pair {
 };
 struct PairValues {
   Rgb value, reversed;                      ///< f_r of (a, b), and of (b, a)
-  double density = 0, reversed_density = 0; ///< of b where a is fixed, and of a where b is
-  double reverse = 0, reversed_reverse = 0; ///< the same two as the other call states them: of a, and of b
+  double density = 0, reversed_density = 0; ///< of b with a fixed, and of a with b fixed
+  double reverse = 0, reversed_reverse = 0; ///< reverse densities of the two calls: of a, and of b
 };
 
-/// Random words that a sampler gets: for roulette and the choice of a lobe, for the direction (two), and for
-/// what the strategy needs besides.
+/// The random words of a sampler: one for roulette and the choice of a lobe, two for the direction, one for
+/// further use by the strategy.
 using Words = std::array<std::uint32_t, 4>;
 
 /// The word for which the kernels' uniform_real gives the value nearest to u in (0, 1).
@@ -45,10 +45,11 @@ public:
               const std::string& strategy, const std::vector<scene::Material>& materials,
               std::map<std::string, std::string> defines = {});
 
-  /// `count` samples of the sequence `seed`, from its path `first` on; materials by their index in the table.
+  /// `count` samples of the sequence `seed`, from its path `first` on; `material` is an index into the
+  /// materials.
   [[nodiscard]] std::vector<Sample> sample(int material, const Direction& fixed, std::size_t count,
                                            std::uint32_t seed, bool roulette, std::uint32_t first = 0) const;
-  /// One sample for each set of words.
+  /// One sample for each set of random words.
   [[nodiscard]] std::vector<Sample> drive(int material, const Direction& fixed,
                                           const std::vector<Words>& words, bool roulette) const;
   [[nodiscard]] std::vector<PairValues> evaluate(int material, const std::vector<Pair>& pairs) const;

@@ -85,7 +85,7 @@ Direction SphereGrid::direction(double angle, double longitude) const {
 void SphereGrid::add_circle(std::vector<Node>& list, std::size_t ring, double angle, double weight) const {
   std::vector<double> cuts;
   for (int i = 0; i <= longitudes; ++i) cuts.push_back(2 * pi * i / longitudes);
-  // Where the circle crosses the horizon (x_ points down, y_ lies in it) and its mirror image about the axis.
+  // Intersections with the horizon (x_ points down, y_ lies in it) and with its mirror image about the axis.
   const double horizon = z_.z * std::cos(angle) / (std::max(-x_.z, 1e-300) * std::sin(angle));
   if (std::abs(horizon) < 1) {
     const double turn = std::acos(horizon);

@@ -1,4 +1,4 @@
-// The sphere of directions cut into cells, with a quadrature that puts whole rules into each cell.
+// A grid of cells over the sphere of directions, with a quadrature rule in each cell.
 #pragma once
 
 #include <array>
@@ -10,25 +10,24 @@ namespace phlux::measure {
 
 struct Node {
   Direction direction;
-  double weight = 0; ///< the solid angle that it stands for
+  double weight = 0; ///< solid angle
   std::size_t cell = 0;
 };
 
 /// Cells between angles from an axis, between longitudes about it, and above or below the horizon; the normal
-/// is z. Edges lie where densities have kinks: on the horizon and on its mirror image about the axis.
+/// is z. The horizon and its mirror image about the axis, where densities are not smooth, are edges.
 class SphereGrid {
 public:
   static constexpr int longitudes = 12;
 
-  /// `cuts`: angles in (0, pi) from the axis where cells are to end besides, where a density varies fast.
+  /// `cuts`: further angles in (0, pi) from the axis that bound cells, where a density varies fast.
   SphereGrid(const Direction& axis, std::vector<double> cuts);
 
   [[nodiscard]] std::size_t cells() const { return (angles_.size() - 1) * longitudes * 2; }
   [[nodiscard]] std::size_t cell_of(const Direction& direction) const;
   [[nodiscard]] std::vector<Node> nodes() const;
 
-  /// Where a cell is: the angles and longitudes (radians) between which it lies, and whether above the
-  /// horizon.
+  /// Bounds of a cell: angles and longitudes in radians, and the side of the horizon.
   struct Bounds {
     double angle_from, angle_to, longitude_from, longitude_to;
     bool above;
@@ -43,10 +42,10 @@ private:
   std::vector<double> angles_;
 };
 
-/// Angles within which a lobe cos^n has given shares of its weight.
+/// Angles outside which a lobe cos^n has given shares of its integral.
 [[nodiscard]] std::vector<double> lobe_cuts(double exponent);
 
-/// Nodes (position, weight) of Gauss and Legendre's rule on [from, to].
+/// Nodes (position, weight) of the Gauss-Legendre rule on [from, to].
 template<std::size_t points>
 [[nodiscard]] std::array<std::array<double, 2>, points> gauss_nodes(double from, double to);
 

@@ -31,7 +31,7 @@ double chi_square_p(const std::vector<double>& observed, const std::vector<doubl
       pooled_expected += expected[i];
     }
   }
-  // A pool that expects fewer than one is no cell, but a sampler that fills it is wrong.
+  // A pool with fewer than one expected sample is no cell, but many samples in it are an error.
   if (pooled_expected >= 1)
     add(pooled_observed, pooled_expected);
   else if (pooled_observed > 10)

@@ -1,5 +1,5 @@
-// Statistical tests in float64. Each gives a p-value, the probability of a result at least as bad were all
-// well.
+// Statistical tests in float64. A p-value is the probability of a result at least as bad under the null
+// hypothesis.
 #pragma once
 
 #include <algorithm>
@@ -9,23 +9,24 @@
 
 namespace phlux::measure {
 
-/// The p-value at which each of so many independent questions must be asked, that all of them together raise
-/// a false alarm with probability `rate` (Sidak 1967).
-[[nodiscard]] inline double level_of_each(double rate, std::size_t questions) {
-  return -std::expm1(std::log1p(-rate) / static_cast<double>(std::max<std::size_t>(questions, 1)));
+/// The limit of each of so many independent p-values for which all of them together have the false-alarm
+/// probability `rate` (Sidak 1967).
+[[nodiscard]] inline double sidak_limit(double rate, std::size_t p_values) {
+  return -std::expm1(std::log1p(-rate) / static_cast<double>(std::max<std::size_t>(p_values, 1)));
 }
-/// The chance that one of so many questions has this p-value or less.
-[[nodiscard]] inline double least_p_of(double p, std::size_t questions) {
-  return p < 1 ? -std::expm1(static_cast<double>(questions) * std::log1p(-p)) : 1;
+/// The probability that the smallest of so many independent p-values is at most p.
+[[nodiscard]] inline double smallest_p(double p, std::size_t p_values) {
+  return p < 1 ? -std::expm1(static_cast<double>(p_values) * std::log1p(-p)) : 1;
 }
 
-/// Pearson's chi-square of observed counts against expected ones; cells that expect fewer than 10 are pooled.
+/// Pearson's chi-square test of observed against expected counts; cells with fewer than 10 expected are
+/// pooled.
 [[nodiscard]] double chi_square_p(const std::vector<double>& observed, const std::vector<double>& expected);
 
 /// Upper tail of the chi-square distribution.
 [[nodiscard]] double chi_square_tail(double statistic, double degrees);
 
-/// That a mean lies so many standard errors from where it should, either way.
+/// Two-sided p-value of a mean that differs from its expectation by so many standard errors.
 [[nodiscard]] double normal_p(double sigmas);
 
 } // namespace phlux::measure

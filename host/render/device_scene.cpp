@@ -9,8 +9,8 @@
 namespace phlux::render {
 namespace {
 
-// A table of entries of so many elements each. Kernels may load the first few_entries whole: there are as
-// many, though the table be empty.
+// Copies a table of entries of `elements_per_entry` elements. Kernels may load the first few_entries without
+// checking the table's length, so that shorter tables are padded with zeros.
 template<typename T>
 cl::Buffer upload(const device::Device& device, const std::vector<T>& table, const char* what,
                   std::size_t elements_per_entry = 1) {

@@ -1,4 +1,4 @@
-// A scene's tables in a device's memory, and the arguments of a kernel that renders it.
+// A scene's tables in a device's memory, as arguments of a kernel.
 #pragma once
 
 #include <utility>
@@ -16,7 +16,7 @@ using tables::prepare;
 
 class DeviceScene {
 public:
-  /// Copies the tables. @throws DeviceError when they do not fit, saying how large they are
+  /// Copies the tables. @throws DeviceError when they do not fit, with their size
   DeviceScene(const device::Device& device, const HostScene& scene, const Parts& parts);
 
   /// Sets the arguments that SCENE_PARAMETERS (kernels/scene/scene.cl) declares.

@@ -10,17 +10,18 @@
 namespace phlux::render {
 namespace {
 
-// A lane that has run out of paths idles until its work-item (or its batch) ends: with this many paths each,
-// that is a few percent. On a GPU, whose lanes are work-items, fewer keep the batches' vertices small.
+// A lane without further paths idles until its work-item (or batch) ends; with this many paths per lane, that
+// is a few percent of the time. On a GPU, with one lane per work-item, fewer paths keep the batches' vertices
+// small.
 constexpr int least_paths_wide = 64, least_paths_scalar = 16;
 
-// Work-items of a launch: on CPUs a few per core, so that cores end together; elsewhere enough to fill every
-// unit's registers several times over.
+// Work-items of a launch: on CPUs a few per core, for load balance; elsewhere several times as many as a
+// compute unit can run at once.
 std::size_t work_items(const device::DeviceInfo& info) {
   return static_cast<std::size_t>(info.compute_units) * (info.type == "cpu" ? 4 : 4096);
 }
 
-// Jobs of one lane that amount to its least number of paths.
+// The smallest number of jobs of a lane.
 int least_lane_jobs(int lanes, int block_samples) {
   const int paths = lanes == 1 ? least_paths_scalar : least_paths_wide;
   return (paths + block_samples - 1) / block_samples;
@@ -31,7 +32,7 @@ int vertex_words(const Parts& parts) {
          (parts.has_tangents() ? VERTEX_WORDS_OF_TANGENT : 0);
 }
 
-// Of what a bidirectional work-item keeps: kernels/lanes/lanes.h's Scalar.
+// Size of Scalar (kernels/lanes/lanes.h), the type of vertices in scratch memory.
 std::size_t scalar_bytes(const Parts& parts) {
   return parts.double_precision ? sizeof(cl_double) : sizeof(cl_float);
 }
@@ -53,11 +54,11 @@ int Planner::batch_jobs(int block_samples) const {
 
 std::int64_t Planner::wanted_jobs(std::int64_t left, int block_samples) const {
   const std::int64_t least = batch_jobs(block_samples);
-  // Before anything is measured, one batch per work-item: what a launch of that takes is known after it.
+  // The first launch, of unknown speed, has one batch per work-item.
   std::int64_t jobs = static_cast<std::int64_t>(first_items_) * least;
   if (paths_per_second_ > 0)
     jobs = static_cast<std::int64_t>(paths_per_second_ * launch_seconds_ / block_samples);
-  // The kernel counts jobs, and words of their sums, in int; a launch's records must fit a buffer.
+  // The kernel counts jobs and the words of their sums in int; a launch's records must fit a buffer.
   std::int64_t largest = std::numeric_limits<cl_int>::max() / 8;
   if (settings::info_of(parts_.integrator).light_paths) {
     const double bytes_per_job =
@@ -67,7 +68,7 @@ std::int64_t Planner::wanted_jobs(std::int64_t left, int block_samples) const {
   }
   const std::int64_t lanes = parts_.lanes;
   jobs = std::clamp(jobs, lanes, std::min(std::max(left, lanes), largest));
-  // Whole batches, so that batches are the same however the work is cut.
+  // Whole batches, so that batches do not depend on how the work is split into launches.
   return settings::info_of(parts_.integrator).light_paths ? (jobs + least - 1) / least * least : jobs;
 }
 
@@ -89,8 +90,7 @@ LaunchPlan Planner::plan(const Launch& launch) const {
   const auto per_batch = static_cast<std::size_t>(batch_jobs(launch.block_samples));
   const settings::IntegratorInfo& integrator = settings::info_of(parts_.integrator);
   if (!integrator.light_paths) {
-    // As many work-items as give each lane its least number of paths, but one for every unit where there is
-    // work for it.
+    // Each lane has its smallest number of paths or more, unless compute units would be idle.
     const std::size_t full = jobs / per_batch, most = (jobs + lanes - 1) / lanes;
     plan.items = round_up(std::clamp(std::max(full, std::min(most, units_)), std::size_t{1}, items_));
     return plan;
@@ -104,7 +104,7 @@ LaunchPlan Planner::plan(const Launch& launch) const {
   plan.record_capacity =
       static_cast<int>(std::ceil(records_per_path_ * lane_paths)) * parts_.lanes + parts_.lanes;
   if (integrator.bidirectional()) {
-    // Two launches are in flight, and other tables want room.
+    // Two launches are in flight, and other tables need memory.
     const std::size_t room = std::min(device_.largest_buffer / 2, device_.global_memory / 8);
     const std::size_t fit = room / scratch_bytes_per_item(plan);
     plan.items =
@@ -129,7 +129,7 @@ bool Planner::overflowed(const LaunchPlan& plan, const std::vector<cl_int>& reco
 void Planner::note_time(std::int64_t paths, double seconds) {
   if (seconds <= 0) return;
   const double rate = static_cast<double>(paths) / seconds;
-  // Grow by no more than 4 times at once: a first launch may have been unrepresentative.
+  // At most 4 times the last rate: the first launch may not be representative.
   paths_per_second_ = paths_per_second_ > 0 ? std::min(rate, 4 * paths_per_second_) : rate;
 }
 

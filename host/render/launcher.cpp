@@ -43,7 +43,7 @@ Launcher::Launcher(const device::Device& device, const device::BuiltProgram& pro
 Launcher::~Launcher() {
   try {
     device_.queue.finish();
-  } catch (const cl::Error&) { // a device that has failed writes no more
+  } catch (const cl::Error&) { // a failed device no longer writes
   }
 }
 
@@ -73,7 +73,7 @@ void Launcher::reserve(Buffer& buffer, std::size_t bytes, const char* what) cons
         fmt::format("{}: the {} of a launch take {} MB and a buffer may have {} MB: shorten the paths "
                     "(`max-depth`, `rr-depth`)",
                     device_.info.name, what, bytes >> 20, device_.info.largest_buffer >> 20));
-  buffer = {}; // before there is another: memory may be short
+  buffer = {}; // released before the new one is allocated, as memory may be short
   try {
     buffer.memory = cl::Buffer(device_.context, CL_MEM_READ_WRITE, bytes);
   } catch (const cl::Error& error) {
@@ -154,7 +154,7 @@ void Launcher::unmap(Flight& flight) {
   flight.host_records = nullptr;
 }
 
-// Notes what was not finite among the given samples of a job's block.
+// Counts contributions that were not finite, among the given samples of a job's block.
 void Launcher::count_nonfinite(const Launch& launch, std::size_t job, std::uint64_t count, int sample,
                                int samples) {
   counts_.nonfinite += count;

@@ -1,4 +1,4 @@
-// One device at work: launches of bounded length, their results folded into the film.
+// Runs the launches of one device and adds their results to the film.
 #pragma once
 
 #include <cstdint>
@@ -19,30 +19,29 @@ public:
   /// @throws DeviceError
   Launcher(const device::Device& device, const device::BuiltProgram& program, const HostScene& scene,
            const Parts& parts, const Settings& settings);
-  ~Launcher(); ///< waits for what is in flight, which writes into memory of this object
+  ~Launcher(); ///< waits for launches in flight, which write into this object's memory
   Launcher(const Launcher&) = delete;
   Launcher& operator=(const Launcher&) = delete;
 
-  /// Launches nothing, which makes the driver finish what it puts off until a kernel's first launch: PoCL
-  /// compiles most of it then.
+  /// An empty launch. Drivers defer work to a kernel's first launch; PoCL compiles most of the kernel then.
   void warm_up();
 
-  /// Jobs that the next launch should have to last about Settings::launch_seconds, given how many are left.
+  /// The number of jobs of the next launch, to last about Settings::launch_seconds, when `left` are left.
   [[nodiscard]] std::int64_t wanted_jobs(std::int64_t left, int block_samples) const {
     return planner_.wanted_jobs(left, block_samples);
   }
   void enqueue(const Launch& launch);
   [[nodiscard]] std::size_t in_flight() const { return flights_.size(); }
-  /// Waits for the oldest launch, and repeats it as often as it lacked room. @throws DeviceError when its
-  /// paths do not fit the device's memory
+  /// Waits for the oldest launch; repeats it with larger buffers until its results fit. @throws DeviceError
+  /// when they do not fit the device's memory
   void settle();
-  /// Folds the oldest launch, settled, into the film.
+  /// Adds the oldest launch, after settle(), to the film.
   void collect(film::Film& film);
-  /// Of the launches collected since it was last called.
+  /// Counts of the launches collected since the last call.
   [[nodiscard]] Counts take_counts() { return std::exchange(counts_, {}); }
 
 private:
-  // A launch's buffers, kept from one to the next: fresh memory costs more than the copies.
+  // Buffers of a launch. They are reused, as allocation takes longer than the copies.
   struct Buffer {
     cl::Buffer memory;
     std::size_t bytes = 0;

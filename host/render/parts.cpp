@@ -51,7 +51,7 @@ Connect possible_connect(const Settings& settings, const tables::LightTable& lig
   return settings.integrator == "bidir" ? Connect::mis : settings.connect;
 }
 
-// Hit or miss draws this often for one sample of the material where it reflects least.
+// Expected number of proposals of rejection sampling per sample, at grazing incidence, where it is largest.
 double proposals(const scene::Material& m) {
   const double diffuse = glm::compMax(m.value("diffuse_reflectance"));
   const double specular = glm::compMax(m.value("specular_reflectance")), exponent = m.value("exponent").x;
@@ -74,7 +74,8 @@ int lanes_for(const device::DeviceInfo& device, const Settings& settings) {
   if (!settings.double_precision) return settings.lanes != 0 ? settings.lanes : device.lanes;
   if (settings.lanes > 1)
     throw UsageError(fmt::format(
-        "`precision` double: doubles go one path at a time, not {}: leave `width` out", settings.lanes));
+        "`precision` double: kernels trace one path at a time in double, not {}: leave `width` out",
+        settings.lanes));
   if (!device.doubles)
     throw DeviceError(fmt::format(
         "{}: `precision` double: the device has no doubles (cl_khr_fp64): use `precision` single, or "
@@ -83,7 +84,7 @@ int lanes_for(const device::DeviceInfo& device, const Settings& settings) {
   return 1;
 }
 
-// Of fewer, the walk down a tree and up again costs more than it brings (bench/saved/REMEDIES.md).
+// With fewer, descending the tree takes more time than the lower variance gains (bench/saved/REMEDIES.md).
 constexpr std::size_t fewest_lights_of_tree = 8;
 
 Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, const tables::LightTable& lights,
@@ -95,17 +96,16 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
   parts.weights = settings.weights;
   parts.techniques = settings.techniques;
   if (parts.techniques && parts.integrator == Integrator::path)
-    throw UsageError(
-        "`contributions`: a path from the eye is made in one way: use `integrator` bidir or light");
-  // What a technique brings by itself is shown whole.
+    throw UsageError("`contributions`: path tracing has only one technique: use `integrator` bidir or light");
+  // Images of techniques need every connection.
   if (parts.integrator == Integrator::bidir && !parts.techniques) parts.connections = settings.connections;
   if (settings.clamp) parts.clamp = *settings.clamp / lights.unit;
   if (parts.clamp && parts.techniques)
-    throw UsageError("`clamp`: what techniques bring is not clamped: leave out `contributions`");
+    throw UsageError("`clamp`: contributions of techniques are not clamped: leave out `contributions`");
   parts.ambient = settings.ambient.has_value();
   if (parts.ambient && parts.integrator != Integrator::path)
     throw UsageError("`ambient`: only paths from the eye can carry the ambient term: use `integrator` path");
-  if (!lights.shines()) { // the image is black, which is best left to the one that chooses no light
+  if (!lights.shines()) { // the image is black, and path tracing does not need a light
     parts.integrator = Integrator::path;
     parts.techniques = false;
   }

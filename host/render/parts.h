@@ -1,4 +1,4 @@
-// What a scene's kernel holds code for: the parts, each a macro of the kernels, and nothing else.
+// The parts of a scene that its kernel needs code for, each a macro of the kernels.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@
 
 namespace phlux::render {
 
-/// Tables of no more entries are few enough to be permuted in the registers of a CPU (kernels/lanes/lanes.h).
+/// Largest number of entries of a table that fits the registers of a CPU (kernels/lanes/lanes.h).
 inline constexpr std::size_t few_entries = 16;
 
 struct Parts {
@@ -28,20 +28,21 @@ struct Parts {
   std::vector<lobes::ModelPointer> models = {lobes::shipped("diffuse")}; ///< reflectance models
   bool light_planar = false, light_sphere = false, light_point = false, light_spot = false,
        light_directional = false, light_constant = false;
-  bool ambient = false;      ///< a control variate is asked for
-  bool light_choice = false; ///< there is more than one light to choose from
+  bool ambient = false;      ///< a control variate
+  bool light_choice = false; ///< more than one light to choose from
   bool light_tree = false;   ///< light samples choose by contribution
-  bool one_light = false, few_lights = false, few_materials = false, few_primitives = false; ///< no code
+  bool one_light = false, few_lights = false, few_materials = false,
+       few_primitives = false; ///< optimizations
   Connect connect = Connect::mis;
   Weights weights = Weights::balance;
-  int connections = 0;            ///< as in Settings; 0: no code for roulette
-  bool techniques = false;        ///< contributions are recorded one by one
-  std::optional<double> clamp;    ///< most that a path brings to its own pixel, in units of the light table
+  int connections = 0;            ///< as in Settings; 0: no roulette of connections
+  bool techniques = false;        ///< records every contribution with its technique
+  std::optional<double> clamp;    ///< largest contribution of a path to its own pixel, in units of the lights
   std::string strategy = "exact"; ///< of the phong model: a name, or a user's FILE.cl
 
   [[nodiscard]] bool has_model(const std::string& name) const;
-  [[nodiscard]] bool has_tangents() const; ///< a model needs them
-  /// Names for people, such as "spheres" or "light_planar", in a fixed order.
+  [[nodiscard]] bool has_tangents() const; ///< whether a model needs them
+  /// The names of the parts that are on, such as "spheres" or "light_planar", in a fixed order.
   [[nodiscard]] std::vector<std::string> names() const;
   /// The names of all parts, whether on or off.
   [[nodiscard]] static std::vector<std::string> all_names();
@@ -51,17 +52,17 @@ struct Parts {
   [[nodiscard]] const char* file() const;
   /// Macros for the kernels.
   [[nodiscard]] std::map<std::string, std::string> defines() const;
-  /// The program of the kernel file `root`, or of the text `extra`, with these parts and the user's files.
-  /// @throws UsageError where a user's strategy cannot be read
+  /// The program of the kernel file `root`, or of the text `extra`, with these parts and users' files.
+  /// @throws UsageError when a user's strategy cannot be read
   [[nodiscard]] device::ProgramSource source(const std::string& root, const std::string& extra = "") const;
 };
 
-/// WIDTH on a device. @throws UsageError for a WIDTH without doubles where they are asked for, DeviceError
-/// where the device has none
+/// WIDTH on a device. @throws UsageError for double precision with a WIDTH above 1, DeviceError for double
+/// precision on a device without doubles
 [[nodiscard]] int lanes_for(const device::DeviceInfo& device, const Settings& settings);
 
-/// @throws UsageError for an integrator or a strategy that there is not, and for settings that cannot render
-/// this scene
+/// The parts of a render. @throws UsageError for an unknown integrator or strategy, and for settings that
+/// cannot render this scene
 [[nodiscard]] Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry,
                                const tables::LightTable& lights, const Settings& settings, int lanes);
 

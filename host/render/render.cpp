@@ -20,7 +20,7 @@
 namespace phlux::render {
 namespace {
 
-// Launches in flight on a device: one runs while the results of the one before are folded in.
+// Launches in flight on a device: one runs while the results of the previous one are added to the film.
 constexpr std::size_t launches_in_flight = 2;
 
 // One device, ready to render.
@@ -37,7 +37,7 @@ void add(const Counts& counts, Counts& to) {
   if (!to.first_nonfinite) to.first_nonfinite = counts.first_nonfinite;
 }
 
-// The work that devices share: whoever takes a launch or folds one in holds the lock.
+// The work that devices share. Taking a launch and adding its results to the film are serialized by a lock.
 class DispatchLoop {
 public:
   DispatchLoop(const scene::Camera& camera, const Settings& settings, film::Film& film, const Events& events,
@@ -49,7 +49,7 @@ public:
                   from.position),
         counts_(from), ended_(from.paths > 0 && precise_enough()) {}
 
-  // Runs one device until the work is done or ended. Whoever folds a launch in reports.
+  // Runs one device until the work is done or ended; reports progress after each launch.
   void run(Launcher& launcher) {
     while (true) {
       while (launcher.in_flight() < launches_in_flight && take(launcher)) {
@@ -72,7 +72,7 @@ public:
 
   [[nodiscard]] double seconds() const { return seconds_before_ + seconds_since(begin_); }
 
-  // Of what is on the film.
+  // The state that belongs to the film.
   [[nodiscard]] RenderState state() const {
     RenderState state{counts_, schedule_.position(), seconds()};
     std::vector<Launch>& missing = state.position.missing;
@@ -105,12 +105,12 @@ private:
     return events_.progress(progress);
   }
 
-  // Looks at the film's error at most five times a second and for at most a fiftieth of the time.
+  // Computes the film's error at most five times a second and for at most 2% of the time.
   bool precise_enough() {
-    if (!settings_.target_error || Clock::now() < next_look_) return false;
+    if (!settings_.target_error || Clock::now() < next_check_) return false;
     const Clock::time_point begin = Clock::now();
     const bool reached = film_.relative_standard_error() <= *settings_.target_error;
-    next_look_ =
+    next_check_ =
         Clock::now() + std::max<Clock::duration>(std::chrono::milliseconds(200), 50 * (Clock::now() - begin));
     return reached;
   }
@@ -118,7 +118,7 @@ private:
   const Settings& settings_;
   film::Film& film_;
   const Events& events_;
-  Clock::time_point begin_, next_look_{};
+  Clock::time_point begin_, next_check_{};
   double seconds_before_;
   bool open_ended_;
   Schedule schedule_;
@@ -137,7 +137,7 @@ void check(const Settings& settings) {
                                  settings.first_sample, most));
 }
 
-// What sums on the film mean depends on the scene's lights.
+// The unit of the film's sums depends on the scene's lights.
 void set_unit(film::Film& film, double unit) {
   if (film.contributors() > 0 && film.unit() != unit)
     throw SceneError(
@@ -145,7 +145,7 @@ void set_unit(film::Film& film, double unit) {
   film.set_unit(unit);
 }
 
-// A path that nothing ends would never leave the kernel.
+// A path that never ends would keep its kernel running forever.
 void check_paths_end(const scene::Scene& scene, const Settings& settings) {
   constexpr double nearly_all = 0.999;
   if (settings.rr_depth >= 0 || settings.max_depth >= 0) return;
@@ -156,7 +156,7 @@ void check_paths_end(const scene::Scene& scene, const Settings& settings) {
           "closed room: give one of the two");
 }
 
-// What the settings make of the scene without being wrong.
+// Warns of valid settings that may surprise with this scene.
 void warn(const scene::Scene& scene, const Settings& settings, const Events& events) {
   if (!events.warning) return;
   const std::size_t lost =
@@ -171,13 +171,14 @@ void warn(const scene::Scene& scene, const Settings& settings, const Events& eve
     return m.model == lobes::shipped("anisotropicphong") && m.value("exponent_u") != m.value("exponent_v");
   };
   if (std::any_of(scene.meshes.begin(), scene.meshes.end(), anisotropic))
-    events.warning("anisotropicphong on a mesh: texture coordinates are not read, and exponentU is along "
-                   "each triangle's "
-                   "first edge: use rectangle, cube or disk, whose axes toWorld turns, or equal exponents");
+    events.warning(
+        "anisotropicphong on a mesh: texture coordinates are not read, and exponentU is along each "
+        "triangle's first edge: use rectangle, cube or disk, whose axes toWorld turns, or equal "
+        "exponents");
   if (std::any_of(scene.spheres.begin(), scene.spheres.end(), anisotropic))
-    events.warning("anisotropicphong on a sphere: toWorld does not turn it, and exponentU is along the "
-                   "circles about the "
-                   "world's z axis: use equal exponents where that matters");
+    events.warning(
+        "anisotropicphong on a sphere: toWorld does not turn it, and exponentU is along the circles "
+        "about the world's z axis: use equal exponents where that matters");
   const auto is_delta = [](const scene::Material& m) { return m.model->has_delta; };
   if (settings.integrator == "light" && std::any_of(scene.materials.begin(), scene.materials.end(), is_delta))
     events.warning(
@@ -196,7 +197,7 @@ public:
         files_(settings.kernel_dir.empty() ? sources::KernelFiles()
                                            : sources::KernelFiles(settings.kernel_dir)) {}
 
-  // Of the radiances that devices hand over.
+  // The radiance that is 1 in the devices' sums.
   [[nodiscard]] double unit() const { return host_->lights.unit; }
 
   [[nodiscard]] bool shines() const { return host_->lights.shines(); }
@@ -223,7 +224,7 @@ public:
   }
 
 private:
-  // Of what the tables say about the settings.
+  // Warnings that depend on the scene's tables.
   void warn(const Parts& parts) const {
     if (!host_->lights.shines())
       events_.warning("no light of the scene has any power: the image will be black");
@@ -234,7 +235,7 @@ private:
     if (settings::is_strategy_file(settings_.strategy) && !parts.has_model("phong"))
       events_.warning(
           fmt::format("`strategy` {}: no surface has a phong lobe, so it has no effect", settings_.strategy));
-    // Squares of ratios of areas leave float's range: beyond these sizes the weights no longer add up to 1.
+    // Squared ratios of areas leave float's range: for other sizes the weights do not add up to 1.
     constexpr double smallest = 1e-6, largest = 1e5;
     const double radius = host_->geometry.radius;
     if (settings_.integrator == "bidir" && settings_.weights == Weights::power &&
@@ -265,7 +266,7 @@ void describe(Statistics& statistics, const std::vector<device::Device>& devices
   statistics.parts = parts.names();
 }
 
-// Every device in a thread of its own but the first, which works in the caller's. One that fails ends the
+// Runs the first device in the caller's thread and each other in a thread of its own. A failure ends the
 // render.
 void run_all(DispatchLoop& loop, std::vector<Worker>& workers) {
   std::vector<std::exception_ptr> failures(workers.size());

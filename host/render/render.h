@@ -1,4 +1,4 @@
-// The entry: a scene and settings in, samples on a film out.
+// Renders a scene by settings onto a film.
 #pragma once
 
 #include <functional>
@@ -23,16 +23,15 @@ using settings::Weights;
 using settings::weights_names;
 
 struct Events {
-  std::function<void()> building_kernels; ///< building has taken longer than 200 ms
-  std::function<void(const std::string&)>
-      warning; ///< what the settings make of the scene without being wrong
-  /// Called between launches, at most every 50 ms or so; false ends the render, keeping what the film has.
+  std::function<void()> building_kernels;          ///< called when building takes longer than 200 ms
+  std::function<void(const std::string&)> warning; ///< for valid settings that may surprise with the scene
+  /// Called between launches, about every 50 ms; false ends the render, and the film keeps its samples.
   std::function<bool(const Progress&)> progress;
 };
 
-/// Adds samples to `film`, which has the camera's width and height; where an earlier render of the scene with
-/// these settings had come to `from`, the film is the one that it left, and the samples, seconds and counts
-/// include its own. One device then makes the film that it would have made without a break, bit for bit.
+/// Adds samples to `film`, which has the camera's width and height. To resume an earlier render of the scene
+/// with these settings, `film` is the earlier one's and `from` its state; samples, seconds and counts then
+/// include the earlier ones. On one device the film is the same, bit for bit, as without the interruption.
 /// @throws UsageError for settings that cannot work, SceneError for a scene that cannot be rendered,
 /// DeviceError
 [[nodiscard]] Statistics render(const scene::Scene& scene, const Settings& settings, film::Film& film,

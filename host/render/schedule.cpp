@@ -8,7 +8,7 @@
 namespace phlux::render {
 namespace {
 
-// More samples than any render takes, few enough that their number fits the kernels' int.
+// More samples than any render takes; fits the kernels' int.
 constexpr std::int64_t endless = std::numeric_limits<std::int32_t>::max() / 2;
 
 } // namespace
@@ -41,11 +41,11 @@ void Schedule::start_phase(std::int64_t first_sample) {
                static_cast<int>(block));
 }
 
-// The first jobs of `rest`.
+// Removes the first jobs of `rest` and returns them.
 Launch Schedule::cut_from(Launch& rest, const Wanted& wanted) const {
   Launch launch = rest;
   launch.jobs = std::min(wanted(rest.jobs, rest.block_samples), rest.jobs);
-  // A launch begins at its first job's block, so that the kernel counts in small numbers.
+  // A launch begins at its first job's block, so that its job numbers are small.
   const std::int64_t job = rest.first_job + launch.jobs;
   rest.first_job = job % pixels_;
   rest.first_sample += job / pixels_ * rest.block_samples;

@@ -1,4 +1,4 @@
-// How the samples of an image are cut into jobs (one pixel, one block of its samples) and jobs into launches.
+// Divides the samples of an image into jobs (one block of samples of one pixel) and jobs into launches.
 #pragma once
 
 #include <cstdint>
@@ -9,13 +9,13 @@
 
 namespace phlux::render {
 
-/// Samples of one pixel that a device sums in float before the film adds them in double: few enough that the
-/// sums keep their digits, enough that handing them over costs nothing. The image depends on it, so it is the
+/// Samples of one pixel that a device sums in float before the film adds them in double: few enough for the
+/// sums' precision, enough that their transfer takes little time. The image depends on it, so that it is the
 /// same for every device, launch length and number of threads.
 inline constexpr int samples_per_block = 16;
 
-/// One launch: jobs [first_job, first_job + jobs). Job j is block j / pixels, pixel j % pixels; block b holds
-/// samples first_sample + b * block_samples onwards. first_job < pixels.
+/// One launch: jobs [first_job, first_job + jobs), first_job < pixels. Job j is block j / pixels of pixel
+/// j % pixels; block b is the block_samples samples from first_sample + b * block_samples on.
 struct Launch {
   std::int64_t first_job = 0;
   std::int64_t jobs = 0;
@@ -23,35 +23,35 @@ struct Launch {
   int block_samples = samples_per_block;
 };
 
-/// How much of the work is done: every pixel has the samples below `sample`, and pixels below `pixel` have
-/// the `block_samples` from there on as well, but for launches that are missing.
+/// The work that is done: all pixels have the samples below `sample`, and pixels below `pixel` also the next
+/// `block_samples`, except those of missing launches.
 struct SchedulePosition {
   std::int64_t sample = 0, pixel = 0;
   int block_samples = samples_per_block;
-  std::vector<Launch> missing; ///< were handed out, and their results did not come
+  std::vector<Launch> missing; ///< started, but not finished
 
   /// One past the last sample that any pixel has.
   [[nodiscard]] std::int64_t end() const { return pixel > 0 ? sample + block_samples : sample; }
 };
 
-/// Hands out the work. With `samples` given, every pixel gets just that many, in blocks of samples_per_block
-/// and then one of what is left. Without, it never ends, and the first blocks are short (1, 1, 2, 4, 8
-/// samples), so that a render that is stopped early has seen every pixel.
+/// The sequence of launches. With `samples` given, every pixel gets exactly that many, in blocks of
+/// samples_per_block and a last one of the rest. Otherwise it never ends, and the first blocks are short (1,
+/// 1, 2, 4, 8 samples), so that a render that is stopped early has samples in every pixel.
 class Schedule {
 public:
-  /// Continues `from` a position, whose end() is no more than `samples`: with what is missing first, then
-  /// where a schedule that had not stopped would. A number of samples that is no multiple of
-  /// samples_per_block is filled up to one first.
+  /// Continues `from` a position, whose end() is at most `samples`: first its missing launches, then the
+  /// launches of an uninterrupted schedule. If the number of samples is no multiple of samples_per_block, the
+  /// first blocks complete it to one.
   Schedule(std::int64_t pixels, std::optional<std::int64_t> samples, const SchedulePosition& from = {});
-  /// The next launch; nothing when the work is done. `wanted` says how many jobs (>= 1) a launch should have,
-  /// given how many like it are left and the samples of each.
+  /// The next launch; nothing when the work is done. `wanted` returns the number of jobs (>= 1) of a launch,
+  /// given the number of similar jobs left and the samples of each.
   using Wanted = std::function<std::int64_t(std::int64_t left, int block_samples)>;
   [[nodiscard]] std::optional<Launch> next(const Wanted& wanted);
-  /// The work that was handed out; missing is what is still to be handed out again.
+  /// The launches so far; `missing` are those still to be repeated.
   [[nodiscard]] SchedulePosition position() const;
 
 private:
-  // The rest of a phase: blocks of one length, as one launch would have them.
+  // A phase has blocks of one length.
   void start_phase(std::int64_t first_sample);
   void start_blocks(std::int64_t first_sample, std::int64_t end_sample, int block_samples);
   [[nodiscard]] Launch cut_from(Launch& rest, const Wanted& wanted) const;
@@ -59,7 +59,7 @@ private:
   std::int64_t pixels_, end_;
   bool short_blocks_first_;
   std::deque<Launch> missing_;
-  Launch phase_; // what is left of it
+  Launch phase_; // the rest of it
   std::int64_t phase_end_;
 };
 

@@ -1,4 +1,4 @@
-// What a render counts and says of itself.
+// The state, progress and statistics of a render.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,8 @@
 
 namespace phlux::render {
 
-/// Where a contribution came from that was not finite: the seed, this pixel (row by row from the top) and
-/// this sample, or one of so many from it, make it again.
+/// The origin of a contribution that was not finite: pixel (row by row from the top) and first of `samples`
+/// samples, one of which reproduces it with the same seed.
 struct Origin {
   std::int64_t pixel = 0, sample = 0;
   int samples = 1;
@@ -23,7 +23,7 @@ struct Counts {
   std::optional<Origin> first_nonfinite;
 };
 
-/// How far a render has come: with its film, all that another takes to go on.
+/// The state from which, with its film, a render resumes.
 struct RenderState : Counts {
   SchedulePosition position;
   double seconds_render = 0.0;
@@ -31,21 +31,21 @@ struct RenderState : Counts {
 
 struct Progress {
   double samples_done = 0.0;           ///< mean samples per pixel so far
-  std::optional<double> samples_total; ///< absent when time or error ends the render
+  std::optional<double> samples_total; ///< absent when a time limit or target error ends the render
   double seconds = 0.0;                ///< since rendering began
   std::uint64_t paths = 0;
-  std::function<RenderState()> state = {}; ///< of what the film has; a little slow
+  std::function<RenderState()> state = {}; ///< the state that belongs to the film; somewhat slow
 };
 
 struct Statistics : RenderState {
   std::string device, driver;
   int lanes = 1;
-  bool portable_lanes = false;    ///< the compiler refused the processor's own instructions
+  bool portable_lanes = false;    ///< see device::portable_lanes
   std::string traversal;          ///< brute or bvh
-  std::vector<std::string> parts; ///< what the scene's kernel holds code for
+  std::vector<std::string> parts; ///< Parts::names()
   double seconds_setup = 0.0, seconds_build_kernels = 0.0;
   bool kernels_from_cache = false;
-  bool shines = true; ///< some light of the scene has power
+  bool shines = true; ///< whether a light of the scene has power
   bool interrupted = false;
 };
 

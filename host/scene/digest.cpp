@@ -11,8 +11,8 @@
 namespace phlux::scene {
 namespace {
 
-// Takes a scene apart by structured bindings, which do not compile when a member is added and forgotten here.
-// Every value has the same bytes on every machine, and every list begins with its length.
+// With structured bindings, a new member that is not added here is a compile error. Values have the same
+// bytes on every machine; lists begin with their length.
 class Digest {
 public:
   Digest() : state_(XXH3_createState(), XXH3_freeState) { XXH3_128bits_reset(state_.get()); }

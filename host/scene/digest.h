@@ -1,4 +1,4 @@
-// What tells scenes apart.
+// A hash of a scene.
 #pragma once
 
 #include <string>
@@ -7,9 +7,9 @@
 
 namespace phlux::scene {
 
-/// 32 hexadecimal digits (XXH3, 128 bits) of all that a scene's radiance depends on: everything but the
-/// image's size in pixels and RenderDefaults. Numbers count as float32, so that machines whose sines differ
-/// in their last digits agree.
+/// 32 hexadecimal digits (XXH3, 128 bits) of everything that the radiance depends on: all but the image's
+/// size in pixels and RenderDefaults. Numbers are rounded to float32, so that machines whose sines differ in
+/// their last digits agree.
 [[nodiscard]] std::string digest(const Scene& scene);
 
 } // namespace phlux::scene

@@ -1,4 +1,4 @@
-// How large a scene's image is.
+// The size of a scene's image.
 #pragma once
 
 #include <algorithm>
@@ -8,8 +8,8 @@
 
 namespace phlux::scene {
 
-/// Makes an image whose longer side has more than `longest_side` pixels so much smaller, in its proportions
-/// but for rounding.
+/// Scales an image down so that its longer side has at most `longest_side` pixels; keeps its aspect ratio, up
+/// to rounding.
 inline void shrink_image(Camera& camera, int longest_side) {
   const int side = std::max(camera.width, camera.height);
   if (side <= longest_side) return;

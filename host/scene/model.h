@@ -1,4 +1,4 @@
-// Reflectance models as a scene refers to them: what a kernel file declares of itself (kernels/lobes/lobe.h).
+// Reflectance models, as their kernel files declare them (kernels/lobes/lobe.h), and materials.
 #pragma once
 
 #include <memory>
@@ -13,31 +13,31 @@ using Rgb = glm::dvec3;
 
 struct Parameter {
   enum class Kind { colour, number };
-  std::string name; ///< as kernels and files of Mitsuba 2 and later spell it: specular_reflectance
+  std::string name; ///< in the spelling of kernels and of Mitsuba 2 and later: specular_reflectance
   Kind kind = Kind::colour;
-  double otherwise = 0, lowest = 0, highest = 1;
+  double default_value = 0, lowest = 0, highest = 1;
   std::string meaning;
 };
 
 struct Model {
   std::string name; ///< the prefix of its functions, and the type of its <bsdf>
-  std::string file; ///< by which kernels include it
-  std::string text; ///< of a user's own file; empty for a model that ships
+  std::string file; ///< its kernel file, as kernels include it
+  std::string text; ///< of a user's file; empty for a built-in model
   std::vector<Parameter> parameters;
-  int derived_words = 0;  ///< of members that the host computes
+  int derived_words = 0;  ///< words that the host computes
   bool has_delta = false; ///< samples may be delta events
   bool needs_tangents = false;
   bool reflectivity_is_estimate = false;
-  bool has_survival = false; ///< a survival probability of its own for roulette
+  bool has_survival = false; ///< defines its own survival probability for roulette
 };
 
-/// A model and values for its parameters; a number is the same in every channel.
+/// A model and the values of its parameters; a number is repeated in every channel.
 struct Material {
   std::shared_ptr<const Model> model;
   std::vector<Rgb> values;
   bool two_sided = false; ///< reflects on both sides; otherwise the back is black
 
-  /// @throws std::out_of_range for a parameter that the model has not
+  /// @throws std::out_of_range for a parameter that the model does not have
   [[nodiscard]] const Rgb& value(const std::string& parameter) const { return values.at(index(parameter)); }
   [[nodiscard]] Rgb& value(const std::string& parameter) { return values.at(index(parameter)); }
   bool operator==(const Material&) const = default;

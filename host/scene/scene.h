@@ -1,5 +1,5 @@
-// A scene as the renderer understands it: what the scene file said, with every transform applied, in double
-// precision and world units. It knows no file format, no device and no integrator.
+// A scene with all transforms applied, in double precision and world units. Independent of file formats,
+// devices and integrators.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ namespace phlux::scene {
 
 using Vec3 = glm::dvec3;
 
-/// What is attached to a shape: indices into Scene::materials and Scene::area_emitters (-1: emits nothing).
+/// A shape's indices into Scene::materials and Scene::area_emitters (-1: emits nothing).
 struct Surface {
   int material = 0;
   int area_emitter = -1;
@@ -58,8 +58,8 @@ struct PointLight {
   Rgb intensity{1.0}; ///< W / sr
 };
 
-/// Intensity is full within beam_width of the axis and falls off linearly in the angle to 0 at cutoff_angle
-/// (both in radians, measured from the axis; 0 <= beam_width <= cutoff_angle <= pi), as Mitsuba's `spot`.
+/// As Mitsuba's `spot`: intensity is constant within the angle beam_width of the axis and falls linearly in
+/// the angle to 0 at cutoff_angle, both in radians from the axis, 0 <= beam_width <= cutoff_angle <= pi.
 struct SpotLight {
   Vec3 position{0.0}, direction{0, 0, 1}; ///< direction: unit, the axis along which light travels
   Rgb intensity{1.0};
@@ -71,8 +71,8 @@ struct DirectionalLight {
   Rgb irradiance{1.0};     ///< W / m^2 on a surface facing the light
 };
 
-/// A pinhole. In its own frame it looks along +z, +y is up and, as in Mitsuba, +x points to the left of the
-/// image.
+/// A pinhole camera. In its own frame it looks along +z, +y is up and, as in Mitsuba, +x points to the left
+/// of the image.
 struct Camera {
   Vec3 position{0.0}, left{1, 0, 0}, up{0, 1, 0},
       forward{0, 0, 1};        ///< orthonormal; right-handed unless toWorld mirrors
@@ -82,12 +82,12 @@ struct Camera {
   int width = 768, height = 576; ///< pixels, square
 };
 
-/// What the scene file asks of the renderer; the command line overrides it.
+/// Settings of the scene file; the command line overrides them.
 struct RenderDefaults {
   std::string integrator = "path"; ///< path, light or bidir
   int samples_per_pixel = 4;
-  int max_depth = -1; ///< edges of a path, -1: unbounded; 1 is emission alone
-  int rr_depth = 5;   ///< edges from which roulette may end a path
+  int max_depth = -1; ///< largest number of edges of a path, -1: unbounded; 1 is emission alone
+  int rr_depth = 5;   ///< number of edges from which roulette may end a path, -1: never
 };
 
 struct Scene {

@@ -1,4 +1,4 @@
-// Colours as Mitsuba's RGB mode reads them: linear, with Rec. 709 primaries.
+// Colours as in Mitsuba's RGB mode: linear, with Rec. 709 primaries.
 #pragma once
 
 #include "scene/scene.h"
@@ -6,8 +6,8 @@
 
 namespace phlux::scene_file {
 
-/// One number (grey), three numbers, or #rrggbb. As in Mitsuba 0.6, <rgb> is linear in each of these forms,
-/// and only <srgb> is decoded from sRGB (IEC 61966-2-1).
+/// One number (grey), three numbers, or #rrggbb. As in Mitsuba 0.6, <rgb> is linear in all of these forms;
+/// only <srgb> is decoded from sRGB (IEC 61966-2-1).
 /// @throws SceneError
 [[nodiscard]] scene::Rgb read_color(const Element& property);
 

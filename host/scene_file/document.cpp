@@ -17,7 +17,7 @@ namespace {
 
 using Attributes = std::set<std::string>;
 
-constexpr int deepest = 32; ///< levels of nesting; a scene has at most 6, and recursion must end
+constexpr int deepest = 32; ///< levels of nesting, to bound the recursion; a valid scene has at most 6
 
 const std::map<std::string, Attributes>& known_elements() {
   static const Attributes object{"type", "id", "name"}, value{"name", "value"};

@@ -1,5 +1,4 @@
-// The scene file as a tree of elements that know their lines, with parameters replaced and references
-// checked.
+// The scene file as a tree of elements with their lines, parameters substituted and references checked.
 #pragma once
 
 #include <filesystem>
@@ -17,10 +16,10 @@ struct Element {
   std::vector<Element> children;
   Location where;
 
-  /// The attribute's value, empty if it is not there.
+  /// The attribute's value, empty if it is absent.
   [[nodiscard]] const std::string& operator[](const std::string& attribute) const;
   [[nodiscard]] bool has(const std::string& attribute) const { return attributes.contains(attribute); }
-  /// The plugin that an object names, in lower case as Mitsuba compares it.
+  /// The object's plugin, in lower case, as Mitsuba ignores case.
   [[nodiscard]] std::string type() const;
   /// <bsdf type="phong">, for messages
   [[nodiscard]] std::string name() const;
@@ -32,9 +31,9 @@ struct Document {
   int major_version = 0;                         ///< 0: the names are Mitsuba 0.5's and 0.6's
   std::map<std::string, const Element*> objects; ///< by id; they point into `scene`
 
-  /// The object that a <ref> names; any other element itself.
+  /// The object that a <ref> refers to; any other element itself.
   [[nodiscard]] const Element& resolve(const Element& element) const;
-  /// A property's name as a file of this version spells it.
+  /// A property's name in the spelling of the file's version.
   [[nodiscard]] std::string spelling(const std::string& snake_case) const;
 
   Document() = default;
@@ -44,7 +43,7 @@ struct Document {
 
 /// Reads FILE into `document`.
 /// @throws SceneError for malformed XML, unknown elements or attributes, an unknown version, duplicate ids,
-/// and references that are circular or lead nowhere
+/// and references that are circular or to unknown ids
 void read_document(const std::filesystem::path& file, const std::map<std::string, std::string>& definitions,
                    Document& document);
 

@@ -24,14 +24,14 @@ Rgb emission(Properties& properties, const std::string& name) {
   return color;
 }
 
-/// Says so where the emitter is dark, so that the caller can leave it out.
+/// Whether the emitter is not black; warns if it is.
 bool emits(const Properties& properties, const Rgb& color) {
   if (color != Rgb(0.0)) return true;
   warn(properties.element().where, properties.element().name() + " emits nothing and is left out");
   return false;
 }
 
-/// `position` or `direction`, of which Mitsuba allows only one beside to_world.
+/// `position` or `direction`, which exclude to_world, as in Mitsuba.
 std::optional<Vec3> explicit_place(Properties& properties, const std::string& name) {
   const auto place = properties.vector(name);
   if (place && properties.has("to_world"))

@@ -6,8 +6,8 @@
 
 namespace phlux::scene_file {
 
-/// Adds the emitter to the scene's list of its kind; one that emits nothing is left out with a warning.
-/// @throws SceneError for negative values, and for what is not supported
+/// Adds the emitter to the scene's list of its type; one that emits nothing is left out with a warning.
+/// @throws SceneError for negative values and unsupported types or properties
 void read_emitter(const Element& emitter, const Document& document, scene::Scene& scene);
 
 /// The radiance of <emitter type="area">. @throws SceneError, also for any other type

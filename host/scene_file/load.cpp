@@ -39,8 +39,7 @@ scene::Scene load(const std::filesystem::path& file, const std::map<std::string,
 
   const bool scale = properties.boolean("ensure_energy_conservation", false);
   const MaterialRules rules{library, scale ? ExcessEnergy::scale : ExcessEnergy::error};
-  for (const Element* bsdf :
-       properties.objects("bsdf")) // also those that no shape refers to: they may be misspelt
+  for (const Element* bsdf : properties.objects("bsdf")) // to check also those that no shape refers to
     static_cast<void>(read_material(*bsdf, document, rules));
   for (const Element* emitter : properties.objects("emitter")) read_emitter(*emitter, document, scene);
   for (const Element* shape : properties.objects("shape")) read_shape(*shape, document, rules, scene);

@@ -1,4 +1,4 @@
-// Mitsuba scene files (versions 0.5, 0.6 and the 2.x and 3.x spelling) to scenes.
+// Reads Mitsuba scene files (versions 0.5, 0.6, 2.x and 3.x).
 #pragma once
 
 #include <array>
@@ -12,10 +12,9 @@
 
 namespace phlux::scene_file {
 
-/// Reads FILE and the meshes that it names. `definitions` are `-D name=value`, replacing `$name` and
-/// <default>s; `size` is the image's width and height in pixels in place of the film's; `library`
-/// has the reflectance models that the file may name. Warnings go to the
-/// log (spdlog), each naming FILE:LINE.
+/// Reads FILE and its meshes. `definitions` are values for `$name`, which override <default>s; `size`, if
+/// given, is the image's width and height in pixels instead of the film's; `library` has the reflectance
+/// models. Warnings are logged (spdlog) with FILE:LINE.
 /// @throws SceneError "FILE:LINE: what is wrong: what would be right"
 [[nodiscard]] scene::Scene load(const std::filesystem::path& file,
                                 const std::map<std::string, std::string>& definitions = {},

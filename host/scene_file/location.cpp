@@ -13,7 +13,7 @@ std::string Location::text() const {
 void fail(const Location& where, const std::string& wrong, const std::string& right) {
   std::string line = where.text() + ": " + wrong + ": " + right;
   for (char& c : line)
-    if (static_cast<unsigned char>(c) < ' ') c = '?'; // what the file says may hold line ends
+    if (static_cast<unsigned char>(c) < ' ') c = '?'; // text from the file may have line ends
   throw SceneError(line);
 }
 

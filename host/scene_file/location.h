@@ -1,4 +1,4 @@
-// Where in which file something was said, and the one-line errors and notes that point there.
+// Positions in files, and errors, warnings and notes about them.
 #pragma once
 
 #include <memory>
@@ -15,10 +15,10 @@ struct Location {
 /// @throws SceneError "FILE:LINE: wrong: right"
 [[noreturn]] void fail(const Location& where, const std::string& wrong, const std::string& right);
 
-/// To the log: something that may surprise, though rendering can go on.
+/// Logs something that may surprise, though the scene is valid.
 void warn(const Location& where, const std::string& message);
 
-/// To the log: something that was passed over because it cannot change the image.
+/// Logs something that is ignored because it cannot change the image.
 void note(const Location& where, const std::string& message);
 
 } // namespace phlux::scene_file

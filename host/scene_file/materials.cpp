@@ -16,7 +16,7 @@ using scene::Material;
 using scene::Parameter;
 using scene::Rgb;
 
-/// What Mitsuba leaves of reflectances that it scales down.
+/// The sum of reflectances after Mitsuba's scaling.
 constexpr double kept_energy = 0.99;
 
 std::string supported_bsdfs(const lobes::Library& library) {
@@ -36,7 +36,7 @@ std::string range_of(const Parameter& parameter) {
   return fmt::format("{} must be in [{:g}, {:g}]", what, parameter.lowest, parameter.highest);
 }
 
-/// A fraction that exceeds 1 may be scaled down with the material's others.
+/// Whether a reflectance above 1 is scaled down with the material's others.
 bool may_be_scaled(const Parameter& parameter, ExcessEnergy excess) {
   return parameter.kind == Parameter::Kind::colour && parameter.highest == 1.0 &&
          excess == ExcessEnergy::scale;
@@ -45,15 +45,15 @@ bool may_be_scaled(const Parameter& parameter, ExcessEnergy excess) {
 Rgb read_parameter(Properties& properties, const Parameter& parameter, const std::string& name,
                    ExcessEnergy excess) {
   const Rgb value = parameter.kind == Parameter::Kind::colour
-                        ? properties.color(name, Rgb(parameter.otherwise))
-                        : Rgb(properties.real(name, parameter.otherwise));
+                        ? properties.color(name, Rgb(parameter.default_value))
+                        : Rgb(properties.real(name, parameter.default_value));
   const bool too_high = glm::compMax(value) > parameter.highest && !may_be_scaled(parameter, excess);
   if (glm::compMin(value) < parameter.lowest || too_high)
     properties.fail_at(name, text(value) + " is out of range", range_of(parameter));
   return value;
 }
 
-/// Scales the colours by .99 / the largest reflectance, as Mitsuba does, if that exceeds 1.
+/// If the largest reflectance exceeds 1, scales the colours by .99 / it, as Mitsuba does, or fails.
 void conserve_energy(Properties& properties, Material& material, ExcessEnergy excess) {
   const double most = lobes::largest_reflectance(material);
   if (most <= 1.0) return;
@@ -73,8 +73,8 @@ void conserve_energy(Properties& properties, Material& material, ExcessEnergy ex
   warn(where, wrong + "; its reflectances are scaled by " + std::to_string(kept_energy / most));
 }
 
-/// Mitsuba's conductor has the indices of refraction of a metal, copper where none is named; ours is a mirror
-/// with a reflectance.
+/// Mitsuba's conductor has a metal's indices of refraction, by default copper's; ours is a mirror with a
+/// reflectance.
 void require_no_metal(Properties& properties) {
   const std::string otherwise = properties.document().major_version == 0 ? "Cu" : "none";
   const std::string metal = properties.string("material", otherwise);
@@ -88,7 +88,7 @@ Material read_model(Properties& properties, const lobes::ModelPointer& model, Ex
   material.model = model;
   if (model->name == "conductor") require_no_metal(properties);
   for (const Parameter& parameter : model->parameters) {
-    // Mitsuba reads a diffuse bsdf's reflectance by this name too.
+    // Mitsuba also accepts this name for the reflectance of a diffuse bsdf.
     const bool long_name =
         model->name == "diffuse" && properties.has("diffuse_reflectance") && !properties.has("reflectance");
     const std::string name = long_name ? "diffuse_reflectance" : parameter.name;

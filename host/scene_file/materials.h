@@ -9,19 +9,20 @@
 
 namespace phlux::scene_file {
 
-/// What to do where a material may reflect more than arrives, unless the <bsdf> itself says.
+/// Treatment of materials that may reflect more than arrives, unless the <bsdf> has its own.
 enum class ExcessEnergy { error, scale };
 
 struct MaterialRules {
-  const lobes::Library& library; ///< the models that may be named
+  const lobes::Library& library; ///< the available models
   ExcessEnergy excess = ExcessEnergy::error;
 };
 
-/// @throws SceneError for values outside the ranges that the model declares, and for what is not supported
+/// @throws SceneError for values outside the ranges that the model declares, and for unsupported types or
+/// properties
 [[nodiscard]] scene::Material read_material(const Element& bsdf, const Document& document,
                                             MaterialRules rules);
 
-/// The index of `material` in `materials`, where equal materials are one.
+/// The index of `material` in `materials`, to which it is added unless it has an equal one.
 [[nodiscard]] int share(std::vector<scene::Material>& materials, const scene::Material& material);
 
 } // namespace phlux::scene_file

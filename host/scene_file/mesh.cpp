@@ -17,7 +17,7 @@ using scene::Mesh;
 using scene::Vec3;
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// Rounding of single precision: a corner whose sine is smaller than this is no corner to the renderer.
+/// Rounding error of single precision: with a smaller sine at a corner, a triangle is degenerate.
 constexpr double least_sine = std::numeric_limits<float>::epsilon() / 2.0;
 
 bool representable(const Vec3& p) {
@@ -31,7 +31,7 @@ Vec3 area_vector(const Mesh& mesh, const Triangle& t) {
   return glm::cross(mesh.positions[t[1]] - p, mesh.positions[t[2]] - p);
 }
 
-/// As the renderer will see it, with positions in single precision.
+/// Whether the triangle has an area after rounding its positions to single precision.
 bool has_area(const Mesh& mesh, const Triangle& t) {
   const Vec3 p(glm::vec3(mesh.positions[t[0]]));
   const Vec3 u = Vec3(glm::vec3(mesh.positions[t[1]])) - p, v = Vec3(glm::vec3(mesh.positions[t[2]])) - p;
@@ -55,7 +55,7 @@ void transform(Mesh& mesh, const MeshRequest& request, const Location& file) {
     for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
 }
 
-/// Turns triangles so that their front is on the side of their vertices' normals.
+/// Reverses triangles whose front is not on the side of their vertices' normals.
 void orient_by_normals(Mesh& mesh) {
   for (Triangle& t : mesh.triangles) {
     const glm::vec3 sum = mesh.normals[t[0]] + mesh.normals[t[1]] + mesh.normals[t[2]];
@@ -67,8 +67,8 @@ double angle_between(const Vec3& a, const Vec3& b) {
   return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
-/// Fills in zero normals: the mean of the adjacent triangles' normals, weighted by their angles at the vertex
-/// (Thuermer and Wuethrich 1998).
+/// Replaces zero normals by the mean of the adjacent triangles' normals, weighted by their angles at the
+/// vertex (Thuermer and Wuethrich 1998).
 void compute_missing_normals(Mesh& mesh) {
   mesh.normals.resize(mesh.positions.size(), glm::vec3(0.0f));
   const auto missing = [&mesh](std::size_t i) { return mesh.normals[i] == glm::vec3(0.0f); };
@@ -87,7 +87,7 @@ void compute_missing_normals(Mesh& mesh) {
   }
   for (std::size_t i = 0; i < computed.size(); ++i)
     if (computed[i] && !missing(i)) mesh.normals[i] = glm::normalize(mesh.normals[i]);
-  for (const Triangle& t : mesh.triangles) // where the sum cancels, any adjacent triangle's
+  for (const Triangle& t : mesh.triangles) // if the sum cancels, the normal of any adjacent triangle
     for (const auto i : t)
       if (missing(i)) mesh.normals[i] = glm::vec3(glm::normalize(area_vector(mesh, t)));
   for (glm::vec3& n : mesh.normals)
@@ -103,7 +103,7 @@ void flip(Mesh& mesh) {
 
 std::string read_bytes(const MeshRequest& request) {
   std::error_code error;
-  const auto size = std::filesystem::file_size(request.file, error); // also fails for what is not a file
+  const auto size = std::filesystem::file_size(request.file, error); // fails unless it is a regular file
   std::ifstream stream(request.file, std::ios::binary);
   std::string bytes;
   if (!error && stream) {

@@ -1,6 +1,5 @@
-// Wavefront OBJ. Hand-written because the libraries of Debian 12 read broken files without a word
-// (tinyobjloader takes `v abc 0 0` for the origin and does not check negative indices) or need three times
-// the memory (assimp).
+// Wavefront OBJ. Hand-written because the libraries of Debian 12 accept broken files (tinyobjloader reads
+// `v abc 0 0` as the origin and does not check negative indices) or need three times the memory (assimp).
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -17,7 +16,7 @@ using scene::Vec3;
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-/// One corner of a face: indices from 0, `none` where the file gives none.
+/// One corner of a face: indices from 0; `none` if absent.
 struct Corner {
   std::uint32_t position = none, texture = none, normal = none;
 };
@@ -41,8 +40,7 @@ public:
   }
 
 private:
-  /// The next word of the line, empty at its end or where a comment begins. A backslash before the end joins
-  /// the next line.
+  /// The next word of the line, empty at its end or at a comment. A backslash at the end joins the next line.
   std::string_view word() {
     std::size_t begin = 0;
     while (begin < rest_.size()) {
@@ -103,7 +101,7 @@ private:
     return result;
   }
 
-  /// `text` counts from 1, or from -1 backwards.
+  /// Index from 0 of `text`, which counts from 1, or backwards from -1.
   std::uint32_t index(std::string_view text, std::size_t count, const char* what) {
     const auto value = parse_integer(text);
     if (!value)
@@ -129,8 +127,8 @@ private:
     return result;
   }
 
-  /// The mesh's vertex for this corner. Like Mitsuba, corners are one vertex if all their indices agree: a
-  /// seam of the texture interrupts computed normals.
+  /// The mesh's vertex for this corner. As in Mitsuba, corners share a vertex if all their indices are equal,
+  /// so that computed normals are not smooth across seams of the texture.
   std::uint32_t vertex(Corner corner) {
     if (request_.face_normals) corner.texture = corner.normal = none;
     if (corner.normal != none) corner.texture = none;
@@ -139,7 +137,7 @@ private:
     for (; *link != none; link = &uses_[*link].next)
       if (uses_[*link].texture == corner.texture && uses_[*link].normal == corner.normal) return *link;
     const auto created = static_cast<std::uint32_t>(uses_.size());
-    *link = created; // before uses_ grows and moves
+    *link = created; // before uses_ is reallocated
     uses_.push_back({corner.texture, corner.normal, none});
     mesh_.positions.push_back(positions_[corner.position]);
     any_normal_ |= corner.normal != none;
@@ -147,7 +145,7 @@ private:
     return created;
   }
 
-  /// A fan of triangles around the first corner, right for convex polygons.
+  /// A fan of triangles around the first corner, correct for convex polygons.
   void face() {
     std::size_t corners = 0;
     std::uint32_t first = none, previous = none;
@@ -181,7 +179,7 @@ private:
 
 scene::Mesh load_obj(const MeshRequest& request) {
   std::size_t dropped = 0;
-  scene::Mesh mesh = ObjReader(request).mesh(dropped); // the reader's memory is free again after this line
+  scene::Mesh mesh = ObjReader(request).mesh(dropped); // releases the reader's memory
   return finish_mesh(std::move(mesh), request, dropped);
 }
 

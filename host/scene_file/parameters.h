@@ -1,4 +1,4 @@
-// `$name` in a scene file: -D name=value, else the file's own <default name="..." value="..."/>.
+// Substitution of `$name` in a scene file: by -D name=value, else <default name="..." value="..."/>.
 #pragma once
 
 #include <map>
@@ -14,15 +14,14 @@ public:
   explicit Parameters(std::map<std::string, std::string> definitions)
       : values_(definitions), defined_(std::move(definitions)) {}
 
-  /// What <default> says; a definition given before, by -D or by an earlier <default>, stays.
+  /// Sets the value of a <default>, unless -D or an earlier <default> has set it.
   void set_default(const std::string& name, const std::string& value);
 
-  /// `text` with every $name replaced; where several names fit, the longest is meant.
-  /// @throws SceneError where no known name follows a $
+  /// `text` with every $name replaced by its value; the longest matching name is taken.
+  /// @throws SceneError if no known name follows a $
   [[nodiscard]] std::string substitute(const std::string& text, const Location& where);
 
-  /// @throws SceneError if a -D was never used: its name is misspelt, or the scene cannot be changed in this
-  /// way
+  /// @throws SceneError if a -D was never used, as when its name is misspelt
   void check_all_used(const Location& file) const;
 
 private:

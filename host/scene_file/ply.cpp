@@ -1,6 +1,6 @@
-// Stanford PLY. Hand-written because the one library of Debian 12 that reads PLY, assimp 5.2.5, hangs on a
-// header cut short, aborts on binary files whose data begin with a line end, and accepts ascii files cut
-// short.
+// Stanford PLY. Hand-written because assimp 5.2.5, the only library of Debian 12 that reads PLY, hangs on a
+// truncated header, aborts on binary files whose data begin with a line end, and accepts truncated ascii
+// files.
 #include <algorithm>
 #include <bit>
 #include <charconv>
@@ -16,7 +16,7 @@ namespace phlux::scene_file {
 
 namespace {
 
-/// Numbers one after the other, whatever their storage.
+/// Reads consecutive numbers of any format.
 class PlyNumbers {
 public:
   PlyNumbers(std::string_view bytes, const PlyHeader& header, Location where)
@@ -27,7 +27,7 @@ public:
 
   [[nodiscard]] bool ascii() const { return format_ == PlyHeader::Format::ascii; }
   [[nodiscard]] std::uint64_t bytes_left() const { return static_cast<std::uint64_t>(end_ - at_); }
-  /// Lines are known in ascii files only.
+  /// With a line in ascii files only.
   [[nodiscard]] const Location& where() const { return where_; }
 
   double next(PlyType type) { return ascii() ? next_word() : next_binary(type); }
@@ -134,7 +134,7 @@ private:
     return *std::ranges::find_if(header_.elements, named);
   }
 
-  /// Whether the bytes can hold the rows at all, before memory is taken for them.
+  /// Fails if the file is too short for the rows, before memory is reserved for them.
   void check_size(const PlyElement& element) const {
     std::uint64_t least = 0;
     for (const auto& property : element.properties)
@@ -155,8 +155,7 @@ private:
 
   void read_vertices(const PlyElement& element) {
     static constexpr std::array<std::string_view, 6> names{"x", "y", "z", "nx", "ny", "nz"};
-    std::vector<std::size_t>
-        slots; // by property: where its number goes; the last slot is for numbers of no use
+    std::vector<std::size_t> slots; // per property, index into `row`; the last one for ignored numbers
     std::array<bool, names.size() + 1> given{};
     for (const auto& property : element.properties) {
       const auto slot = static_cast<std::size_t>(std::ranges::find(names, property.name) - names.begin());
@@ -212,7 +211,7 @@ private:
       }
   }
 
-  /// A fan of triangles around the first corner, right for convex polygons.
+  /// A fan of triangles around the first corner, correct for convex polygons.
   void read_face(std::uint64_t row, const PlyProperty& property) {
     const double corners = numbers_.next(*property.count_type);
     std::uint32_t first = 0, previous = 0;
@@ -245,7 +244,7 @@ scene::Mesh load_ply(const MeshRequest& request) {
   const PlyHeader header = read_ply_header(bytes, where);
   std::size_t dropped = 0;
   scene::Mesh mesh = PlyReader(bytes, header, where).mesh(dropped);
-  std::string().swap(bytes); // the file's bytes are of no more use
+  std::string().swap(bytes); // releases the memory
   return finish_mesh(std::move(mesh), request, dropped);
 }
 

@@ -1,4 +1,4 @@
-// The header of a PLY file: which rows of which numbers follow it.
+// The header of a PLY file.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64
 struct PlyProperty {
   std::string name;
   PlyType type = PlyType::float32;
-  std::optional<PlyType> count_type; ///< of lists: how the number of entries is stored
+  std::optional<PlyType> count_type; ///< for lists: type of the number of entries
 };
 
 struct PlyElement {
@@ -32,7 +32,7 @@ struct PlyHeader {
   enum class Format { ascii, little_endian, big_endian };
   Format format = Format::ascii;
   std::vector<PlyElement> elements;
-  std::size_t size = 0; ///< bytes, up to and with the line end after end_header
+  std::size_t size = 0; ///< bytes, including the line end after end_header
   int lines = 0;
 };
 

@@ -23,7 +23,7 @@ namespace {
 using scene::Vec3;
 
 constexpr int largest_size = 32768;                       ///< pixels along one side of the image
-const double film_35mm_diagonal = std::hypot(36.0, 24.0); ///< mm, by which Mitsuba reads focal lengths
+const double film_35mm_diagonal = std::hypot(36.0, 24.0); ///< mm, to which Mitsuba's focal lengths refer
 
 int positive(Properties& properties, const std::string& name, int otherwise, int most) {
   const int value = properties.integer(name, otherwise);
@@ -73,7 +73,7 @@ void read_sampler(const Element& sampler, const Document& document, scene::Rende
   properties.finish();
 }
 
-/// Tangent of half the angle that fov or focal_length gives, along fov_axis, turned to the horizontal one.
+/// Tangent of half the horizontal field of view, from fov along fov_axis, or from focal_length.
 double tan_half_fov_x(Properties& properties, double aspect) {
   const double tan_across_diagonal =
       1.0 / std::sqrt(1.0 + 1.0 / (aspect * aspect)); // horizontal over diagonal

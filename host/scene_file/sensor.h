@@ -13,7 +13,7 @@ namespace phlux::scene_file {
 void read_sensor(const Element& sensor, const Document& document,
                  const std::optional<std::array<int, 2>>& size, scene::Scene& scene);
 
-/// Which integrator the scene asks for, and how deep its paths may go. @throws SceneError
+/// The scene's integrator, max_depth and rr_depth. @throws SceneError
 void read_integrator(const Element& integrator, const Document& document, scene::RenderDefaults& defaults);
 
 } // namespace phlux::scene_file

@@ -22,18 +22,18 @@ bool mirrors(const glm::dmat4& matrix) {
   return glm::determinant(glm::dmat3(matrix)) < 0.0;
 }
 
-/// A patch of the object, front side along cross(u, v), in the world.
+/// Transforms a patch, with front side along cross(u, v), from the object to the world.
 Patch transformed(const glm::dmat4& to_world, bool flip, Patch::Region region, const Vec3& origin,
                   const Vec3& u, const Vec3& v) {
   const glm::dmat3 linear(to_world);
   Patch patch{region, Vec3(to_world * glm::dvec4(origin, 1.0)), linear * u, linear * v, {}};
-  // cross(M u, M v) = det(M) M^-T cross(u, v): under a mirroring it points to the back.
+  // cross(M u, M v) = det(M) M^-T cross(u, v) points to the back if M mirrors.
   if (mirrors(to_world) != flip)
     patch.edge_v = -patch.edge_v; // both regions are symmetric; edge_u stays the tangent
   return patch;
 }
 
-/// The faces of [-1, 1]^3, seen from outside: origin, and edges whose cross product is the origin.
+/// The faces of [-1, 1]^3, with the front outside: a face's origin is the cross product of its edges.
 std::vector<Patch> cube(const glm::dmat4& to_world, bool flip) {
   std::vector<Patch> faces;
   for (int axis = 0; axis < 3; ++axis)
@@ -68,7 +68,7 @@ scene::Surface surface(Properties& properties, MaterialRules rules, scene::Scene
   const Document& document = properties.document();
   const Element* bsdf = properties.object("bsdf");
   const Element* emitter = properties.object("emitter");
-  // Mitsuba: grey 0.5 where nothing is given, black where the shape emits
+  // Mitsuba's default is grey 0.5, or black if the shape emits.
   const scene::Material material =
       bsdf ? read_material(*bsdf, document, rules) : lobes::diffuse(scene::Rgb(emitter ? 0.0 : 0.5));
   scene::Surface result{share(scene.materials, material), -1};

@@ -9,9 +9,9 @@ namespace phlux::scene_file {
 
 /// Adds the shape, its material and its emitter to the scene, in world space.
 ///
-/// Front sides: `to_world` takes the front side of the object to the front side in the world, also where it
-/// mirrors (normals go with the inverse transpose), and flip_normals turns it over. So do all of Mitsuba's
-/// shapes, except that 0.6 turns mirrored meshes without vertex normals inside out, which Mitsuba 3 mended.
+/// `to_world` transforms the object's front side to the front side in the world, even if it mirrors (normals
+/// are transformed by the inverse transpose); flip_normals exchanges the sides. So does Mitsuba, except that
+/// 0.6 turns mirrored meshes without vertex normals inside out, which Mitsuba 3 corrected.
 /// @throws SceneError
 void read_shape(const Element& shape, const Document& document, MaterialRules rules, scene::Scene& scene);
 

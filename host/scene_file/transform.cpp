@@ -15,10 +15,10 @@ namespace {
 using glm::dmat4;
 using glm::dvec3;
 
-/// Files give matrices with about this relative precision.
+/// Relative precision of matrices in scene files.
 constexpr double written_precision = 1e-3;
-/// |det| over the product of the columns' lengths is 1 for orthogonal columns. Below this, rounding in double
-/// precision leaves the inverse without a correct digit in single precision.
+/// Smallest |det| / product of the columns' lengths, which is 1 for orthogonal columns. Below it, rounding in
+/// double precision leaves no correct digit of the inverse in single precision.
 constexpr double least_determinant = 1e-9;
 
 double number(const Element& element, const std::string& attribute, double missing) {
@@ -57,7 +57,7 @@ dmat4 scaling(const Element& step) {
   return glm::scale(dmat4(1.0), uniform && !separate ? dvec3(*uniform) : read_triple(step, 1.0));
 }
 
-/// +z looks from origin to target, +x is to the left.
+/// +z is the direction from origin to target, +x is to the left.
 dmat4 look_at(const Element& step) {
   const dvec3 origin = triple_attribute(step, "origin");
   const dvec3 to_target = triple_attribute(step, "target") - origin;
@@ -65,7 +65,7 @@ dmat4 look_at(const Element& step) {
     fail(step.where, "<lookat>: origin and target are the same point", "two different points");
   const dvec3 forward = glm::normalize(to_target);
   dvec3 up = step.has("up") ? triple_attribute(step, "up") : dvec3(0.0);
-  // Mitsuba, too, takes any direction that is not along the axis where none is given.
+  // By default, as in Mitsuba, any direction that is not along the axis.
   if (is_zero(up)) up = std::abs(forward.y) < 0.9 ? dvec3(0, 1, 0) : dvec3(1, 0, 0);
   const dvec3 left = glm::cross(glm::normalize(up), forward);
   if (glm::length(left) < least_determinant)

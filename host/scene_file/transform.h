@@ -1,4 +1,4 @@
-// <transform>: steps applied to points in the order in which they are written.
+// <transform>: steps that are applied to points in their order in the file.
 #pragma once
 
 #include <glm/mat4x4.hpp>
@@ -11,15 +11,15 @@ namespace phlux::scene_file {
 /// projective
 [[nodiscard]] glm::dmat4 read_transform(const Element& transform);
 
-/// x, y and z of a <point>, <vector>, <translate>...: as attributes (a missing one is `missing`) or three in
-/// `value`.
+/// x, y and z of a <point>, <vector>, <translate>...: from attributes (`missing` if absent) or from three
+/// numbers in `value`.
 /// @throws SceneError
 [[nodiscard]] glm::dvec3 read_triple(const Element& element, double missing);
 
-/// Whether the linear part of `matrix` is a rotation, perhaps with a mirroring, times one scale factor.
+/// Whether the linear part of `matrix` is a rotation or rotoreflection times a scale factor.
 [[nodiscard]] bool is_similarity(const glm::dmat4& matrix);
 
-/// Whether it keeps lengths: a similarity of scale 1.
+/// Whether it preserves lengths: a similarity of scale 1.
 [[nodiscard]] bool is_rigid(const glm::dmat4& matrix);
 
 } // namespace phlux::scene_file

@@ -36,7 +36,7 @@ void Choices::complete(const Choices& earlier) {
   if (!size) size = earlier.size;
   const bool amount = has_amount();
   const auto precision = texts.find("precision");
-  const bool in_double = precision != texts.end() && precision->second == "double"; // which leaves no width
+  const bool in_double = precision != texts.end() && precision->second == "double"; // excludes a width
   for (const Setting& setting : all()) {
     const auto then = earlier.texts.find(setting.name);
     if (then == earlier.texts.end() || (amount && setting.affects == Affects::amount) ||

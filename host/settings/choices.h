@@ -1,4 +1,4 @@
-// What a user may choose of a render, before the scene and the defaults say the rest.
+// The user's choices for a render; the scene and the defaults supply the rest.
 #pragma once
 
 #include <array>
@@ -11,22 +11,23 @@
 namespace phlux::settings {
 
 struct Choices {
-  std::map<std::string, std::string> definitions; ///< of the scene's $names
+  std::map<std::string, std::string> definitions; ///< values of the scene's $names
   std::optional<std::array<int, 2>> size;         ///< width, height
-  std::map<std::string, std::string> texts;       ///< of the settings that are chosen, by their names
+  std::map<std::string, std::string> texts;       ///< of the chosen settings, by name
 
   /// @throws UsageError "`NAME` TEXT: what would be right"
   void choose(const Setting& setting, const std::string& text);
   [[nodiscard]] bool has(const std::string& name) const { return texts.contains(name); }
-  /// Whether it is said how much to render.
+  /// Whether a setting with Affects::amount is chosen.
   [[nodiscard]] bool has_amount() const;
 
-  /// Chooses as `earlier` what is absent here. How much to render is one choice.
+  /// Adds choices of `earlier` that are absent here; settings with Affects::amount only if none is chosen
+  /// here.
   void complete(const Choices& earlier);
 };
 
-/// `defaults`, with what the scene says in place of some and what the user chose in place of others.
-/// @throws UsageError for choices that do not go together
+/// `defaults`, overridden by the scene's settings, which the choices override.
+/// @throws UsageError for choices that exclude each other
 [[nodiscard]] Settings settings_of(const Choices& choices, const scene::RenderDefaults& scene,
                                    Settings defaults = {});
 

@@ -1,5 +1,4 @@
-// The integrators: what each is called and how it forms paths. Whatever differs between them follows from
-// this table.
+// The integrators: their names and how they form paths.
 #pragma once
 
 #include <array>
@@ -14,16 +13,16 @@ enum class Integrator { path, light, bidir };
 
 struct IntegratorInfo {
   Integrator integrator;
-  const char* name;         ///< of options, messages and files
-  const char* mitsuba_name; ///< of scene files
+  const char* name;         ///< in options, messages and files
+  const char* mitsuba_name; ///< in scene files
   const char* kernel_file;
   const char* kernel;
-  /// Subpaths from the eye: kernels sum what each pixel gets.
+  /// Eye subpaths: kernels sum contributions per pixel.
   bool eye_paths;
-  /// Subpaths from lights: kernels record contributions to any pixel one by one, in batches.
+  /// Light subpaths: kernels record each contribution with its pixel, in batches.
   bool light_paths;
 
-  /// Connects both kinds of subpaths: there are many ways to make a path, and vertices are kept in memory.
+  /// Connects eye and light subpaths, whose vertices are kept in memory; there are many techniques per path.
   [[nodiscard]] constexpr bool bidirectional() const { return eye_paths && light_paths; }
 };
 
@@ -41,7 +40,7 @@ inline constexpr std::array<IntegratorInfo, 3> integrators = {{
   static const std::vector<std::string> names = names_in(integrators);
   return names;
 }
-/// @throws UsageError where there is none of that name
+/// @throws UsageError for an unknown name
 [[nodiscard]] inline const IntegratorInfo& integrator_named(const std::string& name) {
   return integrators[choice(quoted("integrator"), name, integrator_names())];
 }

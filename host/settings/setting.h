@@ -1,5 +1,4 @@
-// One setting of a render, as options, messages and files know it: everything that they do with settings
-// follows from the list of them in settings.h.
+// One setting of a render. Options, messages and files use the list of settings in settings.h.
 #pragma once
 
 #include <cstdint>
@@ -19,23 +18,23 @@ namespace phlux::settings {
 
 struct Settings;
 
-/// What a setting has an effect on.
+/// What a setting affects.
 enum class Affects {
   expectation, ///< the image that a render converges to
-  estimate,    ///< the noise about it
-  film,        ///< what is kept beside the image
+  estimate,    ///< the noise
+  film,        ///< what is stored besides the image
   samples,     ///< which samples are taken
-  amount,      ///< how many
-  execution    ///< where and how kernels run: no more than rounding
+  amount,      ///< the number of samples
+  execution    ///< where and how kernels run; images differ by rounding only
 };
 
 /// std::monostate: absent.
 using Value = std::variant<std::monostate, std::string, std::int64_t, std::uint64_t, double>;
-/// What read() takes: numbers with all their digits. Empty where absent.
+/// A text from which read() gets the same value; empty if absent.
 [[nodiscard]] std::string text_of(const Value& value);
 
-// What a setting may be. read() takes what messages call the setting, and its text.
-struct OneOf { ///< of these names: the value is a name, or its index, or for a number what the name says
+// Domains of settings. read() takes the setting's name in messages, and its text.
+struct OneOf { ///< one of these names; the member is the name, an enum of its index, or an int of its digits
   std::vector<std::string> names;
 
   template<class T>
@@ -58,14 +57,14 @@ struct OneOf { ///< of these names: the value is a name, or its index, or for a 
       return names.at(static_cast<std::size_t>(of));
   }
 };
-struct StrategyOrFile { ///< the name of a strategy, or a kernel file of the user's
+struct StrategyOrFile { ///< the name of a strategy, or a user's kernel file
   template<class T>
   [[nodiscard]] T read(const std::string& name, const std::string& text) const {
     return strategy(name, text);
   }
   [[nodiscard]] Value value(const std::string& of) const { return of; }
 };
-struct Switch { ///< on or off, with no option of its own: the text where it is on
+struct Switch { ///< on or off, without an option of its own; `on` is its text if on
   const char* on;
 
   template<class T>
@@ -106,18 +105,18 @@ struct Positive : Number { ///< finite, above 0
 struct Setting {
   std::string name; ///< "rr-depth"
   Affects affects;
-  std::string placeholder; ///< of a value in help, such as "N"
+  std::string placeholder; ///< for its value in help, such as "N"
   std::string help;        ///< without the default; empty: no option sets it
 
   /// @throws UsageError "`NAME` TEXT: what would be right"
   std::function<void(const std::string& text, Settings& to)> read;
   std::function<Value(const Settings& of)> value;
   std::function<void(const Settings& from, Settings& to)> copy;
-  std::function<void(const scene::RenderDefaults& from, Settings& to)>
-      from_scene; ///< empty: no scene says it
+  /// Empty: not in scene files.
+  std::function<void(const scene::RenderDefaults& from, Settings& to)> from_scene;
 
-  /// A setting that is chosen must be of some use: where `holds` is false, "`NAME`" and `otherwise` say why
-  /// it is not; {} in that is the integrator's name.
+  /// A chosen setting must have an effect. If `holds` is false, the error is "`NAME`" and `otherwise`, in
+  /// which {} is the integrator's name.
   struct Condition {
     std::function<bool(const Settings&)> holds;
     std::string otherwise;
@@ -135,7 +134,7 @@ struct Setting {
         value([member, domain](const Settings& of) { return domain.value(of.*member); }),
         copy([member](const Settings& from, Settings& to) { to.*member = from.*member; }) {}
 
-  /// The scene says it where the user does not.
+  /// The default is the scene's.
   template<class T>
   [[nodiscard]] Setting or_scene(T Settings::*member, T scene::RenderDefaults::*of) && {
     from_scene = [member, of](const scene::RenderDefaults& from, Settings& to) { to.*member = from.*of; };

@@ -1,5 +1,5 @@
-// All that a render may be told. A new setting is a member here and an entry of the list below; options and
-// their help, what scenes say, messages, checkpoints, images' attributes and statistics follow from those.
+// The settings of a render. A new one needs a member of Settings and an entry of declared_settings(), from
+// which options and their help, messages, checkpoints, images' attributes and statistics follow.
 #pragma once
 
 #include <cstdint>
@@ -17,46 +17,46 @@
 
 namespace phlux::settings {
 
-enum class Connect { none, light, mis }; ///< what reaches the lights: hits, light samples, or both weighted
-enum class Weights { balance, power, uniform }; ///< how bidirectional paths share a path's light (Veach 1997)
-enum class LightSelection { power, contribution }; ///< which of many lights a light sample goes to
+enum class Connect { none, light, mis };        ///< direct light from hits, light samples, or both with MIS
+enum class Weights { balance, power, uniform }; ///< weights of bidirectional techniques (Veach 1997)
+enum class LightSelection { power, contribution }; ///< probabilities of lights for light samples
 enum class Traversal { automatic, brute_force, bvh };
 
 struct Settings {
   std::string integrator = "path";    ///< path, light or bidir
-  std::string strategy = "exact";     ///< how directions are sampled: a name, or a user's FILE.cl
+  std::string strategy = "exact";     ///< of sampling directions: a name, or a user's FILE.cl
   Connect connect = Connect::mis;     ///< path
   Weights weights = Weights::balance; ///< bidir
   LightSelection light_selection = LightSelection::contribution; ///< path, bidir
-  int connections = 2;     ///< bidir: a path of e edges is made by so many of its e - 2; 0: by all
-  bool techniques = false; ///< light, bidir: the film keeps what each technique brings by itself as well
+  int connections = 2;     ///< bidir: mean number of connections made per path length, by roulette; 0: all
+  bool techniques = false; ///< light, bidir: the film also records each technique's contributions
   std::optional<double> ambient;      ///< path: radiance of a control variate (CW 197, 2.2, reference 15)
-  std::optional<double> clamp;        ///< most radiance that a path brings to a pixel: a bias
-  int samples_per_pixel = 4;          ///< ignored where a time or an error is asked for
+  std::optional<double> clamp;        ///< largest contribution of a path to a pixel, a radiance; causes bias
+  int samples_per_pixel = 4;          ///< ignored with a time limit or target error
   std::optional<double> time_limit;   ///< seconds of rendering
   std::optional<double> target_error; ///< mean relative standard error
   int max_depth = -1, rr_depth = 5;   ///< as in scene::RenderDefaults
   std::uint64_t seed = 0;
-  std::int64_t first_sample = 0;    ///< the number of every pixel's first sample
-  std::vector<std::string> devices; ///< specifications as device::open_devices() takes them
-  int lanes = 0;                    ///< WIDTH; 0: what suits the device
+  std::int64_t first_sample = 0;    ///< index of every pixel's first sample
+  std::vector<std::string> devices; ///< specifications of device::open_devices()
+  int lanes = 0;                    ///< WIDTH; 0: the device's
   bool double_precision = false;    ///< kernels compute in double; WIDTH is 1
   Traversal traversal = Traversal::automatic;
   std::filesystem::path kernel_dir; ///< empty: the embedded kernels
-  double launch_seconds = 0.05;     ///< aimed-at length of one launch
+  double launch_seconds = 0.05;     ///< target duration of a launch
 };
 
-/// Whether paths from the eye sample lights, if there are any.
+/// Whether eye subpaths take light samples, if there are lights.
 [[nodiscard]] inline bool samples_lights(const Settings& settings) {
   const IntegratorInfo& integrator = integrator_named(settings.integrator);
   return integrator.eye_paths && (integrator.light_paths || settings.connect != Connect::none);
 }
-/// Whether those samples choose by contribution.
+/// Whether light samples choose lights by contribution.
 [[nodiscard]] inline bool wants_light_tree(const Settings& settings) {
   return samples_lights(settings) && settings.light_selection == LightSelection::contribution;
 }
 
-/// Names of the values of these types, in their order.
+/// Names of the values of Connect and Weights, in their order.
 [[nodiscard]] inline const std::vector<std::string>& connect_names() {
   static const std::vector<std::string> names = {"none", "light", "mis"};
   return names;
@@ -66,7 +66,7 @@ struct Settings {
   return names;
 }
 
-/// The settings that a text can say, in the order in which help lists them.
+/// The settings that can be given as texts, in the order of the help.
 [[nodiscard]] inline std::vector<Setting> declared_settings() {
   using A = Affects;
   constexpr std::uint64_t most_samples = std::numeric_limits<std::int32_t>::max(); // of the kernels' int
@@ -81,23 +81,25 @@ struct Settings {
                   ", or by a kernel file of your own"),
       Setting(
           "connect", A::estimate, &Settings::connect, OneOf{connect_names()}, "NAME",
-          "path only, what reaches the lights: none (hits), light (light samples) or mis (both, weighted)")
+          "path only, how direct light is found: none (paths that hit lights), light (light samples) or mis "
+          "(both, with multiple importance sampling)")
           .only_where(from_eye_alone, " is for path alone: {} has its own ways to the lights"),
-      Setting("weights", A::estimate, &Settings::weights, OneOf{weights_names()}, "NAME",
-              "bidir only, how the ways to make a path share its light: balance, power or uniform")
-          .only_where(
-              bidirectional,
-              " is for bidir alone: {} makes each path in one way: leave it out or use `integrator` bidir"),
+      Setting(
+          "weights", A::estimate, &Settings::weights, OneOf{weights_names()}, "NAME",
+          "bidir only, weights of the techniques (multiple importance sampling): balance, power or uniform")
+          .only_where(bidirectional, " is for bidir alone: {} makes each path by one technique: leave it out "
+                                     "or use `integrator` bidir"),
       Setting("light-selection", A::estimate, &Settings::light_selection, OneOf{{"power", "contribution"}},
               "NAME",
-              "path and bidir, which of many lights a light sample goes to: by power, or by the contribution "
-              "that it is likely to bring to the point, of 8 lights and more")
+              "path and bidir, how light samples choose a light: power, or contribution (by its estimated "
+              "contribution to the point; for 8 lights or more)")
           .only_where(samples_lights,
                       " is for light samples, which neither `integrator` light nor `connect` none "
                       "makes: leave it out"),
-      Setting("connections", A::estimate, &Settings::connections, Whole{0, 1'000'000}, "N",
-              "bidir only: of the connections that can make a path, one for each edge but two, N are made on "
-              "average, and bring as much as all; 0: all are made")
+      Setting(
+          "connections", A::estimate, &Settings::connections, Whole{0, 1'000'000}, "N",
+          "bidir only: of the e - 2 connections that make paths of e edges, N are made on average, chosen at "
+          "random without bias; 0: all")
           .only_where([](const Settings& s) { return !s.techniques; },
                       ": `contributions` shows every connection: leave out one of the two")
           .only_where(bidirectional,
@@ -105,48 +107,49 @@ struct Settings {
       Setting("contributions", A::film, &Settings::techniques, Switch{"DIR"}, "", ""),
       Setting(
           "ambient", A::estimate, &Settings::ambient, Positive{}, "L",
-          "path only: a radiance that is about what arrives everywhere, as a control variate: the nearer the "
-          "guess, the less noise; the mean stays right whatever it is")
+          "path only: estimate of the mean incident radiance, for a control variate: the closer, the less "
+          "noise; without bias for any L; default: no control variate")
           .only_where(from_eye_alone,
                       ": only paths from the eye can carry the ambient term: use `integrator` path"),
-      Setting(
-          "clamp", A::expectation, &Settings::clamp, Positive{}, "X",
-          "no path brings a pixel more radiance than X: less noise, and a bias, which the log and the files "
-          "name"),
+      Setting("clamp", A::expectation, &Settings::clamp, Positive{}, "X",
+              "clamps each path's contribution to a pixel to the radiance X: less noise, but a bias, which "
+              "the log and the files state; default: no clamping"),
       Setting("max-depth", A::expectation, &Settings::max_depth, Depth{}, "N",
-              "edges of the longest path: 1 is emission alone, -1 unbounded")
+              "largest number of edges of a path: 1 is emission alone, -1 unbounded")
           .or_scene(&Settings::max_depth, &scene::RenderDefaults::max_depth),
       Setting("rr-depth", A::estimate, &Settings::rr_depth, Depth{}, "N",
-              "edges from which roulette may end a path, -1: never")
+              "number of edges from which Russian roulette may end a path, -1: never")
           .or_scene(&Settings::rr_depth, &scene::RenderDefaults::rr_depth),
       Setting("spp", A::amount, &Settings::samples_per_pixel, Whole{1, most_samples}, "N",
-              "samples a pixel (light: light paths per pixel of the image)")
+              "samples per pixel (light: light paths per pixel of the image)")
           .or_scene(&Settings::samples_per_pixel, &scene::RenderDefaults::samples_per_pixel),
-      Setting("time", A::amount, &Settings::time_limit, Positive{}, "SECONDS", "render for so long instead"),
+      Setting("time", A::amount, &Settings::time_limit, Positive{}, "SECONDS",
+              "render for this time instead"),
       Setting(
           "error", A::amount, &Settings::target_error, Positive{}, "E",
-          "render until the mean relative standard error of what is not black is E instead, such as 0.01; "
-          "with `time`: until the first of both"),
+          "render until the mean relative standard error of pixels that are not black is E, such as 0.01, "
+          "instead; with `time`: until the first of the two"),
       Setting("seed", A::samples, &Settings::seed, Whole{0, std::numeric_limits<std::uint64_t>::max()}, "N",
-              "the same seed gives the same image on the same device"),
+              "seed of the random numbers; the same seed gives the same image on the same device"),
       Setting("first-sample", A::samples, &Settings::first_sample, Whole{0, most_samples / 2}, "N",
-              "number of every pixel's first sample: renders of samples 0 to 99 and 100 to 199 of a seed are "
-              "independent, for `phlux merge`"),
+              "index of every pixel's first sample: renders of samples 0 to 99 and 100 to 199 of a seed are "
+              "independent and can be merged"),
       Setting("width", A::execution, &Settings::lanes, OneOf{{"1", "4", "8", "16"}}, "N",
-              "paths that one work-item traces at a time: 1, 4, 8 or 16; default: what suits the device"),
-      Setting("precision", A::estimate, &Settings::double_precision, OneOf{{"single", "double"}}, "NAME",
-              "what kernels compute in: single, or double, one path at a time and only where the device has "
-              "doubles"),
+              "paths that one work-item traces together: 1, 4, 8 or 16; default: the device's"),
+      Setting(
+          "precision", A::estimate, &Settings::double_precision, OneOf{{"single", "double"}}, "NAME",
+          "arithmetic of the kernels: single, or double (slower, one path at a time, only on devices with "
+          "doubles)"),
       Setting("traversal", A::execution, &Settings::traversal, OneOf{{"auto", "brute", "bvh"}}, "NAME",
-              "brute (every shape), bvh or auto"),
+              "ray intersection: brute (tests every shape), bvh or auto"),
   };
 }
 
-/// The same, made once.
+/// declared_settings(), computed once.
 [[nodiscard]] const std::vector<Setting>& all();
-/// One of them. @throws UsageError where there is none of that name
+/// The setting of this name. @throws UsageError if there is none
 [[nodiscard]] const Setting& named(const std::string& name);
-/// The texts of those that have an effect on what is `wanted`, by their names; without absent values.
+/// Texts by name of the settings whose `affects` is wanted, without absent values.
 [[nodiscard]] std::map<std::string, std::string> texts_of(const Settings& settings,
                                                           const std::function<bool(Affects)>& wanted);
 

@@ -1,4 +1,4 @@
-// The strategies by which directions are sampled (MATH.md 2.3).
+// The strategies of sampling directions (MATH.md 2.3).
 #pragma once
 
 #include <array>
@@ -10,11 +10,11 @@
 namespace phlux::settings {
 
 struct Strategy {
-  const char* name; ///< of options, messages and files; kernels/phong/strategies/NAME.cl
+  const char* name; ///< in options, messages and files; kernels/phong/strategies/NAME.cl
   bool biased = false;
 };
 
-/// In the order in which help lists them.
+/// In the order of the help.
 inline constexpr std::array<Strategy, 12> strategies = {{
     {"uniform"},
     {"theta-phi"},
@@ -34,15 +34,14 @@ inline constexpr std::array<Strategy, 12> strategies = {{
   static const std::vector<std::string> names = names_in(strategies);
   return names;
 }
-/// @throws UsageError where there is none of that name
+/// @throws UsageError for an unknown name
 [[nodiscard]] inline const Strategy& strategy_named(const std::string& name) {
   return strategies[choice(quoted("strategy"), name, strategy_names())];
 }
 
-/// Whether it is a kernel file of the user's, FILE.cl, and no name (kernels/phong/phong.cl says what it
-/// defines).
+/// Whether `strategy` is a user's kernel file, FILE.cl (kernels/phong/phong.cl: what it defines), not a name.
 [[nodiscard]] bool is_strategy_file(const std::string& strategy);
-/// `text` where it is the name of a strategy or of a kernel file, which may be missing yet.
+/// `text` if it is the name of a strategy or of a kernel file, whose existence is not checked.
 /// @throws UsageError "`NAME` TEXT: what would be right"
 [[nodiscard]] std::string strategy(const std::string& name, const std::string& text);
 /// The text of a user's file. @throws UsageError when it cannot be read

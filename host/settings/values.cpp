@@ -28,7 +28,7 @@ std::optional<Number> parse(const std::string& text) {
   return number;
 }
 
-// Levenshtein's distance.
+// Levenshtein distance.
 std::size_t edits(const std::string& a, const std::string& b) {
   std::vector<std::size_t> row(b.size() + 1);
   for (std::size_t j = 0; j < row.size(); ++j) row[j] = j;

@@ -1,4 +1,4 @@
-// Texts to values. What is not a value throws UsageError "NAME TEXT: what would be right".
+// Parses values. A text that is not a valid value throws UsageError "NAME TEXT: what would be right".
 #pragma once
 
 #include <array>
@@ -19,16 +19,16 @@ namespace phlux::settings {
 /// A number from `least` to `most`.
 [[nodiscard]] double number_within(const std::string& name, const std::string& text, double least,
                                    double most);
-/// WIDTHxHEIGHT in pixels; at most 2^28 pixels, which take 15 GB.
+/// WIDTHxHEIGHT in pixels; at most 2^28 pixels (15 GB of memory).
 [[nodiscard]] std::array<int, 2> size(const std::string& name, const std::string& text);
 /// NAME=VALUE; the value may be empty.
 [[nodiscard]] std::pair<std::string, std::string> definition(const std::string& name,
                                                              const std::string& text);
-/// The index of `text` in `names`; the error names the nearest one, or all.
+/// The index of `text` in `names`; the error suggests the nearest one.
 [[nodiscard]] std::size_t choice(const std::string& name, const std::string& text,
                                  const std::vector<std::string>& names);
 
-/// "`NAME`", as messages below the command line name a setting.
+/// "`NAME`", a setting's name in messages; see cli/spelling.h.
 [[nodiscard]] std::string quoted(const std::string& name);
 /// "a, b, c"
 [[nodiscard]] std::string joined(const std::vector<std::string>& names);
@@ -41,8 +41,7 @@ template<class Table>
   return names;
 }
 
-/// The name that `text` was probably meant to be: within two edits, and within half of its length; else
-/// empty.
+/// The nearest name within two edits and half of the length of `text`; else empty.
 [[nodiscard]] std::string nearest(const std::string& text, const std::vector<std::string>& names);
 
 } // namespace phlux::settings

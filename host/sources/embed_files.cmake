@@ -3,7 +3,7 @@
 # Run by the build: cmake -DFOLDER=... -DFILES=... -DHEADER=... -DNAMESPACE=... -DFUNCTION=... -DOUTPUT=... -P embed_files.cmake
 
 get_filename_component(FOLDER_NAME "${FOLDER}" NAME)
-set(CHUNK 4000) # bytes a literal: compilers need not take longer ones than 65536 bytes
+set(CHUNK 4000) # bytes per literal: compilers may limit them to 65536 bytes
 
 string(REPLACE "|" ";" files "${FILES}")
 set(entries "")
@@ -29,7 +29,7 @@ file(WRITE "${OUTPUT}.tmp" "// Made by embed_files.cmake from the files of ${FOL
 namespace ${NAMESPACE} {
 namespace {
 constexpr phlux::sources::EmbeddedFile files[] = {
-${entries}{\"\", \"\"}}; // an end mark, so that no files at all is no empty array
+${entries}{\"\", \"\"}}; // an end mark, as an array must not be empty
 } // namespace
 std::span<const phlux::sources::EmbeddedFile> ${FUNCTION}() { return std::span(files).first(std::size(files) - 1); }
 } // namespace ${NAMESPACE}

@@ -1,5 +1,5 @@
-# phlux_embed(LIBRARY FOLDER HEADER NAMESPACE FUNCTION EXTENSION...): puts every file of the folder with one of these
-# extensions into the library, which returns them by FUNCTION (embed_files.cmake). The installed program needs no file.
+# phlux_embed(LIBRARY FOLDER HEADER NAMESPACE FUNCTION EXTENSION...): embeds every file of the folder with one of these
+# extensions in the library, whose FUNCTION returns them (embed_files.cmake). The installed program needs no files.
 set(embed_files ${CMAKE_CURRENT_LIST_DIR}/embed_files.cmake)
 function(phlux_embed library folder header namespace function)
   set(root ${PROJECT_SOURCE_DIR}/${folder})

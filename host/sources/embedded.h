@@ -1,4 +1,4 @@
-// The kernel files that the build put into this binary.
+// The kernel files embedded in this program.
 #pragma once
 
 #include <span>
@@ -7,7 +7,7 @@
 namespace phlux::sources {
 
 struct EmbeddedFile {
-  std::string_view name; ///< relative to the folder that was embedded
+  std::string_view name; ///< path relative to the embedded folder
   std::string_view text;
 };
 

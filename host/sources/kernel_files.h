@@ -1,4 +1,4 @@
-// The texts of the kernel files.
+// The text of kernel files.
 #pragma once
 
 #include <filesystem>
@@ -7,7 +7,7 @@
 
 namespace phlux::sources {
 
-/// Where kernel sources come from: the ones embedded in this binary, or a folder while developing.
+/// A source of kernel files: those embedded in this program, or a folder, for development.
 class KernelFiles {
 public:
   KernelFiles() = default; ///< the embedded files

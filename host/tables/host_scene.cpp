@@ -8,8 +8,8 @@
 namespace phlux::tables {
 namespace {
 
-// Up to so many primitives, testing each in turn is as fast as a hierarchy: where the two rates crossed on
-// bounce rays in a closed room (bench/PERFORMANCE.md).
+// The number of primitives up to which testing each in turn is as fast as a hierarchy, measured on bounce
+// rays in a closed room (bench/PERFORMANCE.md).
 std::uint64_t brute_force_limit(int lanes) {
   switch (lanes) {
   case 1:

@@ -9,7 +9,7 @@
 
 namespace phlux::tables {
 
-/// Everything that the host computes about a scene for one WIDTH, precision and traversal.
+/// The tables of a scene for one WIDTH, precision and traversal.
 struct HostScene {
   accel::Geometry geometry;
   LightTable lights;

@@ -30,9 +30,8 @@ LightRecord record_of(LightKinds kind, const Rgb& power) {
   return record;
 }
 
-// Collects lights (their emission_density yet without the probability of selection), the power of each in
-// watts (averaged over the channels), and which of them are one emitter of the scene: the triangles of a mesh
-// are.
+// Collects lights (their emission_density still without the probability of selection), the power of each in
+// watts (averaged over the channels), and their groups: one per emitter of the scene, such as a mesh.
 class Collector {
 public:
   static constexpr int own_group = -1;
@@ -42,23 +41,23 @@ public:
     powers.push_back(power);
     groups.push_back(group != own_group ? group : --last_own_);
   }
-  // The one that was added last has a place; its bounds are without its index.
-  void place(PlacedLight bounds) {
+  // Sets the bounds of the last added light; bounds.light is set here.
+  void place(LightBounds bounds) {
     bounds.light = static_cast<int>(table.records.size()) - 1;
     if (powers.back() > 0) placed.push_back(bounds);
   }
   LightTable table;
   std::vector<double> powers;
   std::vector<int> groups;
-  std::vector<PlacedLight> placed; // those with power
+  std::vector<LightBounds> placed; // of lights with power
 
 private:
   int last_own_ = own_group;
 };
 
-// Half of the samples in proportion to power, half evenly over the emitters (and by power within one): the
-// power that a sky or a sun sends into a wide scene says nothing of what it brings to the part in view, and
-// must not starve a lamp. A light without power is never chosen.
+// Half of the samples in proportion to power, half uniformly over the emitters (and by power within one), so
+// that a sky or sun, whose power grows with the scene, leaves samples to lights near the camera. A light
+// without power is never chosen.
 std::vector<double> probabilities(const Collector& lights) {
   double total = 0;
   std::map<int, double> power_of_group;
@@ -108,11 +107,11 @@ void add_points(Collector& to, const scene::Scene& scene, const Vec3& origin) {
     LightRecord record = record_of(LIGHT_SPOT, light.intensity);
     set(record.position, light.position - origin);
     set(record.direction, light.direction);
-    // A beam as wide as the cone falls off within the smallest angle that float tells apart.
+    // A beam as wide as the cone falls off within a small angle, to avoid a division by 0.
     const double transition = std::max(light.cutoff_angle - light.beam_width, 1e-6);
     record.cutoff = static_cast<float>(light.cutoff_angle);
     record.inv_transition = static_cast<float>(1 / transition);
-    // 1 / (2 pi (1 - cos(cutoff))), without cancellation: the kernel draws directions from the whole cone.
+    // 1 / (2 pi (1 - cos(cutoff))), without cancellation: the kernel samples the whole cone uniformly.
     const double half_sine = std::sin(light.cutoff_angle / 2);
     record.emission_density = static_cast<float>(1 / (4 * pi * half_sine * half_sine));
     const double full = 2 * pi * (1 - (std::cos(light.beam_width) + std::cos(light.cutoff_angle)) / 2);
@@ -166,8 +165,8 @@ void make_alias_table(std::vector<LightRecord>& records, const std::vector<doubl
   }
 }
 
-// A power of two near the most that a light sends along one ray to a surface `radius` away; 1 where that is
-// ordinary, so that ordinary images keep their bits.
+// A power of two near the largest radiance of a light, or irradiance of a point light at distance `radius`; 1
+// within 2^-32 to 2^32.
 double unit_of(const std::vector<LightRecord>& records, double radius) {
   constexpr int ordinary_exponent = 32;
   double most = 0;
@@ -204,7 +203,7 @@ LightTable light_table(const scene::Scene& scene, accel::Geometry& geometry, boo
   const std::vector<double> chances = probabilities(collector);
   if (!chances.empty()) make_alias_table(collector.table.records, chances);
   if (with_tree) collector.table.nodes = light_tree(collector.placed, collector.table.records);
-  for (const PlacedLight& light : collector.placed)
+  for (const LightBounds& light : collector.placed)
     collector.table.tree_probability += chances[static_cast<std::size_t>(light.light)];
   use_unit(collector.table, unit_of(collector.table.records, geometry.radius));
   return std::move(collector.table);

@@ -1,4 +1,4 @@
-// Every light of a scene in one table, with the probability of choosing it.
+// A table of all lights of a scene, with their probabilities for light samples.
 #pragma once
 
 #include <vector>
@@ -11,19 +11,19 @@ namespace phlux::tables {
 
 struct LightTable {
   std::vector<LightRecord> records;
-  std::vector<LightNodeRecord> nodes; ///< the tree of the lights that have a place; empty for fewer than two
+  std::vector<LightNodeRecord> nodes; ///< the tree of the lights with bounds; empty for fewer than two
   double tree_probability = 0.0;      ///< of choosing one of those lights
-  int constant = -1;                  ///< index of the constant light
-  double unit = 1.0;                  ///< the radiance that stands as 1 in the records, a power of two
+  int constant = -1;                  ///< index of the constant light, -1: none
+  double unit = 1.0;                  ///< the radiance that is 1 in the records, a power of two
   [[nodiscard]] bool has(LightKinds kind) const;
-  [[nodiscard]] bool shines() const; ///< some light has power
+  [[nodiscard]] bool shines() const; ///< whether a light has power
 };
 
-/// One record per emitting primitive and per light without surface, chosen half in proportion to the power
-/// that it sends into the scene and half evenly over the emitters, and a tree for choosing among those that
-/// have a place by what they bring to a point. Sets the `light` of the geometry's
-/// primitives. Lights without power are never chosen. Where lights are so bright or so dim that squares of
-/// their radiance would not fit float, the records' `power` is in a unit near it; else the unit is 1.
+/// One record per emitting primitive and per light without surface. Half of the light samples choose in
+/// proportion to the power that a light sends into the scene, half uniformly over the emitters; lights
+/// without power are never chosen. With `with_tree`, a tree for choosing among the lights with bounds by
+/// their contribution to a point. Sets the `light` of the geometry's primitives. The unit is 1 unless squares
+/// of the lights' radiance could leave the range of float.
 [[nodiscard]] LightTable light_table(const scene::Scene& scene, accel::Geometry& geometry,
                                      bool with_tree = true);
 

@@ -15,12 +15,12 @@ namespace {
 using scene::Vec3;
 constexpr double pi = std::numbers::pi;
 
-// From 8 levels above it the builder halves, which takes many more lights than a scene has left by then.
+// Embree's builder halves from 8 levels above it on, where 2^8 lights fit: more than a scene has left there.
 constexpr unsigned max_depth = 64;
 
-// A little larger than the lights: the builder splits by the boxes' areas, and those of lights without extent
-// in a row or at one place are all 0, which makes it split off one light at a time.
-std::vector<RTCBuildPrimitive> boxes_of(std::span<const PlacedLight> lights, const PlacedLight& all) {
+// Slightly larger than the lights' boxes: the builder splits by surface area, which is 0 for point lights on
+// a line, so that it would split off one light at a time.
+std::vector<RTCBuildPrimitive> boxes_of(std::span<const LightBounds> lights, const LightBounds& all) {
   const Vec3 extent = all.high - all.low;
   const double padding = 1e-3 * std::max({extent.x, extent.y, extent.z});
   std::vector<RTCBuildPrimitive> boxes(lights.size());
@@ -35,12 +35,12 @@ double angle_between(const Vec3& a, const Vec3& b) {
   return std::acos(std::clamp(glm::dot(a, b), -1.0, 1.0));
 }
 
-// A box and a cone that hold those of all lights, and the sum of their intensities.
-PlacedLight bounds_of(std::span<const PlacedLight> lights) {
-  PlacedLight all = lights.front();
+// A bounding box and bounding cone of all lights, and the sum of their intensities.
+LightBounds bounds_of(std::span<const LightBounds> lights) {
+  LightBounds all = lights.front();
   Vec3 axis(0.0);
   all.intensity = 0;
-  for (const PlacedLight& light : lights) {
+  for (const LightBounds& light : lights) {
     all.low = glm::min(all.low, light.low);
     all.high = glm::max(all.high, light.high);
     axis += light.intensity * light.axis;
@@ -50,16 +50,16 @@ PlacedLight bounds_of(std::span<const PlacedLight> lights) {
   const bool has_axis = length > 1e-6 * all.intensity;
   if (has_axis) all.axis = axis / length;
   all.spread = has_axis ? 0 : pi;
-  for (const PlacedLight& light : lights)
+  for (const LightBounds& light : lights)
     all.spread = std::max(all.spread, angle_between(all.axis, light.axis) + light.spread);
   all.spread = std::min(all.spread, pi);
   return all;
 }
 
-// Depth first, so that the records do not depend on the order in which threads built the tree.
+// Depth first, so that the records do not depend on the order in which threads create nodes.
 class Layout {
 public:
-  Layout(std::span<const PlacedLight> lights, double intensity, std::vector<LightRecord>& records)
+  Layout(std::span<const LightBounds> lights, double intensity, std::vector<LightRecord>& records)
       : lights_(lights), records_(records), total_(intensity) {
     in_order_.reserve(lights.size());
     nodes_.reserve(2 * lights.size());
@@ -69,7 +69,7 @@ public:
   void write(const accel::Tree::Node& node, std::size_t index) {
     const std::size_t first_light = in_order_.size();
     if (node.children.empty()) {
-      const PlacedLight& light = lights_[node.primitives.front().primID];
+      const LightBounds& light = lights_[node.primitives.front().primID];
       in_order_.push_back(light);
       nodes_[index].child = ~light.light;
       records_[static_cast<std::size_t>(light.light)].node = static_cast<int>(index);
@@ -88,7 +88,7 @@ public:
   std::vector<LightNodeRecord> take() { return std::move(nodes_); }
 
 private:
-  void fill(LightNodeRecord& node, const PlacedLight& bounds) const {
+  void fill(LightNodeRecord& node, const LightBounds& bounds) const {
     for (int i = 0; i < 3; ++i) {
       node.center[i] = static_cast<float>((bounds.low[i] + bounds.high[i]) / 2);
       node.half_size[i] = static_cast<float>((bounds.high[i] - bounds.low[i]) / 2);
@@ -98,19 +98,19 @@ private:
     node.intensity = static_cast<float>(bounds.intensity / total_);
   }
 
-  std::span<const PlacedLight> lights_;
+  std::span<const LightBounds> lights_;
   std::vector<LightRecord>& records_;
-  std::vector<PlacedLight> in_order_;
+  std::vector<LightBounds> in_order_;
   std::vector<LightNodeRecord> nodes_;
   double total_; // intensity
 };
 
 } // namespace
 
-std::vector<LightNodeRecord> light_tree(std::span<const PlacedLight> lights,
+std::vector<LightNodeRecord> light_tree(std::span<const LightBounds> lights,
                                         std::vector<LightRecord>& records) {
   if (lights.size() < 2) return {};
-  const PlacedLight all = bounds_of(lights);
+  const LightBounds all = bounds_of(lights);
   const accel::Tree tree(boxes_of(lights, all),
                          {.branching = 2, .leaf_size = 1, .block = 1, .max_depth = max_depth});
   Layout layout(lights, all.intensity, records);

@@ -1,5 +1,4 @@
-// The tree of lights from which light samples choose by what a light is likely to bring
-// (kernels/scene/light_tree.cl).
+// The tree by which light samples choose lights by contribution (kernels/scene/light_tree.cl).
 #pragma once
 
 #include <span>
@@ -10,18 +9,18 @@
 
 namespace phlux::tables {
 
-/// What bounds the light that one light sends.
-struct PlacedLight {
+/// Bounds of a light's position, directions and intensity.
+struct LightBounds {
   int light;             ///< index of its record
-  scene::Vec3 low, high; ///< corners of a box that holds it, about the geometry's origin
-  scene::Vec3 axis;      ///< unit, of a cone that holds its normals, or the directions of a spot light's beam
+  scene::Vec3 low, high; ///< corners of its bounding box, relative to the geometry's origin
+  scene::Vec3 axis;      ///< unit, of a bounding cone of its normals, or of the directions of a spot light
   double spread;         ///< half the cone's angle in radians; pi: any direction
-  double intensity;      ///< the most that it sends in any direction, W / sr, > 0
+  double intensity;      ///< largest over all directions, W / sr, > 0
 };
 
-/// The nodes, and each record's leaf in `records`. Empty for fewer than two lights, which leave no choice.
-/// @throws SceneError when there is no memory for it
-[[nodiscard]] std::vector<LightNodeRecord> light_tree(std::span<const PlacedLight> lights,
+/// The nodes; sets each record's leaf, `node`. Empty for fewer than two lights.
+/// @throws SceneError for too little memory
+[[nodiscard]] std::vector<LightNodeRecord> light_tree(std::span<const LightBounds> lights,
                                                       std::vector<LightRecord>& records);
 
 } // namespace phlux::tables

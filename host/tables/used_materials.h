@@ -1,4 +1,4 @@
-// The materials that a scene's primitives have.
+// The materials of a scene's primitives.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace phlux::tables {
 
-/// Those that some primitive has; a scene may define others.
+/// Without materials of the scene that no primitive has.
 [[nodiscard]] std::vector<scene::Material> used_materials(const scene::Scene& scene,
                                                           const accel::Geometry& geometry);
 

@@ -24,7 +24,7 @@ Case make_case(const std::vector<scene::Material>& materials, int material, doub
   one.degrees = degrees;
   one.at.model = model_of(materials[static_cast<std::size_t>(material)]);
   const double angle = degrees * std::numbers::pi / 180;
-  // An odd longitude, so that x and y are not mistaken for one another.
+  // A longitude that distinguishes x from y.
   one.at.fixed = as_float(polar(angle, 2.2));
   const double tilt = std::atan2(std::hypot(one.at.fixed.x, one.at.fixed.y), one.at.fixed.z);
   one.at.reflectivity = lobe_reflectivity(one.at.model.exponent, tilt);
@@ -34,7 +34,7 @@ Case make_case(const std::vector<scene::Material>& materials, int material, doub
 }
 
 Cases make_cases(bool quick) {
-  // The first is that of CW 197's figures 6 and 7.
+  // The first is the material of CW 197's figures 6 and 7.
   std::vector<scene::Material> materials{lobes::phong(Rgb(.4), Rgb(.05), 50),
                                          lobes::phong({.4, .3, .2}, {.3, .4, .5}, 10),
                                          lobes::phong({.05, .1, 0}, {.8, .6, .9}, 1000),
@@ -78,7 +78,7 @@ std::vector<GuessedValue> guesses_of(const Strategy& strategy, const Situation& 
   if (strategy.guess == Guess::certain) return {{1, 1}};
   if (strategy.guess == Guess::exact) return {{at.reflectivity, 1}};
   std::vector<GuessedValue> guesses = cells.estimates;
-  if (strategy.guess == Guess::estimated) // mixed with 1, so that it is never 0
+  if (strategy.guess == Guess::estimated) // averaged with 1, so that it is never 0
     for (GuessedValue& each : guesses) each.guess = (1 + each.guess) / 2;
   return guesses;
 }

@@ -22,22 +22,22 @@ struct Cases {
   std::vector<Case> cases;
 };
 
-/// Exponents from 0 to 1e6, grey and coloured, from the normal to 89.9 degrees; fewer of each where `quick`.
+/// Exponents from 0 to 1e6, grey and coloured, from the normal to 89.9 degrees; fewer of each if `quick`.
 [[nodiscard]] Cases make_cases(bool quick);
 
-/// One case of a table's material; the fixed direction is that of float32, off the axes.
+/// A case of one of the materials; the fixed direction is rounded to float32 and not in a plane of two axes.
 [[nodiscard]] Case make_case(const std::vector<scene::Material>& materials, int material, double degrees);
 
-/// What the parts of all strategies have in the cells of a grid about the lobe, integrated in float64.
+/// Probabilities of the parts of all strategies in the cells of a grid about the lobe, integrated in float64.
 struct CaseCells {
   SphereGrid grid;
   std::vector<double> diffuse, lobe, fold, exact; ///< probabilities; `lobe` also below the horizon
   std::vector<GuessedValue> estimates;            ///< of CW 197's one-sample estimate, clamped to [0, 1]
-  double below = 0;                               ///< of the lobe's probability, that below the horizon
+  double below = 0;                               ///< the lobe's probability below the horizon
 };
 [[nodiscard]] CaseCells cells_of(const Situation& at);
 
-/// The guesses of a strategy for the reflectivity of the lobe.
+/// The distribution of a strategy's guess of the lobe's reflectivity.
 [[nodiscard]] std::vector<GuessedValue> guesses_of(const Strategy& strategy, const Situation& at,
                                                    const CaseCells& cells);
 

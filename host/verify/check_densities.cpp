@@ -9,13 +9,9 @@
 namespace phlux::verify {
 namespace {
 
-constexpr double density_error = 1e-5; // relative, against float64's for the same float32 directions
+constexpr double density_error = 1e-5; // relative to the density in float64 for the same direction
 constexpr double unit_error = 4 * 0x1p-23;
-constexpr double smallest_density = 1e-30; // float32's exponents end soon below
-
-bool is_finite(const Direction& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
+constexpr double smallest_density = 1e-30; // smaller ones may underflow float32
 
 } // namespace
 
@@ -39,11 +35,11 @@ void check_densities(const Subject& subject, const Drawn& drawn) {
     else
       edge = std::max(edge, error / edge_error(condition));
   }
-  subject.report.see(strategy.name, "densities", worst, density_error, drawn.where);
-  // Near alpha = pi / 2, where float32 cannot hold 1e-5: in units of what it can.
-  subject.report.see(strategy.name, "edge", edge, 1, drawn.where);
-  subject.report.see(strategy.name, "unit", length, unit_error, drawn.where);
-  subject.report.see(strategy.name, "finite", wrong, 0, drawn.where);
+  subject.report.record(strategy.name, "densities", worst, density_error, drawn.where);
+  // Near alpha = pi / 2, where float32 is less accurate than 1e-5: in units of its error.
+  subject.report.record(strategy.name, "edge", edge, 1, drawn.where);
+  subject.report.record(strategy.name, "unit", length, unit_error, drawn.where);
+  subject.report.record(strategy.name, "finite", wrong, 0, drawn.where);
 }
 
 } // namespace phlux::verify

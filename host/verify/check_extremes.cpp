@@ -8,13 +8,6 @@
 #include "verify/extremes.h"
 
 namespace phlux::verify {
-namespace {
-
-bool is_finite(const Rgb& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
-} // namespace
 
 std::vector<Words> extreme_words(bool thin) {
   std::vector<std::uint32_t> few{0u, 0x30000000u, 0xffffffffu};
@@ -55,8 +48,8 @@ void check_extremes(const Subject& subject) {
             fmt::format("kd {:.3g}, ks {:.3g}, n {:g}, fixed ({:.3g} {:.3g} {:.3g}), extreme numbers",
                         one.at.model.diffuse_max(), one.at.model.specular_max(), one.at.model.exponent,
                         fixed.x, fixed.y, fixed.z);
-        subject.report.see(subject.strategy.name, "finite", wrong, 0, where);
-        subject.report.see(subject.strategy.name, "unit", length, 4 * 0x1p-23, where);
+        subject.report.record(subject.strategy.name, "finite", wrong, 0, where);
+        subject.report.record(subject.strategy.name, "unit", length, 4 * 0x1p-23, where);
       }
   }
 }

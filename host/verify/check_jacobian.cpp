@@ -7,8 +7,8 @@
 namespace phlux::verify {
 namespace {
 
-// Differences of fourth order err by (step)^4 / 30 times fifth derivatives, which are below 1e3 in the inner
-// part of the square; the directions' float32 by 2^-24 / step, more where the lobe is narrow.
+// The error of fourth-order differences is step^4 / 30 times the fifth derivative, which is below 1e3 in the
+// inner part of the square; that of float32 directions is 2^-24 / step, more for narrow lobes.
 constexpr double curvature_error = 1e-4;
 
 double float_error(double exponent) { // of a difference quotient, relative to a lobe's width
@@ -21,13 +21,13 @@ void check_jacobian(const Subject& subject) {
   const Strategy& strategy = subject.strategy;
   const bool is_map = strategy.family == Family::smooth || strategy.family == Family::parts ||
                       strategy.family == Family::mixture;
-  if (!is_map) return; // fold covers some directions twice, the others draw until they accept
+  if (!is_map) return; // fold covers some directions twice; the others draw until a direction is accepted
   std::vector<Words> words;
   for (const NumberPair& p : inner_points())
     append_stencil(words, p, {word_for(0.5), 0, 0, word_for(0.5)}, 1, 2);
   for (const Case& one : subject.cases.cases) {
     const Situation& at = one.at;
-    // A lobe alone: with kd the first number would choose between two maps.
+    // Only a lobe: with kd > 0 the first number would choose between two maps.
     if (strategy.family != Family::smooth && (at.model.diffuse_max() > 0 || at.model.specular_max() == 0))
       continue;
     const auto samples = subject.device.drive(one.material, at.fixed, words, false);
@@ -35,8 +35,8 @@ void check_jacobian(const Subject& subject) {
     for (std::size_t i = 0; i < samples.size(); i += stencil_size)
       worst = std::max(worst, std::abs(samples[i].density * jacobian(&samples[i]) - 1));
     const double exponent = strategy.family == Family::smooth ? 0 : at.model.exponent;
-    subject.report.see(strategy.name, "jacobian", worst / (curvature_error + float_error(exponent)), 1,
-                       one.name);
+    subject.report.record(strategy.name, "jacobian", worst / (curvature_error + float_error(exponent)), 1,
+                          one.name);
   }
 }
 

@@ -15,7 +15,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double reflectivity_error = 1e-4; // relative, at every exponent and angle
 constexpr double value_error = 1e-5;        // relative, of f_r where it is well conditioned
-constexpr double known_error = 1e-6;        // of printed values, which have 8 digits
+constexpr double known_error = 1e-6;        // of printed values of 8 digits
 
 std::vector<double> exponents(bool quick) {
   std::vector<double> list{0, 0.1, 0.3, 0.5, 1, 1.5, 2, 3};
@@ -32,8 +32,7 @@ std::vector<double> angles(bool quick) {
   return list;
 }
 
-// f_r at normal incidence, both directions along the normal (seeds' 001), and rho_s / ks (MATH.md 2.1, by
-// quadrature).
+// f_r with both directions along the normal, and rho_s / ks (MATH.md 2.1, by quadrature).
 struct KnownValue {
   double diffuse, specular, exponent, value;
 };
@@ -85,13 +84,13 @@ void check_reflectivity(const DeviceModel& device, const ModelCases& cases, bool
         error = std::max(error, std::abs(seen[i][channel] - right[channel]) / right[channel]);
         gain = std::max(gain, seen[i][channel]); // kd + ks is 1 in the first two channels
       }
-      report.see("", "reflectivity", error, reflectivity_error, where());
-      report.see("", "energy", gain, 1 + 1e-6, where());
+      report.record("", "reflectivity", error, reflectivity_error, where());
+      report.record("", "energy", gain, 1 + 1e-6, where());
     }
   }
 }
 
-// Pairs all over the hemisphere, and pairs near the lobe's tip, whatever its width.
+// Pairs over the whole hemisphere, and pairs near the lobe's axis within a few of its widths.
 std::vector<Pair> random_pairs(double exponent, std::size_t count) {
   std::mt19937 engine(17);
   const auto uniform = [&] { return (static_cast<double>(engine()) + 0.5) / 4294967296.0; };
@@ -130,13 +129,13 @@ void check_values(const DeviceModel& device, const ModelCases& cases, std::size_
           edge = std::max(edge, off / edge_error(condition));
       }
     }
-    report.see("", "reciprocity", asymmetry, value_error, where);
-    report.see("", "value", error, value_error, where);
-    report.see("", "value at edge", edge, 1, where);
+    report.record("", "reciprocity", asymmetry, value_error, where);
+    report.record("", "value", error, value_error, where);
+    report.record("", "value at edge", edge, 1, where);
   }
 }
 
-// Nothing is reflected through the surface, whichever direction is below.
+// f_r is 0 if either direction is below the surface.
 void check_below(const DeviceModel& device, const ModelCases& cases, Report& report) {
   const Direction above[] = {{0, 0, 1}, as_float(polar(1.2, 0.4))},
                   below[] = {as_float(polar(1.7, 3.3)), {0, 0, -1}};
@@ -145,27 +144,27 @@ void check_below(const DeviceModel& device, const ModelCases& cases, Report& rep
     for (const Direction& b : below) pairs.insert(pairs.end(), {{a, b}, {b, a}, {b, b}});
   for (std::size_t m = 0; m < cases.exponents.size(); ++m)
     for (const PairValues& seen : device.evaluate(static_cast<int>(m), pairs))
-      report.see("", "below", glm::length(seen.value) + glm::length(seen.reversed), 0,
-                 fmt::format("n {:.6g}", cases.exponents[m]));
+      report.record("", "below", glm::length(seen.value) + glm::length(seen.reversed), 0,
+                    fmt::format("n {:.6g}", cases.exponents[m]));
 }
 
 void check_known(const DeviceModel& device, const ModelCases& cases, Report& report) {
   int material = static_cast<int>(cases.exponents.size());
   for (const auto& known : known_values) {
     const double seen = device.evaluate(material++, {{{0, 0, 1}, {0, 0, 1}}}).front().value.r;
-    report.see("", "known values", std::abs(seen - known.value), known_error * std::max(1.0, known.value),
-               fmt::format("kd {:g}, ks {:g}, n {:g}", known.diffuse, known.specular, known.exponent));
+    report.record("", "known values", std::abs(seen - known.value), known_error * std::max(1.0, known.value),
+                  fmt::format("kd {:g}, ks {:g}, n {:g}", known.diffuse, known.specular, known.exponent));
   }
   for (const auto& known : known_reflectivities) {
     const double seen =
         device.reflectivity(material++, std::vector<double>{cosine_of(known.degrees)}).front().r;
     const std::string where = fmt::format("n {:g}, {:g} degrees", known.exponent, known.degrees);
-    report.see("", "known reflectivities", std::abs(seen / known.reflectivity - 1), reflectivity_error,
-               where);
-    // The quadrature that all else is measured against has to give them too, to all of their digits.
-    report.see("", "quadrature",
-               std::abs(lobe_reflectivity(known.exponent, known.degrees * pi / 180) - known.reflectivity),
-               6e-9, where);
+    report.record("", "known reflectivities", std::abs(seen / known.reflectivity - 1), reflectivity_error,
+                  where);
+    // The quadrature, which is the reference of other checks, must agree in all digits.
+    report.record("", "quadrature",
+                  std::abs(lobe_reflectivity(known.exponent, known.degrees * pi / 180) - known.reflectivity),
+                  6e-9, where);
   }
 }
 

@@ -11,9 +11,9 @@ namespace phlux::verify {
 namespace {
 
 constexpr double density_error = 1e-5;
-constexpr std::size_t pairs_per_case = 24; // each needs a quadrature
+constexpr std::size_t pairs_per_case = 24; // few, as each takes a quadrature
 
-// Of the first direction where the second is fixed: bidirectional weights ask for both.
+// The situation with the directions exchanged, as in bidirectional weights.
 Situation reversed(const Situation& at, const Direction& fixed) {
   return {at.model, fixed,
           lobe_reflectivity(at.model.exponent, std::atan2(std::hypot(fixed.x, fixed.y), fixed.z))};
@@ -53,17 +53,17 @@ void check_pairs(const Subject& subject) {
     const auto seen = subject.device.evaluate(one.material, pairs);
     double worst = 0;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
-      // Each density is stated twice: by the call whose fixed direction is its own, and as the reverse of the
-      // other.
-      const auto see = [&](const Situation& at, const Direction& generated, double forward, double reverse) {
+      // Each density is returned twice: as the density of one call and as the reverse density of the other.
+      const auto compare = [&](const Situation& at, const Direction& generated, double forward,
+                               double reverse) {
         if (!compares(subject.strategy, at, generated)) return;
         const double right = density(subject.strategy, at, generated);
         worst = std::max({worst, error_of(forward, right), error_of(reverse, right)});
       };
-      see(one.at, pairs[i].b, seen[i].density, seen[i].reversed_reverse);
-      see(reversed(one.at, pairs[i].b), pairs[i].a, seen[i].reversed_density, seen[i].reverse);
+      compare(one.at, pairs[i].b, seen[i].density, seen[i].reversed_reverse);
+      compare(reversed(one.at, pairs[i].b), pairs[i].a, seen[i].reversed_density, seen[i].reverse);
     }
-    subject.report.see(subject.strategy.name, "both roles", worst, density_error, one.name);
+    subject.report.record(subject.strategy.name, "both roles", worst, density_error, one.name);
   }
 }
 

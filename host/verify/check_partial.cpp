@@ -15,15 +15,15 @@ constexpr int side = 21;
 constexpr double evaluated_error = 1e-5; // of the device's f_r, summed over a cell, relative to the whole
 constexpr double sum_error = 1e-4;       // of the reflectivity function
 
-// All that the three functions say about the power that goes through the cells; the last cell is the rest of
-// the hemisphere, for samples alone.
+// Partial reflectivities of the cells by integration, evaluation and sampling. The last cell, of samples
+// only, is the rest of the hemisphere.
 struct Partial {
   std::vector<Rgb> integrated, evaluated, sampled;
   std::vector<Rgb> squares; // expected square of a sample's weight, 0 outside the cell
 };
 
-// The mean square of a weight per solid angle, without roulette: (f_r cos)^2 / density, or that of each part
-// alone.
+// The mean square of a weight per solid angle, without roulette: (f_r cos)^2 / density, or the sum of that of
+// each part.
 Rgb square_density(const Strategy& strategy, const Situation& at, const Direction& w) {
   if (strategy.family != Family::parts) {
     const Rgb carried = value(at.model, at.fixed, w) * w.z;
@@ -48,7 +48,7 @@ Partial integrate(const Subject& subject, const Case& one, const DiskGrid& grid)
   for (const Node& node : nodes) pairs.push_back({one.at.fixed, as_float(node.direction)});
   const auto values = subject.device.evaluate(one.material, pairs);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const Direction& there = pairs[i].b; // where float32 puts it: n = 1e6 tells the difference
+    const Direction& there = pairs[i].b; // rounded to float32, which matters for n = 1e6
     const double weight = nodes[i].weight, projected = weight * nodes[i].direction.z;
     partial.integrated[nodes[i].cell] += projected * value(one.at.model, one.at.fixed, there);
     partial.evaluated[nodes[i].cell] += projected * values[i].value;
@@ -63,23 +63,22 @@ void add_samples(Partial& partial, const DiskGrid& grid, const std::vector<Sampl
   for (Rgb& sum : partial.sampled) sum /= static_cast<double>(samples.size());
 }
 
-// Chi-square of the sampled against the integrated partial reflectivities. Cells are pooled until so many
-// samples bring what they carry that the sum is as good as normal.
+// Chi-square of the sampled against the integrated partial reflectivities. Cells are pooled until their sum
+// has enough effective samples to be normal.
 double sampled_p(const Partial& partial, std::size_t count, int channel) {
   constexpr double fewest = 100;
   const auto samples = static_cast<double>(count);
   double statistic = 0, off = 0, squares = 0, mean = 0;
   double whole = 0;
   for (const Rgb& cell : partial.integrated) whole += cell[channel];
-  const double least =
-      1e-9 * whole; // below it, and where a lobe's square leaves float64, nothing is compared
+  const double least = 1e-9 * whole; // smaller sums, whose squares may underflow, are not compared
   int degrees = 0;
   for (std::size_t cell = 0; cell + 1 < partial.integrated.size(); ++cell) {
     off += partial.sampled[cell][channel] - partial.integrated[cell][channel];
     mean += partial.integrated[cell][channel];
     squares += partial.squares[cell][channel];
     if (mean <= least || samples * mean * mean / squares < fewest) continue;
-    const double float_error = 1e-5 * mean; // where a cell gets all samples, with equal weights
+    const double float_error = 1e-5 * mean; // for a cell with all samples, of equal weights
     statistic += off * off / (std::max(0.0, squares - mean * mean) / samples + float_error * float_error);
     ++degrees;
     off = squares = mean = 0;
@@ -111,17 +110,17 @@ void compare(const Subject& subject, const Case& one, const DiskGrid& grid,
                              std::abs(partial.evaluated[cell][channel] - partial.integrated[cell][channel]) /
                                  one.at.total()[channel]);
   }
-  report.see(name, "evaluated", evaluated, evaluated_error, where);
+  report.record(name, "evaluated", evaluated, evaluated_error, where);
   if (grid.x(0) < -0.9 && grid.y(0) < -0.9) { // the whole hemisphere
     const Rgb whole = subject.device.reflectivity(one.material, std::vector<double>{one.at.fixed.z}).front();
     for (int channel = 0; channel < 3; ++channel)
       if (whole[channel] > 0)
-        report.see(name, "sum", std::abs(sum[channel] / whole[channel] - 1), sum_error, where);
+        report.record(name, "sum", std::abs(sum[channel] / whole[channel] - 1), sum_error, where);
   }
   const Strategy& strategy = subject.strategy;
   if (strategy.estimates() || (strategy.family == Family::smooth && one.at.model.exponent > 100)) return;
   for (int channel = 0; channel < 3; ++channel)
-    if (report.see_p(name, "partial", sampled_p(partial, samples.size(), channel), where))
+    if (report.record_p(name, "partial", sampled_p(partial, samples.size(), channel), where))
       report.keep(name, "partial", histogram_of(grid, partial, channel));
 }
 

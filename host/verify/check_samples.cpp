@@ -11,17 +11,17 @@
 namespace phlux::verify {
 namespace {
 
-// Directions that stand for none, such as NaN, fall outside all cells.
+// False for invalid directions, such as NaN, which are in no cell.
 bool is_unit(const Direction& d) {
   return std::abs(glm::dot(d, d) - 1) < 1e-5;
 }
 
-const SphereGrid& plain_grid() { // for densities that know nothing of the lobe
+const SphereGrid& plain_grid() { // for densities that do not depend on the lobe
   static const SphereGrid grid({0, 0, 1}, {0.1, 0.3, 0.75, 1.3, 1.5});
   return grid;
 }
 
-// Closed forms: the cells end at angles from the normal and at longitudes.
+// Probabilities in closed form; the cells are bounded by angles from the normal and longitudes.
 std::vector<double> plain_cells(const std::string& strategy) {
   std::vector<double> cells(plain_grid().cells());
   for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -88,7 +88,7 @@ void check_directions(const Subject& subject, const Drawn& drawn) {
   expected.cells.push_back(std::max(0.0, 1 - inside));
   for (double& cell : expected.cells) cell *= static_cast<double>(drawn.samples.size());
   const double p = chi_square_p(observed, expected.cells);
-  if (subject.report.see_p(subject.strategy.name, "directions", p, drawn.where))
+  if (subject.report.record_p(subject.strategy.name, "directions", p, drawn.where))
     subject.report.keep(subject.strategy.name, "directions",
                         histogram_of(*expected.grid, observed, expected.cells));
 }
@@ -96,23 +96,23 @@ void check_directions(const Subject& subject, const Drawn& drawn) {
 void check_means(const Subject& subject, const Drawn& drawn, double& pooled, int& pools) {
   const Strategy& strategy = subject.strategy;
   const Situation& at = drawn.one.at;
-  if (strategy.family == Family::smooth && at.model.exponent > 100) return; // no sample finds the lobe
-  if (subject.samples < thin_samples) return; // too few take the rarer lobe for their mean to be normal
+  if (strategy.family == Family::smooth && at.model.exponent > 100) return; // too few samples hit the lobe
+  if (subject.samples < thin_samples) return; // too few samples of the rarer lobe for a normal mean
   const double kept = strategy.biased() ? 1 - drawn.cells.below : 1; // of the specular part
   const Rgb expected = at.model.diffuse + at.model.specular * (at.reflectivity * kept);
   for (int channel = 0; channel < 3; ++channel) {
     PowerSums sums;
     for (const Sample& s : drawn.samples) sums.add(s.survives ? s.weight[channel] : 0.0);
     const Moments moments = moments_of(sums);
-    // Weights of float32, with a reflectivity from a table, cannot be nearer than their own error.
+    // The relative error of float32 weights with a reflectivity from a table.
     constexpr double float_error = 1e-5;
     const double off = moments.mean - expected[channel];
     const double allowed = float_error * expected[channel];
     const double error = moments.mean_standard_error;
     const double beyond = std::max(0.0, std::abs(off) - allowed);
-    const double sigmas = beyond == 0 ? 0 : beyond / error; // infinite where all weights are alike and wrong
-    subject.report.see_p(strategy.name, "means", normal_p(sigmas),
-                         fmt::format("{}, channel {}", drawn.where, channel));
+    const double sigmas = beyond == 0 ? 0 : beyond / error; // infinite if all weights are equal and wrong
+    subject.report.record_p(strategy.name, "means", normal_p(sigmas),
+                            fmt::format("{}, channel {}", drawn.where, channel));
     if (channel == 0 && error > allowed) {
       pooled += off / error;
       ++pools;
@@ -120,8 +120,7 @@ void check_means(const Subject& subject, const Drawn& drawn, double& pooled, int
   }
 }
 
-// What is wrong with the rare second draw of `exact` takes more samples to be seen, and a lobe alone, which
-// hides nothing.
+// Errors of the rare second draw of `exact` show only with more samples, and without a diffuse part.
 std::size_t samples_of(const Subject& subject, const Case& one) {
   constexpr std::size_t of_redraws = 1 << 18;
   const bool redraws = subject.strategy.name == "exact" && one.at.model.diffuse_max() == 0;
@@ -147,8 +146,8 @@ void check_samples(const Subject& subject) {
     }
   }
   if (pools > 0)
-    subject.report.see(subject.strategy.name, "pooled means", std::abs(pooled) / std::sqrt(pools), 4,
-                       fmt::format("{} cases together", pools));
+    subject.report.record(subject.strategy.name, "pooled means", std::abs(pooled) / std::sqrt(pools), 4,
+                          fmt::format("{} cases together", pools));
 }
 
 } // namespace phlux::verify

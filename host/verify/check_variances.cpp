@@ -12,8 +12,8 @@ namespace {
 constexpr double most_sigmas = 4;
 constexpr std::size_t batch = 1 << 18; // samples at once
 
-// Variances of one sample of the reflectivity, by quadrature (MATH.md 2.6). Absorption by roulette where the
-// strategy chooses between lobes.
+// Variances of one sample of the reflectivity, by quadrature (MATH.md 2.6); with roulette for strategies that
+// choose between lobes.
 struct KnownVariance {
   double diffuse, specular, exponent, degrees;
   double uniform, cosine, lobe_ks, lobe_rho, mixture;
@@ -33,7 +33,7 @@ constexpr KnownVariance known_variances[] = {
     {.4, .4, 10, 60, 0.324622, 0.221324, 0.165507, 0.290892, 0.275923},
     {.1, .8, 90, 30, 21.864599, 12.407981, 0.073705, 0.166876, 0.166749}};
 
-// Where CW 197's printed estimate loses a known share of the specular part (MATH.md 2.4).
+// Shares of the specular part that CW 197's printed estimate loses (MATH.md 2.4).
 struct KnownLoss {
   double exponent, degrees, share, digits; // `digits`: half of the last printed one
 };
@@ -50,43 +50,44 @@ Moments draw(const DeviceModel& device, const Case& one, std::size_t count, std:
   return moments_of(sums);
 }
 
-void check_known_variances(const Subject& subject, const DeviceModel& device, const VarianceCases& cases,
-                           std::size_t count) {
+void check_known_variances(const Subject& subject, const DeviceModel& device,
+                           const std::vector<scene::Material>& materials, std::size_t count) {
   const Strategy& strategy = subject.strategy;
   const bool roulette = strategy.family != Family::smooth;
   for (std::size_t i = 0; i < std::size(known_variances); ++i) {
-    const Case one = make_case(cases.materials, static_cast<int>(i), known_variances[i].degrees);
+    const Case one = make_case(materials, static_cast<int>(i), known_variances[i].degrees);
     const Moments m = draw(device, one, count, 900 + static_cast<std::uint32_t>(i), roulette);
     const double mean = one.at.total().r, allowed = 1e-5 * mean; // float32
     if (!strategy.biased())
-      subject.report.see(strategy.name, "mean, long",
-                         std::max(0.0, std::abs(m.mean - mean) - allowed) / m.mean_standard_error,
-                         most_sigmas, one.name);
-    // Weight 1 leaves the variance of roulette alone.
+      subject.report.record(strategy.name, "mean, long",
+                            std::max(0.0, std::abs(m.mean - mean) - allowed) / m.mean_standard_error,
+                            most_sigmas, one.name);
+    // With weight 1 the only variance is that of roulette.
     const double known = strategy.name == "exact" || strategy.name == "rejection"
                              ? mean * (1 - mean)
                              : known_variances[i].of(strategy.name);
     if (known > 0)
-      subject.report.see(strategy.name, "variance",
-                         std::max(0.0, std::abs(m.variance - known) - 1e-6) / m.variance_standard_error,
-                         most_sigmas, one.name);
+      subject.report.record(strategy.name, "variance",
+                            std::max(0.0, std::abs(m.variance - known) - 1e-6) / m.variance_standard_error,
+                            most_sigmas, one.name);
   }
 }
 
-void check_known_losses(const Subject& subject, const DeviceModel& device, const VarianceCases& cases,
-                        std::size_t count) {
+void check_known_losses(const Subject& subject, const DeviceModel& device,
+                        const std::vector<scene::Material>& materials, std::size_t count) {
   const std::string check = "loss as derived";
   std::string note = "biased, as printed in CW 197: loses";
   for (std::size_t i = 0; i < std::size(known_losses); ++i) {
     const Case one =
-        make_case(cases.materials, static_cast<int>(std::size(known_variances) + i), known_losses[i].degrees);
+        make_case(materials, static_cast<int>(std::size(known_variances) + i), known_losses[i].degrees);
     const Moments m = draw(device, one, count, 950 + static_cast<std::uint32_t>(i), true);
     const double specular = one.at.reflectivity, loss = 1 - m.mean / specular,
                  error = m.mean_standard_error / specular;
-    const double derived = cells_of(one.at).below; // how often the estimate is 0
-    subject.report.see(subject.strategy.name, check, std::abs(loss - derived) / error, most_sigmas, one.name);
-    subject.report.see(subject.strategy.name, "loss as known",
-                       std::abs(derived - known_losses[i].share) / known_losses[i].digits, 1, one.name);
+    const double derived = cells_of(one.at).below; // the probability that the estimate is 0
+    subject.report.record(subject.strategy.name, check, std::abs(loss - derived) / error, most_sigmas,
+                          one.name);
+    subject.report.record(subject.strategy.name, "loss as known",
+                          std::abs(derived - known_losses[i].share) / known_losses[i].digits, 1, one.name);
     note += fmt::format(
         "{} {:.2f} +- {:.2f}% of the specular part at n {:g}, {:g} degrees ({:.1f}% by quadrature)",
         i == 0 ? "" : ",", 100 * loss, 100 * error, known_losses[i].exponent, known_losses[i].degrees,
@@ -97,20 +98,21 @@ void check_known_losses(const Subject& subject, const DeviceModel& device, const
 
 } // namespace
 
-VarianceCases make_variance_cases() {
+std::vector<scene::Material> variance_materials() {
   std::vector<scene::Material> materials;
   const auto add = [&](double diffuse, double specular, double exponent) {
     materials.push_back(lobes::phong(Rgb(diffuse), Rgb(specular), exponent));
   };
   for (const auto& known : known_variances) add(known.diffuse, known.specular, known.exponent);
   for (const auto& known : known_losses) add(0, 1, known.exponent);
-  return {materials};
+  return materials;
 }
 
-void check_variances(const Subject& subject, const DeviceModel& device, const VarianceCases& cases) {
+void check_variances(const Subject& subject, const DeviceModel& device,
+                     const std::vector<scene::Material>& materials) {
   const std::size_t count = subject.samples * (subject.quick ? 8 : 64);
-  check_known_variances(subject, device, cases, count);
-  if (subject.strategy.biased()) check_known_losses(subject, device, cases, 4 * count);
+  check_known_variances(subject, device, materials, count);
+  if (subject.strategy.biased()) check_known_losses(subject, device, materials, 4 * count);
 }
 
 } // namespace phlux::verify

@@ -9,7 +9,7 @@
 namespace phlux::verify {
 namespace {
 
-constexpr double weight_error = 1e-5; // relative, of a weight against float64's at the same direction
+constexpr double weight_error = 1e-5; // relative to the weight in float64 for the same direction
 
 double relative(double seen, double right) {
   if (right == 0) return seen == 0 ? 0 : INFINITY;
@@ -17,8 +17,8 @@ double relative(double seen, double right) {
 }
 
 double worst_relative(const Rgb& seen, const Rgb& right) {
-  // Channels in which the lobe has nearly gone are compared no further: float32 holds its exponent n
-  // log1p(-x) to one part in 2^24, so the lobe itself to ln(1e-30) / 2^24 = 4e-6.
+  // The relative error of n log1p(-x) in float32 is 2^-24, that of its exponential, down to 1e-30, at most
+  // -ln(1e-30) / 2^24 = 4e-6. Smaller values are not compared.
   double worst = 0;
   for (int channel = 0; channel < 3; ++channel)
     if (right[channel] > 1e-30 || right[channel] == 0)
@@ -26,13 +26,13 @@ double worst_relative(const Rgb& seen, const Rgb& right) {
   return worst;
 }
 
-// Weights of the part that was drawn; which one was is not known, so the nearer counts.
+// The error of the weight of one part. The sampled part is not known, so that the smaller error counts.
 double part_error(const Subject& subject, const Drawn& drawn, const Sample& s) {
   const Model& m = drawn.one.at.model;
   const double guess = subject.strategy.guess == Guess::certain ? 1 : drawn.one.at.reflectivity;
   const PartShares shares = shares_of(drawn.one.at, guess, drawn.roulette);
   const Rgb from_diffuse = m.diffuse / shares.diffuse;
-  // shares.specular = P(part) of ks_max, so ks over it is (ks / ks_max) / P.
+  // shares.specular is the probability of the part, which is proportional to ks_max.
   const double lobe = (m.exponent + 2) / (m.exponent + 1) * s.direction.z;
   const Rgb from_lobe = m.specular * (lobe / shares.specular);
   double error = INFINITY;
@@ -77,11 +77,12 @@ void check_weights(const Subject& subject, const Drawn& drawn) {
     if (strategy.name == "exact" && grey && drawn.roulette && at.total().r < 0.999)
       from_one = std::max(from_one, std::abs(s.weight.r - 1));
   }
-  if (!strategy.estimates()) subject.report.see(strategy.name, "weights", worst, weight_error, drawn.where);
-  subject.report.see(strategy.name, "edge", edge, 1, drawn.where); // see check_densities
-  if (bound) subject.report.see(strategy.name, "bounds", largest / *bound, 1 + weight_error, drawn.where);
+  if (!strategy.estimates())
+    subject.report.record(strategy.name, "weights", worst, weight_error, drawn.where);
+  subject.report.record(strategy.name, "edge", edge, 1, drawn.where); // see check_densities
+  if (bound) subject.report.record(strategy.name, "bounds", largest / *bound, 1 + weight_error, drawn.where);
   if (strategy.name == "exact" && grey && drawn.roulette)
-    subject.report.see(strategy.name, "weight 1", from_one, weight_error, drawn.where);
+    subject.report.record(strategy.name, "weight 1", from_one, weight_error, drawn.where);
 }
 
 } // namespace phlux::verify

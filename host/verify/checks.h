@@ -1,4 +1,5 @@
-// The checks of one strategy, each in a file of its own. They see figures into the report and judge nothing.
+// The checks of one strategy, each in a file of its own. They record figures in the report, which judges
+// them.
 #pragma once
 
 #include "measure/device_model.h"
@@ -8,10 +9,10 @@
 
 namespace phlux::verify {
 
-/// What the checks of one strategy share.
-/// Below so many samples per case the checks that count none of them are thinned out too: for interpreters.
+/// With fewer samples per case, as for interpreters, checks that take no samples are reduced too.
 inline constexpr std::size_t thin_samples = 1000;
 
+/// What the checks of one strategy share.
 struct Subject {
   const Strategy& strategy;
   const DeviceModel& device;
@@ -22,46 +23,46 @@ struct Subject {
   Report& report;
 };
 
-/// Samples that were drawn for one case.
+/// The samples of one case.
 struct Drawn {
   const Case& one;
   const CaseCells& cells;
   bool roulette;
   const std::vector<Sample>& samples;
-  std::string where; ///< for people
+  std::string where; ///< the case, in words
 };
 
-/// Draws for all cases, with and without roulette, and asks the checks below about them.
+/// Samples all cases, with and without roulette, for the checks below.
 void check_samples(const Subject& subject);
 
 void check_directions(const Subject& subject,
                       const Drawn& drawn); ///< chi-square against the closed-form density
 void check_means(const Subject& subject, const Drawn& drawn, double& pooled,
-                 int& pools);                                     ///< E[weight] = reflectivity
-void check_weights(const Subject& subject, const Drawn& drawn);   ///< f_r cos / (density x survival), bounded
-void check_densities(const Subject& subject, const Drawn& drawn); ///< float64's, unit vectors, finite numbers
+                 int& pools);                                   ///< E[weight] = reflectivity
+void check_weights(const Subject& subject, const Drawn& drawn); ///< f_r cos / (density x survival), bounded
+void check_densities(const Subject& subject,
+                     const Drawn& drawn); ///< against float64; unit directions, finite
 
 void check_partial(const Subject& subject);  ///< CW 197, section 5: reflectivities through squares of (x, y)
-void check_pairs(const Subject& subject);    ///< stated densities, with either direction fixed
+void check_pairs(const Subject& subject);    ///< densities and reverse densities, with either direction fixed
 void check_jacobian(const Subject& subject); ///< density against the sampler's finite differences
 void check_extremes(const Subject& subject); ///< first and last random numbers, grazing and normal incidence
 
 /// Materials of known variances and of known bias.
-struct VarianceCases {
-  std::vector<scene::Material> materials;
-};
-[[nodiscard]] VarianceCases make_variance_cases();
-/// Longer runs. `device` was built with the table of `cases`.
-void check_variances(const Subject& subject, const DeviceModel& device, const VarianceCases& cases);
+[[nodiscard]] std::vector<scene::Material> variance_materials();
+/// Variances and bias, with more samples. `device` was built with `materials`, which are
+/// variance_materials().
+void check_variances(const Subject& subject, const DeviceModel& device,
+                     const std::vector<scene::Material>& materials);
 
-/// Of the model, whatever the strategy.
+/// Cases of the model, independent of the strategy.
 struct ModelCases {
   std::vector<scene::Material> materials; ///< first one material per exponent
   std::vector<double> exponents;
 };
 [[nodiscard]] ModelCases make_model_cases(bool quick);
-/// Reflectivity, energy, value, reciprocity and known values. `device` was built with the table of `cases`;
-/// `pairs` of directions are evaluated for each exponent.
+/// Reflectivity, energy, value, reciprocity and known values. `device` was built with the materials of
+/// `cases`; `pairs` pairs of directions are evaluated for each exponent.
 void check_model(const DeviceModel& device, const ModelCases& cases, bool quick, std::size_t pairs,
                  Report& report);
 

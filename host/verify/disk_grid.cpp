@@ -8,8 +8,8 @@
 namespace phlux::verify {
 namespace {
 
-// The disk as x = sin(a), y = cos(a) sin(t), z = cos(a) cos(t), with solid angle cos(a) da dt: smooth up to
-// the rim.
+// Parameters (a, t) of the hemisphere that are smooth up to the rim of the disk: x = sin(a), y = cos(a)
+// sin(t), z = cos(a) cos(t), with solid angle cos(a) da dt.
 double longitude_at(double y, double cos_a) {
   return std::asin(std::clamp(y / std::max(cos_a, 1e-300), -1.0, 1.0));
 }
@@ -52,7 +52,7 @@ void DiskGrid::add_nodes(std::vector<Node>& list, const Square& s, std::size_t c
                          const Direction& fixed, int depth) const {
   const double nearest_x = std::clamp(0.0, s.x0, s.x1), nearest_y = std::clamp(0.0, s.y0, s.y1);
   if (std::hypot(nearest_x, nearest_y) >= 1) return;
-  // Quarter squares that are wide against the lobe and near it, or that alpha = pi / 2 crosses.
+  // Subdivide squares that are near the lobe and wider than it, or that are crossed by alpha = pi / 2.
   const Direction axis = glm::normalize(Direction(-fixed.x, -fixed.y, fixed.z));
   const Direction middle = clamped((s.x0 + s.x1) / 2, (s.y0 + s.y1) / 2);
   double extent = 0, least = 1, most = -1;
@@ -74,7 +74,7 @@ void DiskGrid::add_nodes(std::vector<Node>& list, const Square& s, std::size_t c
       add_nodes(list, quarter, cell, exponent, fixed, depth + 1);
     return;
   }
-  // Cut where an edge of the square leaves the disk.
+  // Split the range of a where an edge of the square leaves the disk.
   const double from = std::asin(std::clamp(s.x0, -1.0, 1.0)), to = std::asin(std::clamp(s.x1, -1.0, 1.0));
   std::vector<double> cuts{from, to};
   for (const double y : {s.y0, s.y1})

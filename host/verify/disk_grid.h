@@ -1,5 +1,4 @@
-// CW 197's grid for verification: squares of the (x, y) parameters of the hemisphere, with a quadrature that
-// fits them.
+// CW 197's grid for verification: squares of the (x, y) coordinates of the hemisphere, with a quadrature.
 #pragma once
 
 #include <vector>
@@ -9,8 +8,8 @@
 
 namespace phlux::verify {
 
-/// A square grid of side * side cells over part of the (x, y) plane, side odd so that no cell's edge lies on
-/// a lobe's tip in its middle. Cells are numbered along x first.
+/// A square grid of side * side cells over part of the (x, y) plane; side is odd, so that the axis of a lobe
+/// in its middle is inside a cell. Cells are numbered along x first.
 class DiskGrid {
 public:
   DiskGrid(double middle_x, double middle_y, double half_width, int side);
@@ -22,8 +21,8 @@ public:
   [[nodiscard]] double x(std::size_t cell) const; ///< middle of the cell
   [[nodiscard]] double y(std::size_t cell) const;
 
-  /// Nodes whose weights are solid angles, a whole rule in each cell and finer where the lobe of this
-  /// exponent, or the edge at alpha = pi / 2 of a wide one, asks for it.
+  /// Quadrature nodes, whose weights are solid angles: a rule in each cell, subdivided near the lobe of this
+  /// exponent and, for wide lobes, at alpha = pi / 2.
   [[nodiscard]] std::vector<Node> nodes(double exponent, const Direction& fixed) const;
 
 private:

@@ -25,7 +25,7 @@ std::string csv_of(const Histogram& histogram) {
   return text;
 }
 
-// The drawn columns as grey squares beside each other, in one scale; y upwards.
+// The drawn columns as grey squares side by side, with one scale; y upwards.
 files::Image picture_of(const Histogram& histogram) {
   constexpr std::size_t zoom = 8;
   const std::size_t side = histogram.side, width = side * histogram.drawn.size();

@@ -16,15 +16,15 @@ Direction mirrored(const Direction& fixed) {
   return glm::normalize(Direction(-fixed.x, -fixed.y, fixed.z));
 }
 
-// cos^n(alpha), from the chord between the directions: no cancellation at large exponents.
+// cos^n(alpha) from the chord between the directions, without cancellation for large exponents.
 double cosine_power(double exponent, const Direction& fixed, const Direction& generated) {
   const double chord = glm::length(mirrored(fixed) - glm::normalize(generated));
   const double one_minus_cosine = chord * chord / 2;
   return one_minus_cosine < 1 ? std::exp(exponent * std::log1p(-one_minus_cosine)) : 0.0;
 }
 
-// The integral of the cosine with the normal along the circle at `alpha` about the lobe's axis, which is
-// `angle` from the normal, as far as the circle is above the surface.
+// The integral of the cosine with the normal along the part above the surface of the circle at `alpha` about
+// the lobe's axis, which is at `angle` from the normal.
 double circle_integral(double angle, double alpha) {
   const double along = std::cos(angle) * std::cos(alpha), across = std::sin(angle) * std::sin(alpha);
   const double turn = across <= along ? pi : std::acos(-along / across);
@@ -50,7 +50,7 @@ Direction polar(double angle, double longitude) {
 }
 
 Direction as_float(const Direction& direction) {
-  // GCC 12 drops a conversion to float and back when it vectorises it at -O2; not through volatile.
+  // `volatile`, as GCC 12 at -O2 drops a conversion to float and back that it vectorises.
   const auto rounded = [](double value) {
     const volatile float narrow = static_cast<float>(value);
     return static_cast<double>(narrow);
@@ -65,7 +65,7 @@ double lobe(double exponent, const Direction& fixed, const Direction& generated)
 double lobe_condition(double exponent, const Direction& fixed, const Direction& generated) {
   const double chord = glm::length(mirrored(fixed) - glm::normalize(generated));
   const double cosine = 1 - chord * chord / 2;
-  return cosine > 0 ? exponent * (1 - cosine) / cosine : 0; // beyond pi / 2 it is 0
+  return cosine > 0 ? exponent * (1 - cosine) / cosine : 0; // the lobe is 0 beyond pi / 2
 }
 
 double edge_error(double condition) {
@@ -78,7 +78,7 @@ Rgb value(const Model& model, const Direction& fixed, const Direction& generated
 }
 
 double lobe_reflectivity(double exponent, double angle) {
-  // Cut where the circles begin to dip below the surface, and often enough where the lobe falls off.
+  // Intervals end where the circles begin to intersect the surface; they are short where the lobe falls off.
   std::vector<double> cuts{0, pi / 2, std::max(0.0, pi / 2 - angle)};
   const double width = 1 / std::sqrt(exponent + 1);
   for (const double widths : {0.5, 1., 1.5, 2., 2.5, 3., 4., 5., 6., 8.})
@@ -92,7 +92,8 @@ double lobe_reflectivity(double exponent, double angle) {
   for (std::size_t i = 0; i + 1 < cuts.size() && cuts[i] < 9 * width; ++i) {
     const double from = cuts[i], to = cuts[i + 1];
     if (to - from < 1e-14) continue;
-    // alpha = from + (to - from) t^2 takes away the square root with which a circle dips.
+    // The substitution alpha = from + (to - from) t^2 removes the square root at which a circle meets the
+    // surface.
     using Rule = boost::math::quadrature::gauss<double, 20>;
     sum += Rule::integrate(
         [&](double t) { return integrand(from + (to - from) * t * t) * 2 * t * (to - from); }, 0.0, 1.0);

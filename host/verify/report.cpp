@@ -15,14 +15,14 @@ Result& Report::at(const std::string& strategy, const std::string& check, Sense 
     result.strategy = strategy;
     result.check = check;
     result.sense = sense;
-    result.worst = sense == Sense::probability ? 2 : -1; // anything seen is worse
+    result.worst = sense == Sense::probability ? 2 : -1; // any figure is worse
     results_.push_back(std::move(result));
   }
   return results_[found->second];
 }
 
-void Report::see(const std::string& strategy, const std::string& check, double figure, double limit,
-                 const std::string& where) {
+void Report::record(const std::string& strategy, const std::string& check, double figure, double limit,
+                    const std::string& where) {
   Result& result = at(strategy, check, Sense::at_most);
   ++result.seen;
   const double counted = std::isfinite(figure) ? figure : std::numeric_limits<double>::infinity();
@@ -32,12 +32,12 @@ void Report::see(const std::string& strategy, const std::string& check, double f
   result.where = where;
 }
 
-bool Report::see_p(const std::string& strategy, const std::string& check, double p,
-                   const std::string& where) {
+bool Report::record_p(const std::string& strategy, const std::string& check, double p,
+                      const std::string& where) {
   constexpr double suspicious = 1e-4;
   Result& result = at(strategy, check, Sense::probability);
   ++result.seen;
-  ++questions_;
+  ++p_values_;
   const double counted = std::isfinite(p) ? p : 0;
   if (counted >= result.worst) return false;
   result.worst = counted;
@@ -55,8 +55,7 @@ void Report::note(const std::string& strategy, const std::string& check, const s
 
 void Report::judge() {
   for (Result& result : results_) {
-    if (result.sense == Sense::probability)
-      result.limit = measure::level_of_each(false_alarm_rate, questions_);
+    if (result.sense == Sense::probability) result.limit = measure::sidak_limit(false_alarm_rate, p_values_);
     result.passed =
         result.sense == Sense::probability ? result.worst > result.limit : result.worst <= result.limit;
   }

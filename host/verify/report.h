@@ -1,4 +1,4 @@
-// What verification found: one result per strategy and check, and the histograms of those that failed.
+// The results of a verification: one per strategy and check, with histograms of those that failed.
 #pragma once
 
 #include <cstddef>
@@ -9,49 +9,50 @@
 
 namespace phlux::verify {
 
-/// A verification raises a false alarm with this probability, were its seeds drawn anew. They are fixed: what
-/// passes on a device keeps passing there.
+/// Probability of a false alarm of a whole verification, over all seeds. As seeds are fixed, a verification
+/// that passes on a device always passes there.
 inline constexpr double false_alarm_rate = 1e-4;
 
-/// What was expected and what was seen in each cell; written to a file when its check fails.
+/// Expected and observed values per cell; written to a file when its check fails.
 struct Histogram {
   std::vector<std::string> columns;
   std::vector<std::vector<double>> rows;
-  std::size_t side = 0;           ///< of a square grid whose rows these are, for a picture; 0: no picture
-  std::vector<std::size_t> drawn; ///< columns to draw beside each other
+  std::size_t side = 0; ///< side of the square grid of which the rows are cells; 0: no grid, no picture
+  std::vector<std::size_t> drawn; ///< columns to draw side by side
 };
 
 enum class Sense {
-  at_most,    ///< the largest figure counts and must not exceed the limit
-  probability ///< the smallest p-value counts; the limit is Sidak's, for all p-values of the run
+  at_most,    ///< the largest figure must not exceed the limit
+  probability ///< the smallest p-value must exceed the limit, which is Sidak's for all p-values of the run
 };
 
 struct Result {
-  std::string strategy; ///< empty: of the model, whatever the strategy
+  std::string strategy; ///< empty: of the model
   std::string check;
   Sense sense = Sense::at_most;
   double worst = 0, limit = 0;
-  std::size_t seen = 0;    ///< figures that `worst` is the worst of
+  std::size_t seen = 0;    ///< number of figures
   std::string where, note; ///< of the worst figure
   Histogram histogram;     ///< of the worst p-value
   bool passed = true;
-  std::vector<std::string> files; ///< what was written about the failure
+  std::vector<std::string> files; ///< written by write_failures
 };
 
 class Report {
 public:
-  /// Sees one figure of a check. Figures that are not finite fail.
-  void see(const std::string& strategy, const std::string& check, double figure, double limit,
-           const std::string& where);
-  /// Sees one p-value; returns whether it is so bad that its histogram is worth keeping.
-  bool see_p(const std::string& strategy, const std::string& check, double p, const std::string& where);
+  /// Records a figure of a check. Figures that are not finite fail.
+  void record(const std::string& strategy, const std::string& check, double figure, double limit,
+              const std::string& where);
+  /// Records a p-value; returns whether it is the smallest so far and so small that its histogram should be
+  /// kept.
+  bool record_p(const std::string& strategy, const std::string& check, double p, const std::string& where);
   void keep(const std::string& strategy, const std::string& check, Histogram histogram);
   void note(const std::string& strategy, const std::string& check, const std::string& text);
 
-  /// Compares all with their limits, now that the number of p-values is known.
+  /// Compares all results with their limits; to be called when all p-values are recorded.
   void judge();
   [[nodiscard]] bool passed() const;
-  [[nodiscard]] std::size_t questions() const { return questions_; } ///< p-values seen
+  [[nodiscard]] std::size_t p_values() const { return p_values_; } ///< their number
   [[nodiscard]] const std::vector<Result>& results() const { return results_; }
   [[nodiscard]] std::vector<Result>& results() { return results_; }
 
@@ -59,7 +60,7 @@ private:
   Result& at(const std::string& strategy, const std::string& check, Sense sense);
   std::vector<Result> results_;
   std::map<std::pair<std::string, std::string>, std::size_t> index_;
-  std::size_t questions_ = 0;
+  std::size_t p_values_ = 0;
 };
 
 } // namespace phlux::verify

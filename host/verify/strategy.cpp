@@ -21,7 +21,7 @@ double smooth_density(const std::string& name, const Direction& w) {
   return cosine_density(w);
 }
 
-// f_r over the smooth density, at most: cos / density times the largest f_r.
+// Largest weight, f_r cos / density, of a density that does not depend on the lobe.
 double smooth_bound(const std::string& name, const Situation& at) {
   const double largest_value =
       largest(at.model.diffuse + at.model.specular * ((at.model.exponent + 2) / 2)) / pi;
@@ -33,7 +33,7 @@ double smooth_bound(const std::string& name, const Situation& at) {
 } // namespace
 
 const std::vector<Strategy>& strategies() {
-  // Hit or miss against the lobe's maximum takes n draws, as many as density-blind sampling takes samples.
+  // Rejection sampling takes about n draws per sample, so that its exponent is limited.
   static const std::vector<Strategy> list{{"uniform", Family::smooth},
                                           {"theta-phi", Family::smooth},
                                           {"cosine", Family::smooth},
@@ -90,13 +90,13 @@ PartShares mean_shares(const Situation& at, const std::vector<GuessedValue>& gue
 }
 
 std::optional<double> weight_bound(const Strategy& strategy, const Situation& at, bool roulette) {
-  if (strategy.biased()) return std::nullopt; // 1 / estimate, which may be next to 0
+  if (strategy.biased()) return std::nullopt; // the estimate, by which the weight is divided, may be nearly 0
   const Model& m = at.model;
   const double by = survival_of(at, at.reflectivity, roulette);
   if (strategy.family == Family::smooth) return smooth_bound(strategy.name, at) / by;
   const double total = m.diffuse_max() + m.specular_max() * at.reflectivity;
-  if (strategy.family == Family::whole) return total / by; // 1 where roulette is by a colourless reflectivity
-  // A lobe sample carries at most (n + 2) / (n + 1) of the whole over what was guessed for its reflectivity.
+  if (strategy.family == Family::whole) return total / by; // 1 for grey materials with roulette
+  // The weight of a lobe sample is at most (n + 2) / (n + 1) / guess of the reflectivity.
   const double lobe = (m.exponent + 2) / (m.exponent + 1);
   double bound = 0;
   const std::vector<double> guesses = strategy.guess == Guess::certain ? std::vector<double>{1}

@@ -1,5 +1,5 @@
-// What each strategy of phong.cl should do, in float64: the density that it states, how often it takes which
-// lobe, and what its weights can be.
+// Reference of the strategies of phong.cl in float64: their densities, probabilities of lobes, and bounds of
+// weights.
 #pragma once
 
 #include <optional>
@@ -11,10 +11,10 @@
 namespace phlux::verify {
 
 enum class Family {
-  smooth,  ///< one density that knows nothing of the lobe
-  parts,   ///< one lobe or the other by roulette, weighted alone
-  mixture, ///< the same, weighted by f_r cos over the density of both
-  fold,    ///< as mixture, the lobe folded up at the horizon
+  smooth,  ///< a density that does not depend on the lobe
+  parts,   ///< chooses a lobe; weight of that lobe
+  mixture, ///< chooses a lobe; weight f_r cos / density of both lobes
+  fold,    ///< as mixture, with the part of the lobe below the horizon folded up
   whole    ///< f_r cos itself, normalised
 };
 enum class Guess {
@@ -22,13 +22,13 @@ enum class Guess {
   exact,
   estimated,
   estimated_printed
-}; ///< of the lobe's reflectivity, to choose by
+}; ///< of the lobe's reflectivity, for the choice
 
 struct Strategy {
   std::string name;
   Family family = Family::smooth;
   Guess guess = Guess::exact;
-  double largest_exponent = 1e6; ///< beyond it draws or samples take too long to be checked
+  double largest_exponent = 1e6; ///< larger ones take too many draws or samples to be checked
 
   [[nodiscard]] bool biased() const { return guess == Guess::estimated_printed; }
   [[nodiscard]] bool estimates() const {
@@ -36,10 +36,10 @@ struct Strategy {
   }
 };
 
-/// All of render::strategy_names(), in its order.
+/// All strategies of render::strategy_names(), in the same order.
 [[nodiscard]] const std::vector<Strategy>& strategies();
 
-/// A material, a fixed direction, and the lobe's reflectivity there by quadrature.
+/// A material, a fixed direction, and the lobe's reflectivity for it, by quadrature.
 struct Situation {
   Model model;
   Direction fixed;
@@ -48,33 +48,33 @@ struct Situation {
   [[nodiscard]] Rgb total() const { return model.diffuse + model.specular * reflectivity; }
 };
 
-/// The density that the strategy states for `generated`.
+/// The strategy's density of `generated`.
 [[nodiscard]] double density(const Strategy& strategy, const Situation& at, const Direction& generated);
 
-/// Whether a density jumps so near to `generated` that float32 may see it on the other side: at the horizon's
-/// image of `fold`, and for n = 0 at alpha = pi / 2.
+/// Whether `generated` is so near a discontinuity of the density that rounding to float32 may cross it: the
+/// mirror image of the horizon for `fold`, and alpha = pi / 2 for n = 0.
 [[nodiscard]] bool at_jump(const Strategy& strategy, const Situation& at, const Direction& generated);
 
-/// A value of the guess and its probability.
+/// A value of a random guess and its probability.
 struct GuessedValue {
   double guess, probability;
 };
 
-/// The probability that a path survives, and takes either part.
+/// Probabilities that a path survives and samples the diffuse or the specular part.
 struct PartShares {
   double diffuse = 0, specular = 0;
 };
 
 /// The shares for one guess of the lobe's reflectivity.
 [[nodiscard]] PartShares shares_of(const Situation& at, double guess, bool roulette);
-/// Averaged over what the strategy guesses.
+/// The mean shares over the strategy's guesses.
 [[nodiscard]] PartShares mean_shares(const Situation& at, const std::vector<GuessedValue>& guesses,
                                      bool roulette);
 
 /// The probability of surviving roulette for one guess.
 [[nodiscard]] double survival_of(const Situation& at, double guess, bool roulette);
 
-/// No weight of any channel is larger, in theory; nothing where there is no bound.
+/// Upper bound of the weights of all channels; nothing if they are unbounded.
 [[nodiscard]] std::optional<double> weight_bound(const Strategy& strategy, const Situation& at,
                                                  bool roulette);
 

@@ -107,7 +107,8 @@ typedef struct {
 // Roulette for the paths of `roulette`, then a sample of the model for those of `active` that survive it.
 static inline MaterialSample material_sample(Material m, Vec3 fixed, RandomDraws random, Mask roulette, Mask active) {
   const Real u = uniform_real(random.words.x), survival = material_survival(m, fixed, random, roulette);
-  const Real choice = u / survival; // uniform again, of the paths that survive
+  const Real inverse_survival = 1.0f / survival;
+  const Real choice = smaller(u * inverse_survival, (Real)(ONE_MINUS_EPSILON)); // uniform, of the paths that survive
   MaterialSample s;
   s.survives = u < survival;
   s.direction = fixed;
@@ -126,7 +127,7 @@ static inline MaterialSample material_sample(Material m, Vec3 fixed, RandomDraws
     s.draws = chosen ? of_model.draws : s.draws;                                                                       \
   }
   MODELS(SAMPLE)
-  s.weight = vec_select(s.direction.z > 0.0f, vec_scale(1.0f / survival, s.weight), vec_all((Real)(0.0f)));
+  s.weight = vec_select(s.direction.z > 0.0f, vec_scale(inverse_survival, s.weight), vec_all((Real)(0.0f)));
   return s;
 }
 

@@ -99,15 +99,14 @@ static inline Mask scatter(Subpath* s, Vertex v, int adjoint, Uint dimension, Pa
   *sample = material_sample(v.material, v.fixed, random_draws(s->sequence, dimension), s->edges >= limits.roulette, m);
   const Vec3 direction = from_frame(v.point.frame, sample->direction);
   const Real cosine = vec_dot(v.point.normal, direction);
-  Vec3 throughput = vec_mul(s->throughput, sample->weight);
+  s->throughput = vec_mul(s->throughput, sample->weight);
   if (HAS_SMOOTH_NORMALS && adjoint)
-    throughput = vec_scale(adjoint_cosine(v, sample->direction, cosine) / sample->direction.z, throughput);
+    s->throughput = vec_scale(adjoint_cosine(v, sample->direction, cosine) / sample->direction.z, s->throughput);
   if (IS_BIDIR) {
     const Real reverse = material_evaluate(v.material, v.fixed, sample->direction).reverse;
     s->mis = mis_scattered(s->mis, sample->density, reverse, cosine, sample->delta);
   }
-  const Mask continues = m & sample->survives & leaves(sample->direction, cosine) & (vec_max(throughput) > 0.0f);
-  s->throughput = vec_select(continues, throughput, s->throughput);
+  const Mask continues = m & sample->survives & leaves(sample->direction, cosine) & (vec_max(s->throughput) > 0.0f);
   s->normal = v.point.normal;
   s->density = sample->density;
   s->cosine_density = sample->direction.z * INV_PI;

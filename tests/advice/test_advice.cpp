@@ -27,7 +27,7 @@ TEST_CASE("the light that makes the variance is named") {
   scene.point_lights = {lamp, lamp};
   const scene::Scene before = scene;
   render::Settings with = settings_for(64);
-  REQUIRE(advice::lights_told_apart(scene) == 3);
+  REQUIRE(advice::light_share_renders(scene) == 3);
   std::vector<advice::LightShare> shares = advice::light_shares(scene, with);
   REQUIRE(shares.size() == 3);
   CHECK(shares[0].light == "area light 1");
@@ -37,6 +37,6 @@ TEST_CASE("the light that makes the variance is named") {
   CHECK(shares[0].share + shares[1].share + shares[2].share == Approx(1.0));
   CHECK(scene.area_emitters[0].radiance == before.area_emitters[0].radiance);
   CHECK(scene.point_lights[1].intensity == before.point_lights[1].intensity);
-  scene.point_lights.assign(advice::most_lights_told_apart, lamp); // one too many
+  scene.point_lights.assign(advice::most_lights, lamp); // one too many
   CHECK(advice::light_shares(scene, with).empty());
 }

@@ -62,7 +62,7 @@ TEST_CASE("Checkpoints are written while the render runs, and it goes on from an
     CHECK(TemporaryFolder::read(place / name) == before);
   }
   CHECK_THAT(place.render({"-n", "1", "--checkpoint", "second"}).err,
-             Contains("--checkpoint second: takes the place of an earlier one"));
+             Contains("--checkpoint second: replaces an earlier checkpoint"));
 }
 
 TEST_CASE("What is no checkpoint of this render is refused in one line, and nothing is written") {

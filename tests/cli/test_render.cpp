@@ -211,7 +211,7 @@ TEST_CASE("An interrupted render writes the image so far and exits with 130") {
 TEST_CASE("One sample has no variance: it is left out, not 0") {
   const Renders place;
   const Outcome outcome = place.render({"-n", "1", "--moments", "--stats", "stats.json"});
-  CHECK_THAT(outcome.err, Catch::Contains("--moments: a variance takes two samples in every pixel"));
+  CHECK_THAT(outcome.err, Catch::Contains("--moments: variances need two samples in every pixel"));
   CHECK(place.image().channels.size() == 3);
   const nlohmann::json stats = place.json("stats.json");
   CHECK(stats.at("variance").is_null());

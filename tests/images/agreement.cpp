@@ -118,7 +118,7 @@ Agreement worst_of(const Estimate& image, const Estimate& reference, double tole
                             i / static_cast<std::size_t>(image.width)));
   }
   const double level =
-      measure::level_of_each(false_alarm_rate, (image.mean.size() + (with_mean ? 1 : 0)) * channel_count);
+      measure::sidak_limit(false_alarm_rate, (image.mean.size() + (with_mean ? 1 : 0)) * channel_count);
   return {two_sided_p(worst.z()) >= level, fmt::format("{}; p below {:.3g} fails", worst.text(), level)};
 }
 

@@ -94,7 +94,7 @@ void check_methods(const Repeated& image, const Repeated& reference, int side, d
   const Estimate tiled = tiles(image.image, side), tiled_reference = tiles(reference.image, side);
   check_agreement_of_pixels(with_variance_of_faint(tiled, tiled_reference),
                             with_variance_of_faint(tiled_reference, tiled), tolerance);
-  const double level = measure::level_of_each(false_alarm_rate, 3);
+  const double level = measure::sidak_limit(false_alarm_rate, 3);
   for (std::size_t c = 0; c < 3; ++c) {
     const double a = image.mean.mean[0][c], b = reference.mean.mean[0][c];
     const double p = welch_p(a, image.mean.variance[0][c], b, reference.mean.variance[0][c], image.renders);

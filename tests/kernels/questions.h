@@ -15,7 +15,7 @@ inline constexpr double false_alarm_rate = 1e-3;
 
 /// The level at which one of many questions must be asked.
 inline double one_of(std::size_t questions) {
-  return phlux::measure::level_of_each(false_alarm_rate, questions);
+  return phlux::measure::sidak_limit(false_alarm_rate, questions);
 }
 
 /// That a mean with this standard error is `expected`, two-sided.

@@ -95,7 +95,7 @@ TEST_CASE("example.cl: the mean weight is the reflectivity") {
   const std::vector<Plain> models = {{.4f, .4f, 10, .5f}, {.4f, .05f, 50, .0872f}, {.1f, .8f, 90, .866f}};
   const std::vector<std::string> strategies = {"exact", "lobe-ks", "cosine", "fold"};
   const std::vector<int> widths = {1, 16};
-  const double level = measure::level_of_each(1e-4, models.size() * strategies.size() * widths.size());
+  const double level = measure::sidak_limit(1e-4, models.size() * strategies.size() * widths.size());
   for (const std::string& strategy : strategies)
     for (const int width : widths) {
       const auto program =

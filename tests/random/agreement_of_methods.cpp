@@ -49,7 +49,7 @@ Worst worst_of(const RepeatedMeans& a, const RepeatedMeans& b, std::size_t pairs
     const double p = welch_p(a.mean[q], variance_of_mean(a, q, b.mean[q]), b.mean[q],
                              variance_of_mean(b, q, a.mean[q]), renders);
     const std::size_t alike = q < of_image ? of_image : a.mean.size() - of_image;
-    const double of_all = measure::least_p_of(p, 2 * alike * pairs);
+    const double of_all = measure::smallest_p(p, 2 * alike * pairs);
     if (of_all < worst.p) worst = {of_all, q};
   }
   return worst;

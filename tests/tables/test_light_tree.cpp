@@ -9,12 +9,12 @@
 
 using namespace phlux;
 using scene::Vec3;
-using tables::PlacedLight;
+using tables::LightBounds;
 
 namespace {
 
-std::vector<PlacedLight> points(int count, const Vec3& from, const Vec3& step) {
-  std::vector<PlacedLight> lights;
+std::vector<LightBounds> points(int count, const Vec3& from, const Vec3& step) {
+  std::vector<LightBounds> lights;
   for (int i = 0; i < count; ++i) {
     const Vec3 at = from + static_cast<double>(i) * step;
     lights.push_back({i, at, at, Vec3(0, 0, 1), std::numbers::pi, 1.0 + i});
@@ -23,7 +23,7 @@ std::vector<PlacedLight> points(int count, const Vec3& from, const Vec3& step) {
 }
 
 // Checks what kernels rely on; the depth of the deepest leaf.
-int check_tree(const std::vector<PlacedLight>& lights) {
+int check_tree(const std::vector<LightBounds>& lights) {
   std::vector<LightRecord> records(lights.size());
   const std::vector<LightNodeRecord> nodes = tables::light_tree(lights, records);
   REQUIRE(nodes.size() == 2 * lights.size());

@@ -10,7 +10,7 @@ namespace {
 
 using scene::Parameter;
 
-constexpr double unbounded = 1000; // a lobe's exponent whose width, 1 / 30, the quadrature resolves well
+constexpr double largest_value = 1000; // as an exponent: lobes of width 1 / 30, which the quadrature resolves
 
 bool is_colour(const Parameter& parameter) {
   return parameter.kind == Parameter::Kind::colour;
@@ -46,7 +46,7 @@ std::vector<NamedMaterial> materials_of(const lobes::ModelPointer& model, const 
   if (!assignments.empty()) materials.push_back({base, set});
   for (const Parameter& parameter : model->parameters) {
     if (is_set(parameter, *model, assignments)) continue;
-    for (const double value : {parameter.lowest, std::min(parameter.highest, unbounded)})
+    for (const double value : {parameter.lowest, std::min(parameter.highest, largest_value)})
       materials.push_back({with_extreme(base, parameter, value),
                            fmt::format("{}{}{} {:g}", set, set.empty() ? "" : ", ", parameter.name, value)});
   }

@@ -1,4 +1,4 @@
-// The materials of a model that are verified, and the directions.
+// The materials and directions with which a model is verified.
 #pragma once
 
 #include <string>
@@ -18,10 +18,9 @@ struct NamedMaterial {
   std::string name; ///< such as "exponent 1000", or "defaults"
 };
 
-/// The defaults; the defaults with `assignments`, where there are some; and those with each other parameter
-/// at either end of its range. Where a colour is at its highest the other colours are at their lowest, as the
-/// sum of reflectances may be bounded. Ranges that end beyond 1000 are tried at 1000. A model that ships is
-/// never sampled where it is black.
+/// The default material; the same with `assignments`, if any; and that with each other parameter at either
+/// end of its range, or at 1000 if the range is larger. When a colour is at its highest the other colours are
+/// at their lowest, as the sum of reflectances may be bounded. Without black materials of built-in models.
 /// @throws UsageError as lobes::assign
 [[nodiscard]] std::vector<NamedMaterial> materials_of(const lobes::ModelPointer& model,
                                                       const Assignments& assignments);

@@ -22,7 +22,7 @@ double disagreement_of_values(const Rgb& a, const Rgb& b) {
   return worst;
 }
 
-// Values that are not finite are seen here and count as 0 in integrals.
+// Records values that are not finite and replaces them by 0 for the integrals.
 std::vector<PairValues> evaluate(const LobeSubject& subject, const LobeCase& one,
                                  const std::vector<Pair>& pairs) {
   std::vector<PairValues> values = subject.device.evaluate(one.material, pairs);
@@ -36,9 +36,9 @@ std::vector<PairValues> evaluate(const LobeSubject& subject, const LobeCase& one
     reverse = std::max({reverse, disagreement(v.reverse, v.reversed_density, density_floor),
                         disagreement(v.reversed_reverse, v.density, density_floor)});
   }
-  subject.see("evaluate finite", wrong, 0, one.where);
-  subject.see("reciprocity", asymmetry, agreement, one.where);
-  subject.see("reverse", reverse, agreement, one.where);
+  subject.record("evaluate finite", wrong, 0, one.where);
+  subject.record("reciprocity", asymmetry, agreement, one.where);
+  subject.record("reverse", reverse, agreement, one.where);
   return values;
 }
 
@@ -79,7 +79,7 @@ void check_below(const LobeSubject& subject, const LobeCase& one) {
   double wrong = 0;
   for (const PairValues& v : subject.device.evaluate(one.material, pairs))
     if (!std::isfinite(v.density) || !std::isfinite(v.reverse)) ++wrong;
-  subject.see("evaluate finite", wrong, 0, one.where + ", generated below the surface");
+  subject.record("evaluate finite", wrong, 0, one.where + ", generated below the surface");
 }
 
 void check_isotropy(const LobeSubject& subject, const LobeCase& one) {
@@ -100,7 +100,7 @@ void check_isotropy(const LobeSubject& subject, const LobeCase& one) {
   for (std::size_t i = 0; i < values.size(); i += 2)
     worst = std::max({worst, disagreement_of_values(values[i].value, values[i + 1].value),
                       disagreement(values[i].density, values[i + 1].density, density_floor)});
-  subject.see("isotropy", worst, agreement, one.where);
+  subject.record("isotropy", worst, agreement, one.where);
 }
 
 } // namespace phlux::verify

@@ -6,11 +6,11 @@
 namespace phlux::verify {
 namespace {
 
-constexpr double certain = 5;               // standard errors of what is compared with a limit
-constexpr double largest_quadrature = 5e-3; // error of a quadrature that still says something
-constexpr double quadrature_errors = 4;     // of the expected one
+constexpr double certain = 5;               // standard errors of quantities that are compared with a limit
+constexpr double largest_quadrature = 5e-3; // largest acceptable error of a quadrature
+constexpr double quadrature_errors = 4;     // multiple of the expected error
 
-// How improbable it is that a mean lies so far from its value, which may itself be off by `allowed`.
+// The p-value of a mean that differs from its value by `off`, of which `allowed` is the value's own error.
 double p_of(double off, double allowed, double error) {
   const double beyond = std::max(0.0, std::abs(off) - allowed);
   return normal_p(beyond == 0 ? 0 : beyond / error);
@@ -23,12 +23,12 @@ void check_integrals(const LobeSubject& subject, const LobeCase& one, const Hemi
   const Integrals total = tree.total();
   const double quadrature = quadrature_errors * tree.error();
   const std::string& where = one.where;
-  subject.see("quadrature", tree.error(), largest_quadrature, where);
+  subject.record("quadrature", tree.error(), largest_quadrature, where);
   const double density = total.density + means.aside;
-  subject.see("normalised", std::max(0.0, std::abs(density - 1) - certain * means.aside_error - quadrature),
-              agreement,
-              fmt::format("{}, where it integrates to {:.4g} and should to {:.4g}", where, total.density,
-                          1 - means.aside));
+  subject.record("normalised",
+                 std::max(0.0, std::abs(density - 1) - certain * means.aside_error - quadrature), agreement,
+                 fmt::format("{}, where it integrates to {:.4g} and should to {:.4g}", where, total.density,
+                             1 - means.aside));
   const Rgb stated = subject.device.reflectivity(one.material, std::vector<Direction>{one.fixed}).front();
   for (int channel = 0; channel < 3; ++channel) {
     const double integral = total.reflected[channel], whole = integral + means.delta[channel];
@@ -36,19 +36,19 @@ void check_integrals(const LobeSubject& subject, const LobeCase& one, const Hemi
     const std::string at =
         fmt::format("{}, channel {}: integral {:.4g}, mean weight {:.4g}, reflectivity {:.4g}", where,
                     channel, whole, means.all[channel], stated[channel]);
-    subject.see("energy", whole - slack, 1 + agreement, at);
+    subject.record("energy", whole - slack, 1 + agreement, at);
     if (means.trusted)
-      subject.report.see_p(subject.name, "means",
-                           p_of(means.reflected[channel] - integral, agreement * integral + quadrature,
-                                means.reflected_error[channel]),
-                           at);
+      subject.report.record_p(subject.name, "means",
+                              p_of(means.reflected[channel] - integral, agreement * integral + quadrature,
+                                   means.reflected_error[channel]),
+                              at);
     if (subject.model.reflectivity_is_estimate) continue;
-    subject.see("reflectivity", std::max(0.0, std::abs(stated[channel] - whole) - slack), agreement, at);
+    subject.record("reflectivity", std::max(0.0, std::abs(stated[channel] - whole) - slack), agreement, at);
     if (means.trusted)
-      subject.report.see_p(subject.name, "weights' mean",
-                           p_of(means.all[channel] - stated[channel],
-                                agreement * std::max(1.0, stated[channel]), means.all_error[channel]),
-                           at);
+      subject.report.record_p(subject.name, "weights' mean",
+                              p_of(means.all[channel] - stated[channel],
+                                   agreement * std::max(1.0, stated[channel]), means.all_error[channel]),
+                              at);
   }
 }
 

@@ -8,14 +8,15 @@
 namespace phlux::verify {
 namespace {
 
-// Of differences where the map is smooth; more than the share of a part that words_used may miss.
+// Error of differences where the map is smooth; larger than the probability of a part that words_used may
+// miss.
 constexpr double jacobian_error = 0.02;
-constexpr double moved = 1e-6; // a direction
+constexpr double moved = 1e-6; // smallest change of a direction
 
-// The numbers of the random words that directions depend on.
+// The indices of the random words that directions depend on.
 std::set<std::size_t> words_used(const LobeSubject& subject, const LobeCase& one) {
   std::vector<Words> words;
-  constexpr std::size_t steps = 64; // from 0 to 1, both included: a choice between parts may be at either end
+  constexpr std::size_t steps = 64; // from 0 to 1 inclusive: a choice between parts may be at either end
   constexpr std::size_t variants = 4 * (steps + 1);
   for (const double u : {0.21, 0.48, 0.79})
     for (std::size_t k = 0; k < 4; ++k)
@@ -34,8 +35,8 @@ std::set<std::size_t> words_used(const LobeSubject& subject, const LobeCase& one
   return used;
 }
 
-// Whether another part of the unit square has samples near that of a point: the map then covers them twice.
-// The numbers may be longitudes, which wrap around.
+// Whether another part of the unit square has samples near that of a point, so that the map covers directions
+// twice. The numbers may be longitudes, which wrap around.
 bool is_covered_twice(const std::vector<Sample>& grid, int side, const NumberPair& point, const Sample& at,
                       double spacing) {
   const auto far_apart = [](double a, double b) {
@@ -51,7 +52,8 @@ bool is_covered_twice(const std::vector<Sample>& grid, int side, const NumberPai
   return false;
 }
 
-// Off by more than rounding where it is smooth, by differences of different steps.
+// Relative error of the density, or nothing where differences of different steps show that the map is not
+// smooth.
 std::optional<double> density_error(const Sample* stencil) {
   constexpr double smooth = 0.02;
   for (std::size_t i = 0; i < stencil_size; ++i)
@@ -68,7 +70,7 @@ std::optional<double> density_error(const Sample* stencil) {
 
 void check_map(const LobeSubject& subject, const LobeCase& one) {
   const std::set<std::size_t> used = words_used(subject, one);
-  if (used.size() != 2) return; // a choice among several maps, or draws until one is accepted
+  if (used.size() != 2) return; // the sampler chooses among several maps, or draws until a sample is accepted
   const std::size_t first = *used.begin(), second = *used.rbegin();
   const Words others{word_for(0.5), word_for(0.5), word_for(0.5), word_for(0.5)};
   std::vector<Words> words;
@@ -93,7 +95,7 @@ void check_map(const LobeSubject& subject, const LobeCase& one) {
     worst = std::max(worst, *error);
     ++smooth;
   }
-  if (2 * smooth >= stencils) subject.see("jacobian", worst, jacobian_error, one.where);
+  if (2 * smooth >= stencils) subject.record("jacobian", worst, jacobian_error, one.where);
 }
 
 } // namespace phlux::verify

@@ -8,7 +8,7 @@
 namespace phlux::verify {
 namespace {
 
-constexpr double unit_error = 16 * 0x1p-23; // of a direction's length, in float32
+constexpr double unit_error = 16 * 0x1p-23; // of a float32 direction's length
 constexpr double weight_floor = 1e-4;
 
 bool is_above(const Sample& s) {
@@ -30,7 +30,7 @@ double weight_disagreement(const Sample& s, const PairValues& at) {
   return worst;
 }
 
-// What evaluate says of each sample's direction.
+// Compares densities and weights of samples with evaluate.
 void check_against_evaluate(const LobeSubject& subject, const LobeCase& one,
                             const std::vector<Sample>& samples) {
   std::vector<Pair> pairs;
@@ -47,12 +47,12 @@ void check_against_evaluate(const LobeSubject& subject, const LobeCase& one,
     density = std::max(density, disagreement(smooth[i]->density, values[i].density, density_floor));
     weight = std::max(weight, weight_disagreement(*smooth[i], values[i]));
   }
-  subject.see("stated density", density, agreement, one.where);
-  if (!subject.weighs_by_part) subject.see("weights", weight, agreement, one.where);
+  subject.record("stated density", density, agreement, one.where);
+  if (!subject.weighs_by_part) subject.record("weights", weight, agreement, one.where);
 }
 
-// Samples that are delta events or below the surface are in a cell of their own, which is what the density
-// leaves.
+// Chi-square of directions against the density. Delta events and samples below the surface have a cell of
+// their own, with the probability that the density leaves.
 void check_directions(const LobeSubject& subject, const LobeCase& one, const HemisphereTree& tree,
                       const std::vector<Sample>& samples) {
   const auto count = static_cast<double>(samples.size());
@@ -61,13 +61,14 @@ void check_directions(const LobeSubject& subject, const LobeCase& one, const Hem
   std::vector<double> observed(aside + 1);
   for (const Sample& s : samples)
     observed[!s.delta && is_above(s) ? cells.of_leaf[tree.leaf_of(s.direction)] : aside] += 1;
-  // A density that does not integrate to its samples' share is a failure of its own; here its shape counts.
+  // A wrong integral of the density is the failure of another check; here the density is scaled to its
+  // samples.
   const double integral = tree.total().density, share = 1 - observed[aside] / count;
   const double scale = integral > 0 && std::abs(integral - share) > 0.02 ? share / integral : 1;
   for (double& cell : cells.expected) cell *= scale;
   cells.expected.push_back(std::max(0.0, count * (1 - scale * integral)));
   const double p = chi_square_p(observed, cells.expected);
-  if (!subject.report.see_p(subject.name, "directions", p, one.where)) return;
+  if (!subject.report.record_p(subject.name, "directions", p, one.where)) return;
   Histogram histogram{{"cell", "observed", "expected"}, {}, 0, {}};
   for (std::size_t i = 0; i <= aside; ++i)
     histogram.rows.push_back({static_cast<double>(i), observed[i], cells.expected[i]});
@@ -107,7 +108,7 @@ SampleMeans means_of(const std::vector<Sample>& samples) {
   return means;
 }
 
-// Sees how many samples are not finite or not of unit length, and makes those black ones below the surface.
+// Records invalid samples and replaces them by black ones below the surface.
 void check_each(const LobeSubject& subject, const std::string& where, std::vector<Sample>& samples) {
   double wrong = 0, length = 0, undeclared = 0;
   for (Sample& s : samples) {
@@ -119,12 +120,12 @@ void check_each(const LobeSubject& subject, const std::string& where, std::vecto
     if (is_above(s)) length = std::max(length, std::abs(glm::length(s.direction) - 1));
     if (s.delta && !subject.model.has_delta) ++undeclared;
   }
-  subject.see("sample finite", wrong, 0, where);
-  subject.see("unit", length, unit_error, where);
-  subject.see("delta declared", undeclared, 0, where);
+  subject.record("sample finite", wrong, 0, where);
+  subject.record("unit", length, unit_error, where);
+  subject.record("delta declared", undeclared, 0, where);
 }
 
-// Roulette leaves the mean weight as it is.
+// The mean weight must be the same with roulette.
 void check_roulette(const LobeSubject& subject, const LobeCase& one, const SampleMeans& without) {
   auto samples = subject.device.sample(one.material, one.fixed, subject.samples, one.seed + 2, true);
   check_each(subject, one.where + ", roulette", samples);
@@ -136,7 +137,7 @@ void check_roulette(const LobeSubject& subject, const LobeCase& one, const Sampl
     const double off = std::abs(with.all[channel] - without.all[channel]);
     const double beyond = std::max(0.0, off - 1e-4);
     const double error = std::hypot(with.all_error[channel], without.all_error[channel]);
-    subject.report.see_p(subject.name, "roulette", normal_p(beyond == 0 ? 0 : beyond / error), one.where);
+    subject.report.record_p(subject.name, "roulette", normal_p(beyond == 0 ? 0 : beyond / error), one.where);
   }
 }
 
@@ -157,7 +158,7 @@ void check_lobe_extremes(const LobeSubject& subject, int material, const std::st
   const std::vector<Direction> directions = extreme_directions();
   std::vector<Direction> above;
   for (const Direction& fixed : directions)
-    if (fixed.z > 0) above.push_back(fixed); // the interface's `fixed` lies above the surface
+    if (fixed.z > 0) above.push_back(fixed); // as the interface requires
   for (const Direction& fixed : above)
     for (const bool roulette : {false, true}) {
       auto samples = subject.device.drive(material, fixed, words, roulette);
@@ -166,7 +167,7 @@ void check_lobe_extremes(const LobeSubject& subject, int material, const std::st
   double wrong = 0;
   for (const Rgb& r : subject.device.reflectivity(material, above))
     if (!is_finite(r) || std::min({r.r, r.g, r.b}) < 0) ++wrong;
-  subject.see("reflectivity finite", wrong, 0, where + ", grazing and normal incidence");
+  subject.record("reflectivity finite", wrong, 0, where + ", grazing and normal incidence");
 }
 
 } // namespace phlux::verify

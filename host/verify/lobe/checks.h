@@ -1,5 +1,4 @@
-// The checks of a reflectance model of which nothing is known but its interface (kernels/lobes/lobe.h): what
-// its functions say of one another.
+// Checks of any reflectance model by its interface (kernels/lobes/lobe.h): its functions against one another.
 #pragma once
 
 #include <algorithm>
@@ -14,20 +13,16 @@
 
 namespace phlux::verify {
 
-/// Largest relative difference of two values that should be equal, and of integrals that should be: ten times
-/// what float32 makes of a power of a cosine at an exponent of 1000. A contradiction is larger.
+/// Largest relative difference of two values or integrals that should be equal: ten times the error in
+/// float32 of a power of a cosine with exponent 1000.
 inline constexpr double agreement = 1e-3;
 
-/// |a - b| relative to the larger; 0 where both are below `floor` or nearer than it.
+/// |a - b| relative to the larger of the two; 0 if it is at most `floor`.
 [[nodiscard]] inline double disagreement(double a, double b, double floor) {
   const double off = std::abs(a - b);
   return off <= floor ? 0 : off / std::max(std::abs(a), std::abs(b));
 }
 inline constexpr double density_floor = 1e-5; // per sr; a uniform density is 0.16
-
-[[nodiscard]] inline bool is_finite(const Rgb& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 /// One model on one device.
 struct LobeSubject {
@@ -35,39 +30,39 @@ struct LobeSubject {
   std::string name; ///< in the report
   const DeviceModel& device;
   std::size_t samples; ///< per material and direction
-  bool weighs_by_part; ///< a weight may be that of the part that was sampled: right in the mean alone
+  bool weighs_by_part; ///< weights may be of the sampled part only, and so correct only in the mean
   Report& report;
 
-  void see(const char* check, double figure, double limit, const std::string& where) const {
-    report.see(name, check, figure, limit, where);
+  void record(const char* check, double figure, double limit, const std::string& where) const {
+    report.record(name, check, figure, limit, where);
   }
 };
 
 struct LobeCase {
   int material = 0;
   Direction fixed;
-  std::string where; ///< for people
+  std::string where; ///< the case, in words
   std::uint32_t seed = 0;
 };
 
-/// What evaluate says of the hemisphere. Checks that it is finite and not negative, that f_r is reciprocal,
-/// and that each density is the reverse of the other call's, wherever it evaluates.
+/// Integrates evaluate over the hemisphere. Checks all of its values: they are finite and not negative, f_r
+/// is reciprocal, and densities are the reverse densities with exchanged directions.
 [[nodiscard]] HemisphereTree integrate_lobe(const LobeSubject& subject, const LobeCase& one);
-/// Densities below the surface are finite: weights ask for them, whatever f_r is.
+/// Densities below the surface are finite, as weights need them even where f_r is 0.
 void check_below(const LobeSubject& subject, const LobeCase& one);
 /// f_r and densities do not depend on the longitude, unless the model declares that it needs tangents.
 void check_isotropy(const LobeSubject& subject, const LobeCase& one);
 
-/// What samples brought.
+/// Means over samples, and their standard errors.
 struct SampleMeans {
-  Rgb reflected{0}, reflected_error{0}; ///< E[weight] of what is no delta event, standard errors
-  Rgb delta{0}, delta_error{0};         ///< of delta events
-  Rgb all{0}, all_error{0};             ///< of both
-  double aside = 0, aside_error = 0;    ///< the share of samples that are delta events or below the surface
-  bool trusted = false;                 ///< enough samples carry the weight for the means to be normal
+  Rgb reflected{0}, reflected_error{0}; ///< weight, without delta events
+  Rgb delta{0}, delta_error{0};         ///< weight of delta events
+  Rgb all{0}, all_error{0};             ///< weight of both
+  double aside = 0, aside_error = 0;    ///< share of samples that are delta events or below the surface
+  bool trusted = false;                 ///< enough effective samples for normal means
 };
-/// Samples against evaluate: densities, weights, directions; finite values, unit directions, declared delta
-/// events.
+/// Samples against evaluate: densities, weights, directions. Values are finite, directions of unit length,
+/// delta events declared.
 [[nodiscard]] SampleMeans check_lobe_samples(const LobeSubject& subject, const LobeCase& one,
                                              const HemisphereTree& tree);
 
@@ -75,8 +70,7 @@ struct SampleMeans {
 void check_integrals(const LobeSubject& subject, const LobeCase& one, const HemisphereTree& tree,
                      const SampleMeans& means);
 
-/// Density against finite differences, where directions are a smooth map of two random numbers that covers
-/// none twice.
+/// Density against finite differences, if directions are a smooth one-to-one map of two random numbers.
 void check_map(const LobeSubject& subject, const LobeCase& one);
 
 /// First and last random numbers, grazing and normal incidence.

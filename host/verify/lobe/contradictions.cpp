@@ -1,16 +1,17 @@
 #include "verify/lobe/contradictions.h"
 
 #include <algorithm>
-#include <cctype>
 
 #include <fmt/format.h>
+
+#include "lobes/models.h"
 
 namespace phlux::verify {
 namespace {
 
 struct Meaning {
   const char* check;
-  const char* text; ///< {0}: the model, {1}: it in capitals
+  const char* text; ///< {0}: the model, {1}: in capitals
 };
 
 constexpr Meaning meanings[] = {
@@ -37,11 +38,6 @@ constexpr Meaning meanings[] = {
     {"energy", "{0}_evaluate reflects more than arrives"},
 };
 
-std::string upper(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return text;
-}
-
 const Result* find(const Report& report, const std::string& name, const char* check) {
   const auto found = std::ranges::find_if(
       report.results(), [&](const Result& r) { return r.strategy == name && r.check == check; });
@@ -54,7 +50,7 @@ std::vector<std::string> explain(Report& report, const std::string& name, const 
   for (Result& result : report.results())
     for (const auto& [check, text] : meanings)
       if (!result.passed && result.strategy == name && result.check == check)
-        result.note = fmt::format(fmt::runtime(text), model, upper(model));
+        result.note = fmt::format(fmt::runtime(text), model, lobes::macro_prefix(model));
   const auto fails = [&](const char* check) {
     const Result* result = find(report, name, check);
     return result != nullptr && !result->passed;

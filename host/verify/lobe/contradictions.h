@@ -1,4 +1,4 @@
-// What the failed checks of a model mean: which of its functions contradicts which.
+// Conclusions from a model's failed checks: which of its functions contradict each other.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace phlux::verify {
 
-/// Sets the notes of the failed results of `name`, a judged report's, and returns what follows from them
+/// Sets the notes of the failed results of `name` in a judged report, and returns conclusions from them
 /// together. `model` is the prefix of the functions.
 [[nodiscard]] std::vector<std::string> explain(Report& report, const std::string& name,
                                                const std::string& model);

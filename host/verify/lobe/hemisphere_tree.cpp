@@ -16,7 +16,7 @@ constexpr std::size_t roots = top_side * top_side + 4 * side_columns * side_rows
 constexpr int deepest = 14;
 constexpr std::size_t most_nodes = 40000;
 constexpr double largest_change = 1e-5;
-constexpr std::size_t points = 4; // of the rule, in each direction
+constexpr std::size_t points = 4; // of the quadrature rule, per dimension
 
 struct OnFace {
   int face;
@@ -158,7 +158,7 @@ void HemisphereTree::evaluate(const std::vector<std::size_t>& nodes, const Funct
   }
 }
 
-// How much the integrals of its children, which are new, change those of a node.
+// Replaces the integrals of a node by the sums over its children; returns the change.
 double HemisphereTree::refine(std::size_t node) {
   Integrals sum;
   for (std::size_t child = 0; child < 4; ++child) sum += nodes_[nodes_[node].first_child + child].integrals;
@@ -201,8 +201,7 @@ Integrals HemisphereTree::total() const {
   return sum;
 }
 
-// Children that expect enough samples are cells of their own, or of several; the others of a node are one
-// together.
+// Children with enough expected samples become one or more cells; the others of a node share one.
 void HemisphereTree::number_cells(std::size_t node, std::size_t cell, double samples, Cells& cells) const {
   constexpr double enough = 25;
   const Node& n = nodes_[node];

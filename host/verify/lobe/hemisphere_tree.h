@@ -1,5 +1,5 @@
-// The hemisphere above a surface cut into cells, finer where functions of the direction vary fast; integrals
-// over the cells by Gauss and Legendre's rule. For functions of which nothing is known.
+// Adaptive quadrature over the hemisphere: cells are split where a function varies fast, and integrated by
+// the Gauss-Legendre rule.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace phlux::verify {
 
-/// What is integrated: a density, and f_r cos per channel.
+/// Values or integrals of a density, and of f_r cos per channel.
 struct Integrals {
   double density = 0;
   Rgb reflected{0};
@@ -21,7 +21,7 @@ struct Integrals {
 
 class HemisphereTree {
 public:
-  /// Values at directions, for a batch of them.
+  /// Values at a batch of directions.
   using Function = std::function<std::vector<Integrals>(const std::vector<Direction>&)>;
 
   HemisphereTree();
@@ -33,17 +33,16 @@ public:
   void integrate(const Function& function);
 
   [[nodiscard]] Integrals total() const;
-  /// What is to be expected of the integrals' error, were the changes by the last finer rule all of it.
+  /// Estimated error of the integrals: root of the sum of squared changes by the last refinements.
   [[nodiscard]] double error() const { return error_; }
 
-  /// The cells of a histogram of so many samples: the number of each leaf's cell, and the counts that are
-  /// expected.
+  /// The cells of a histogram of so many samples, which join leaves with few expected samples.
   struct Cells {
-    std::vector<std::size_t> of_leaf; ///< by node
-    std::vector<double> expected;
+    std::vector<std::size_t> of_leaf; ///< cell of each node that is a leaf
+    std::vector<double> expected;     ///< counts
   };
   [[nodiscard]] Cells cells(double samples) const;
-  /// The leaf that holds a direction above the surface.
+  /// The leaf of a direction above the surface.
   [[nodiscard]] std::size_t leaf_of(const Direction& direction) const;
 
 private:

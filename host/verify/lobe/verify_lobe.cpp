@@ -7,7 +7,7 @@
 namespace phlux::verify {
 namespace {
 
-void see_case(const LobeSubject& subject, const LobeCase& one) {
+void check_case(const LobeSubject& subject, const LobeCase& one) {
   const HemisphereTree tree = integrate_lobe(subject, one);
   const SampleMeans means = check_lobe_samples(subject, one, tree);
   check_integrals(subject, one, tree, means);
@@ -16,9 +16,8 @@ void see_case(const LobeSubject& subject, const LobeCase& one) {
 
 } // namespace
 
-void see_lobe(const device::Device& device, const Settings& settings, const LobeToVerify& lobe,
-              const Assignments& assignments, Report& report) {
-  if (settings.progress) settings.progress(lobe.name);
+void check_lobe(const device::Device& device, const Settings& settings, const LobeToVerify& lobe,
+                const Assignments& assignments, Report& report) {
   const std::vector<NamedMaterial> named = materials_of(lobe.model, assignments);
   std::vector<scene::Material> materials;
   for (const NamedMaterial& each : named) materials.push_back(each.material);
@@ -29,9 +28,9 @@ void see_lobe(const device::Device& device, const Settings& settings, const Lobe
   for (std::size_t m = 0; m < named.size(); ++m) {
     const auto material = static_cast<int>(m);
     for (const FixedDirection& fixed : fixed_directions(settings.quick)) {
-      see_case(subject,
-               {material, fixed.direction, fmt::format("{}, fixed at {}", named[m].name, fixed.name), seed});
-      seed += 3; // of the samples, of the pilots, and of those with roulette
+      check_case(subject, {material, fixed.direction,
+                           fmt::format("{}, fixed at {}", named[m].name, fixed.name), seed});
+      seed += 3; // for samples, pilot samples, and samples with roulette
     }
     const LobeCase whole{material, {}, named[m].name};
     check_below(subject, whole);

@@ -1,4 +1,4 @@
-// The verification of any reflectance model, a user's own or one that ships, without closed forms.
+// Verification of any reflectance model, built-in or a user's, without closed forms.
 #pragma once
 
 #include "verify/lobe/cases.h"
@@ -12,9 +12,9 @@ struct LobeToVerify {
   std::string name;               ///< in the report
 };
 
-/// Sees all checks of one model into `report` and judges nothing. Of `settings` the strategies are not used.
-/// @throws DeviceError where the kernels do not build, UsageError as lobes::assign
-void see_lobe(const device::Device& device, const Settings& settings, const LobeToVerify& lobe,
-              const Assignments& assignments, Report& report);
+/// Records all checks of one model in `report`, without judging it. settings.strategies is not used.
+/// @throws DeviceError when the kernels do not build, UsageError as lobes::assign
+void check_lobe(const device::Device& device, const Settings& settings, const LobeToVerify& lobe,
+                const Assignments& assignments, Report& report);
 
 } // namespace phlux::verify
