@@ -12,7 +12,7 @@ using scene::Vec3;
 
 namespace {
 
-// The flat primitive's corner or centre, and its edges, from its values.
+// Corner or centre of a flat primitive, and its edges, from its values.
 struct Planar {
   Vec3 origin, edge_u, edge_v;
 };

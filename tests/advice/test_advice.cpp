@@ -1,4 +1,4 @@
-// What would do better where a render's error cannot be trusted.
+// Recommendations for renders whose error estimate cannot be trusted.
 #include <catch2/catch.hpp>
 
 #include "advice/advice.h"
@@ -13,7 +13,7 @@ TEST_CASE("where path tracing cannot be trusted, trials say what can") {
   const auto bidir = Catch::Contains("try `integrator` bidir"),
              light = Catch::Contains("try `integrator` light");
   advice::Advice advice;
-  // A machine with other work needs longer for as many samples.
+  // On a busy machine the same number of samples takes longer.
   for (double seconds = 0.5; seconds <= 8 && !(bidir || light).match(advice.words); seconds *= 2)
     advice = advice::advise(shipped("caustic", 32, 24), with, seconds);
   REQUIRE(advice.trials.size() == 3); // path is its own method

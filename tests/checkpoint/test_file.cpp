@@ -1,4 +1,4 @@
-// The file, and what is refused of it.
+// The checkpoint file, and the errors of damaged ones.
 #include <catch2/catch.hpp>
 
 #include "checkpoint/checkpoint.h"
@@ -39,7 +39,7 @@ checkpoint::Session small_session() {
 struct Saved : TemporaryFolder {
   std::string bytes = checkpoint::encode(small_session(), small_film());
 
-  // What is said of a file with these bytes.
+  // The error for a file with these bytes.
   [[nodiscard]] std::string refusal(const std::string& text) const {
     write("c", text);
     try {

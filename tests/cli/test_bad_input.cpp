@@ -5,7 +5,7 @@
 
 namespace {
 
-// A user who gives a bad file sees its name, why, and nothing else; no file appears.
+// The error for a bad file names the file and the reason, and nothing else; no file is written.
 void check_rejected(const TemporaryFolder& folder, const std::vector<std::string>& arguments, int exit_code,
                     const std::map<std::string, std::string>& environment = {}) {
   const std::set<std::string> before = folder.names();
@@ -76,7 +76,7 @@ TEST_CASE("Unwritable outputs are found before rendering: one line, exit code 5,
   folder.write("file", "");
   for (const std::string option : {"--output", "--png", "--stats"})
     for (const std::string path : {"missing/a", "file/a", ".", "/proc/a"}) {
-      // Hours of samples: only a check before rendering ends this in time.
+      // Hours of samples: this only ends in time if the check precedes rendering.
       check_rejected(folder, {"render", "scene.xml", "-n", "100000000", option, path}, 5);
     }
 }

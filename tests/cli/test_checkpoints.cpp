@@ -1,4 +1,4 @@
-// Renders that are broken off and go on, by the program.
+// Interrupting and resuming renders with the program.
 #include <catch2/catch.hpp>
 
 #include "cli/workplace.h"
@@ -28,7 +28,7 @@ TEST_CASE("An interrupted render goes on from its checkpoint to the image of one
   CHECK_THAT(broken.out, Contains(", interrupted: --resume c goes on\n"));
   const double samples = place.image("scene.exr").info.samples;
 
-  // What the command leaves out is as it was, and the file holds the latest checkpoint.
+  // Options that are not given keep their values, and the file holds the latest checkpoint.
   const std::string more = std::to_string(static_cast<int>(samples) / 16 * 16 + 64);
   const Outcome resumed = place.render({"--resume", "c", "-n", more, "--moments", "-o", "resumed.exr"});
   CAPTURE(resumed.out, resumed.err);
@@ -42,7 +42,7 @@ TEST_CASE("An interrupted render goes on from its checkpoint to the image of one
   CHECK_THAT(place.render({"--resume", "c", "-n", "8"}).err,
              Contains("has " + more + " samples per pixel already"));
 
-  // In whole blocks, and nothing is left to do.
+  // Whole blocks of samples; the render is complete.
   REQUIRE(place.render({"--resume", "c", "-o", "again.exr", "--moments"}).exit_code == 0);
   CHECK(place.image("again.exr").channels == image.channels);
   CHECK(place.names() ==
@@ -101,7 +101,7 @@ TEST_CASE(
   REQUIRE(place.render({"-n", "2", "--size", "256x256", "--checkpoint", "c"}).exit_code == 0);
   const std::string before = TemporaryFolder::read(place / "c");
   std::filesystem::remove(place / "scene.exr");
-  // Larger than the kernels that the driver keeps, smaller than the checkpoint.
+  // Larger than the driver's cached kernels, smaller than the checkpoint.
   constexpr std::size_t largest_file = std::size_t{1} << 21;
   CHECK(before.size() > largest_file);
   const Outcome outcome = run({{"render", "scene.xml", "--resume", "c", "-n", "4", "--png", "none"},

@@ -93,7 +93,7 @@ namespace {
 
 constexpr const char* system_vendors = "/etc/OpenCL/vendors";
 
-// Where the loader finds a driver without devices, and those of the system beside it if wanted.
+// A folder of drivers for the loader: one without devices, and those of the system if requested.
 void write_vendors(const TemporaryFolder& folder, bool with_system) {
   folder.write("nothing.icd", PHLUX_DRIVER_OF_NOTHING "\n");
   if (with_system)
@@ -104,7 +104,7 @@ void write_vendors(const TemporaryFolder& folder, bool with_system) {
 } // namespace
 
 TEST_CASE("A platform without devices is listed, and no command warns of it") {
-  if (!std::filesystem::exists(system_vendors)) return; // drivers are elsewhere
+  if (!std::filesystem::exists(system_vendors)) return; // the system keeps its drivers elsewhere
   const TemporaryFolder vendors, folder;
   write_vendors(vendors, true);
   const std::map<std::string, std::string> environment = {{"OCL_ICD_VENDORS", vendors.path()}};

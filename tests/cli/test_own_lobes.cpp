@@ -10,7 +10,7 @@ using Catch::Contains;
 
 namespace {
 
-// A sphere in constant light, by a model of the given type.
+// A sphere in constant light, with a material of the given type.
 std::string scene_of(const std::string& bsdf) {
   return R"(<scene version="0.6.0">
 <sensor type="perspective"><film type="hdrfilm"><integer name="width" value="8"/><integer name="height" value="8"/></film>
@@ -35,7 +35,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 
 const char* const minnaert = R"(<bsdf type="minnaert"><float name="exponent" value="1"/></bsdf>)";
 
-// Directions by the cosine alone.
+// Samples directions by the cosine.
 const char* const plain_strategy =
     R"(static inline Real phong_density(Phong m, Vec3 fixed, Vec3 generated, Real lobe) {
   return larger(generated.z, (Real)(0.0f)) * INV_PI;

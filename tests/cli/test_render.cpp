@@ -130,7 +130,7 @@ TEST_CASE("Every width and traversal renders, and --stats says which") {
     }
 }
 
-// A macro makes a builtin that is there impossible to use.
+// The macro makes an existing builtin unusable.
 TEST_CASE("Where the compiler refuses the processor's own instructions, portable lanes make the same image") {
   const phlux::device::DeviceInfo device = phlux::device::open_devices({}).front().info;
   if (device.platform != "Portable Computing Language" || device.native_float_width != 16)
@@ -185,7 +185,7 @@ TEST_CASE("--time and --error decide how many samples there are") {
   place.render({"--time", "0.5", "--stats", "stats.json"});
   const nlohmann::json timed = place.json("stats.json");
   CHECK(timed["seconds"]["render"] >= 0.45);
-  CHECK(timed["seconds"]["render"] < 60.0); // a machine with much other work
+  CHECK(timed["seconds"]["render"] < 60.0); // generous, for a busy machine
   CHECK(timed["samples_per_pixel"] > 0.0);
 
   place.render({"--error", "0.05", "--stats", "stats.json"});
@@ -242,7 +242,7 @@ TEST_CASE("--size keeps the field of view along fovAxis") {
   place.render({"-n", "256", "--size", "8x12", "-o", "narrow.exr"});
   place.render({"-n", "256", "--size", "24x12", "-o", "wide.exr"});
   const Image narrow = place.image("narrow.exr"), wide = place.image("wide.exr");
-  double of_narrow = 0, of_wide = 0; // what the narrow one shows is the middle third of the wide one
+  double of_narrow = 0, of_wide = 0; // the narrow image is the middle third of the wide one
   for (std::size_t y = 0; y < 12; ++y)
     for (std::size_t x = 0; x < 8; ++x) {
       of_narrow += narrow.channels.at("G")[8 * y + x];

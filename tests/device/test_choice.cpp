@@ -1,4 +1,4 @@
-// Which devices a specification means, on machines that are not here.
+// Choice of devices by specifications, on simulated machines.
 #include <catch2/catch.hpp>
 
 #include "device/choice.h"

@@ -1,4 +1,4 @@
-// Materials on the device: evaluated, sampled, and so on, for any strategy and width.
+// Runs the functions of materials on the device, for any strategy and width.
 #pragma once
 
 #include <string>
@@ -55,7 +55,7 @@ private:
   static phlux::scene::Scene scene_of(const std::vector<phlux::scene::Material>& materials) {
     phlux::scene::Scene scene;
     scene.materials = materials;
-    // A shape of each material: programs have the models of those that shapes have.
+    // A shape of each material: programs contain only the models of materials that shapes have.
     for (std::size_t i = 0; i < materials.size(); ++i)
       scene.spheres.push_back({{3.0 * static_cast<double>(i), 0, 0}, 1, false, {static_cast<int>(i), -1}});
     return scene;

@@ -36,7 +36,7 @@ class SphereGrid {
 public:
   static constexpr int longitudes = 12;
 
-  /// `cuts`: angles in (0, pi) at which a density may have a kink, or varies fast.
+  /// `cuts`: angles in (0, pi) at which a density may have a kink or varies rapidly.
   SphereGrid(const glm::dvec3& axis, std::vector<double> cuts) : z_(axis), angles_(std::move(cuts)) {
     const glm::dvec3 normal(0, 0, 1);
     const glm::dvec3 away = axis * axis.z - normal; // from the normal, across the axis
@@ -111,7 +111,7 @@ private:
   std::vector<double> angles_;
 };
 
-/// Angles within which a lobe of this exponent has given shares of its weight.
+/// Angles that contain given shares of the integral of a lobe of this exponent.
 inline std::vector<double> lobe_cuts(double exponent) {
   std::vector<double> cuts;
   for (const double outside : {0.8, 0.5, 0.25, 0.1, 0.02, 1e-3, 1e-5})

@@ -1,4 +1,4 @@
-// What every way of sampling a reflectance model must do, whichever the model.
+// Tests of sampling that hold for every reflectance model.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace device_test {
 
-/// The density on the device, integrated over the cells of a grid.
+/// Integrals of the density on the device over the cells of a grid.
 inline std::vector<double> density_in_cells(const MaterialProgram& program, int material, const Float3& fixed,
                                             const SphereGrid& grid) {
   const auto nodes = grid.nodes();
@@ -22,8 +22,9 @@ inline std::vector<double> density_in_cells(const MaterialProgram& program, int 
   return cells;
 }
 
-/// That the samples' directions have the density that is in the cells. Samples that did not survive, and
-/// directions that stand for none (not unit vectors), count as what is missing from 1.
+/// Tests that the directions of the samples have the density whose integrals are in the cells. The rest of
+/// the probability, 1 - sum, is that of samples that did not survive or have no direction (not a unit
+/// vector).
 inline double directions_p(const std::vector<Sample>& samples, const SphereGrid& grid,
                            std::vector<double> cells) {
   std::vector<double> observed(cells.size() + 1, 0.0);
@@ -41,8 +42,8 @@ inline double directions_p(const std::vector<Sample>& samples, const SphereGrid&
   return chi_square_p(observed, cells);
 }
 
-/// That the mean of what samples carry on, where they survive, is `reflectivity`, in the channel where it
-/// fits worst; the caller counts three questions.
+/// Tests that the mean weight, 0 for samples that do not survive, is `reflectivity`. Returns the least
+/// p-value of the three channels, which the caller must count as three questions.
 inline double weights_p(const std::vector<Sample>& samples, const glm::dvec3& reflectivity) {
   glm::dvec3 sum(0), squares(0);
   for (const Sample& s : samples) {
@@ -60,8 +61,8 @@ inline double weights_p(const std::vector<Sample>& samples, const glm::dvec3& re
   return worst;
 }
 
-/// Samples that are wrong by themselves: weights that are not finite, negative, or not 0 below the surface,
-/// or that a density does not go with.
+/// Number of invalid samples: weights that are not finite, negative, not 0 below the surface, or without a
+/// positive density.
 inline std::size_t bad_weights(const std::vector<Sample>& samples) {
   return static_cast<std::size_t>(std::count_if(samples.begin(), samples.end(), [](const Sample& s) {
     if (s.survives == 0) return false;
@@ -72,8 +73,8 @@ inline std::size_t bad_weights(const std::vector<Sample>& samples) {
   }));
 }
 
-/// The largest relative difference between a sample's density and that of its direction, and, where `whole`,
-/// between its weight and eval cos / density; samples above the surface and without roulette.
+/// The largest relative difference between the density of a sample and that evaluated for its direction, and,
+/// if `whole`, between its weight and eval cos / density; for samples above the surface, without roulette.
 inline double disagreement(const MaterialProgram& program, int material, const Float3& fixed,
                            const std::vector<Sample>& samples, bool whole) {
   std::vector<Float3> directions;

@@ -1,6 +1,6 @@
-// Statistical tests. Each returns a p-value; a test case that asks many questions compares it with
-// one_of(questions), so that the whole case raises a false alarm with probability false_alarm_rate (Sidak
-// 1967) were its seed drawn anew. Seeds are fixed, so a test that passes keeps passing.
+// Statistical tests. Each returns a p-value; a test case with many questions compares it with
+// one_of(questions), so that with a random seed the whole case raises a false alarm with probability
+// false_alarm_rate (Sidak 1967). Seeds are fixed, so a test that passes keeps passing.
 #pragma once
 
 #include <cmath>
@@ -15,12 +15,12 @@ namespace device_test {
 
 inline constexpr double false_alarm_rate = 1e-3;
 
-/// The level at which one of many questions must be asked.
+/// The significance level of each of many questions.
 inline double one_of(std::size_t questions) {
   return phlux::test::level_of_each(false_alarm_rate, questions);
 }
 
-/// Pearson's chi-square of observed counts against expected ones; cells that expect few are pooled.
+/// Pearson's chi-square test of observed and expected counts; cells with small expected counts are pooled.
 inline double chi_square_p(const std::vector<double>& observed, const std::vector<double>& expected) {
   constexpr double fewest = 8;
   double statistic = 0, pooled_observed = 0, pooled_expected = 0;
@@ -37,7 +37,7 @@ inline double chi_square_p(const std::vector<double>& observed, const std::vecto
       pooled_expected += expected[i];
     }
   }
-  // What even the pool expects less than once must hardly ever be seen.
+  // If even the pool has an expected count below 1, its observed count must be small.
   if (pooled_expected >= 1)
     add(pooled_observed, pooled_expected);
   else if (pooled_observed > 5)
@@ -45,9 +45,9 @@ inline double chi_square_p(const std::vector<double>& observed, const std::vecto
   return cells > 1 ? boost::math::gamma_q((cells - 1) / 2.0, statistic / 2) : 1;
 }
 
-/// That a mean with this standard error is `expected`, two-sided.
+/// Two-sided test that a mean with this standard error is `expected`.
 inline double mean_p(double mean, double standard_error, double expected) {
-  if (std::abs(mean - expected) <= 1e-5 * std::abs(expected)) return 1; // weights of float precision
+  if (std::abs(mean - expected) <= 1e-5 * std::abs(expected)) return 1; // rounding of weights in float32
   return standard_error > 0 ? boost::math::erfc(std::abs(mean - expected) / standard_error / std::sqrt(2.0))
                             : 0;
 }

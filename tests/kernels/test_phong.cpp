@@ -1,4 +1,4 @@
-// The modified Phong model: what it is, and that host and device agree about what it reflects.
+// The modified Phong model: evaluation, and reflectivity on host and device.
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -70,8 +70,8 @@ TEST_CASE("phong: the value is the formula's, the same both ways, and 0 below th
       for (std::size_t i = 0; i < a.size(); ++i) {
         const auto right = phong_formula(material, to_double(a[i]), to_double(b[i]));
         const auto got = to_double(value[i]), other = to_double(back[i]);
-        // Components of directions are right to 2^-25, so cos(alpha) and its power to n |sin alpha| 2^-24 or
-        // so.
+        // Components of directions have errors of 2^-25, so the relative error of the power of cos(alpha) is
+        // about n |sin alpha| 2^-24.
         const glm::dvec3 mirrored(-a[i].x, -a[i].y, a[i].z);
         const double sine = glm::length(mirrored - to_double(b[i]));
         const double tolerance = 3e-6 + 2e-7 * phlux::test::exponent_of(material) * sine;

@@ -1,4 +1,5 @@
-// The generator of random scenes: what it makes is valid, repeatable, and all that scene files may say.
+// The generator of random scenes: its scenes are valid, reproducible, and cover everything that scene files
+// may contain.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -140,7 +141,7 @@ TEST_CASE("random scenes: facts of views and lights", "[second]") {
     const TemporaryFolder folder;
     return facts_of(scene_file::load(write_scene({xml, {}}, folder.path(), "facts")));
   };
-  // All is within a box of half edge 100. The film's area is 4 at the distance 1.
+  // Everything is within a box of half edge 100. The area of the film is 4 at the distance 1.
   const double nearness = 3 / (100 * std::sqrt(3));
   for (const char* shape : {"rectangle", "disk", "cube", "sphere"}) {
     CAPTURE(shape);

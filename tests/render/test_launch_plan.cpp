@@ -1,4 +1,4 @@
-// What a launch is planned to be, without a device.
+// Planning of launches, without a device.
 #include <catch2/catch.hpp>
 
 #include "render/launch_plan.h"

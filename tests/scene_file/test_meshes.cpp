@@ -197,7 +197,7 @@ TEST_CASE("Normals of the file are used, interpolated; faceNormals leaves them o
 }
 
 TEST_CASE("Normals that the file does not give are computed, weighted by angle, unless faceNormals is set") {
-  // A right-angled edge: the two squares' normals count alike at its ends.
+  // A right-angled edge: at its ends the normals of the two squares have equal weights.
   const std::string edge = "v 0 0 0\nv 0 1 0\nv 1 1 0\nv 1 0 0\nv 0 0 1\nv 0 1 1\nf 1 4 3 2\nf 1 2 6 5\n";
   const Mesh mesh = load_mesh("obj", edge);
   REQUIRE(mesh.normals.size() == mesh.positions.size());

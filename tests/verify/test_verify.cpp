@@ -1,5 +1,4 @@
-// Verification itself: it passes on the device under test, and a wrong kernel fails the check that is there
-// for it.
+// Verification passes on the device under test, and a wrong kernel fails the check for it.
 #include <algorithm>
 #include <string>
 
