@@ -8,8 +8,7 @@ drivers=(pocl-3.1 pocl-6 intel) # the others are compared with the first
 widths="1 4 8 16"
 image="--size 24x24 --spp 64 --seed 1 --moments --png none -q"
 # The same samples on each driver, so that images differ only by rounding and its consequences: far less than noise, unless a
-# driver is wrong. The limits are nevertheless those of noise: of 400,000
-# normal z-values one exceeds 6 in 1 of 1000 runs.
+# driver is wrong. The limits are nevertheless those of noise: of 400,000 normal z-values one exceeds 6 in 1 of 1000 runs.
 largest_z=6 largest_share=0.003
 
 # on DRIVER COMMAND...

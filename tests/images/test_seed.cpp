@@ -85,16 +85,19 @@ TEST_CASE("seeds differ in all of their 64 bits") {
 
 TEST_CASE("the number of PoCL's threads does not change a bit") {
   const TemporaryFolder folder;
-  const auto render = [&](const std::string& threads, const std::string& image) {
-    return run({{"render", PHLUX_SOURCE_DIR "/scenes/cornell-box.xml", "--size", "24x24", "-n", "20", "-q",
-                 "-o", image},
-                folder.path(),
-                {{"POCL_MAX_PTHREAD_COUNT", threads}},
-                {}});
-  };
-  REQUIRE(render("1", "one.exr").exit_code == 0);
-  REQUIRE(render("3", "three.exr").exit_code == 0);
-  const Outcome compared = run({{"compare", "one.exr", "three.exr", "--json"}, folder.path(), {}, {}});
-  REQUIRE(compared.exit_code == 0);
-  CHECK_THAT(compared.out, Catch::Contains("\"rmse\": 0.0,"));
+  for (const char* integrator : {"path", "light", "bidir"}) {
+    CAPTURE(integrator);
+    const auto render = [&](const std::string& threads, const std::string& image) {
+      return run({{"render", PHLUX_SOURCE_DIR "/scenes/cornell-box.xml", "-i", integrator, "--size", "24x24",
+                   "-n", "20", "-q", "-o", image},
+                  folder.path(),
+                  {{"POCL_MAX_PTHREAD_COUNT", threads}},
+                  {}});
+    };
+    REQUIRE(render("1", "one.exr").exit_code == 0);
+    REQUIRE(render("3", "three.exr").exit_code == 0);
+    const Outcome compared = run({{"compare", "one.exr", "three.exr", "--json"}, folder.path(), {}, {}});
+    REQUIRE(compared.exit_code == 0);
+    CHECK_THAT(compared.out, Catch::Contains("\"rmse\": 0.0,"));
+  }
 }

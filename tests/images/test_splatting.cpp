@@ -4,12 +4,10 @@
 
 #include <catch2/catch.hpp>
 
-#include "cli/program.h"
 #include "images/evidence.h"
 #include "images/integrators.h"
 #include "images/prepared_render.h"
 #include "images/room.h"
-#include "temporary_folder.h"
 
 using namespace phlux;
 using namespace phlux::test;
@@ -64,25 +62,6 @@ TEST_CASE("a scene that is prepared once is rendered with each seed as it is by 
     const PreparedRender prepared(scene, with(method, 100));
     for (const std::uint64_t seed : {7, 8})
       CHECK(same_bits(prepared.image(seed, 100).film, render_of(scene, with(method, 100, seed)).film));
-  }
-}
-
-TEST_CASE("light and bidir: the number of PoCL's threads does not change a bit") {
-  const TemporaryFolder folder;
-  for (const Method& method : both) {
-    CAPTURE(name_of(method));
-    const auto render = [&](const std::string& threads, const std::string& image) {
-      return run({{"render", PHLUX_SOURCE_DIR "/scenes/cornell-box.xml", "-i", method.integrator, "--size",
-                   "24x24", "-n", "20", "-q", "-o", image},
-                  folder.path(),
-                  {{"POCL_MAX_PTHREAD_COUNT", threads}},
-                  {}});
-    };
-    REQUIRE(render("1", "one.exr").exit_code == 0);
-    REQUIRE(render("3", "three.exr").exit_code == 0);
-    const Outcome compared = run({{"compare", "one.exr", "three.exr", "--json"}, folder.path(), {}, {}});
-    REQUIRE(compared.exit_code == 0);
-    CHECK_THAT(compared.out, Catch::Contains("\"rmse\": 0.0,"));
   }
 }
 
