@@ -118,7 +118,7 @@ TEST_CASE("every primitive is in one leaf of a hierarchy, in the boxes of all no
   }
 }
 
-TEST_CASE("shapes on one heap make no deeper hierarchy than kernels have a stack for") {
+TEST_CASE("the depth of the hierarchy of coincident shapes is within the stack of the kernels") {
   Shapes shapes;
   for (int i = 0; i < 500; ++i) {
     shapes.add_sphere({0, 0, 0}, 1);
@@ -127,7 +127,7 @@ TEST_CASE("shapes on one heap make no deeper hierarchy than kernels have a stack
   for (const int lanes : widths) check_hierarchy(shapes, lanes);
 }
 
-TEST_CASE("tables are whole blocks, filled up with what nothing meets") {
+TEST_CASE("tables are whole blocks, padded with primitives that no ray hits") {
   const Shapes shapes = random_shapes(50, 21, 13);
   for (const int lanes : widths) {
     CAPTURE(lanes);

@@ -96,6 +96,6 @@ TEST_CASE("primitives at one place, and in a row without extent, keep leaves and
   }
 }
 
-TEST_CASE("a tree of nothing is refused") {
+TEST_CASE("a tree without primitives is refused") {
   CHECK_THROWS_AS(Tree({}, shapes[0]), phlux::SceneError);
 }

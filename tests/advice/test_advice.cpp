@@ -8,7 +8,7 @@
 using namespace phlux;
 using namespace phlux::test;
 
-TEST_CASE("where path tracing cannot be trusted, trials say what can") {
+TEST_CASE("if path tracing cannot be trusted, trials find a method that can") {
   render::Settings with = settings_for(16);
   const auto bidir = Catch::Contains("try `integrator` bidir"),
              light = Catch::Contains("try `integrator` light");
@@ -21,7 +21,7 @@ TEST_CASE("where path tracing cannot be trusted, trials say what can") {
   CHECK_THAT(advice.words, bidir || light);
 }
 
-TEST_CASE("the light that makes the variance is named") {
+TEST_CASE("the light that causes the variance is named") {
   scene::Scene scene = shipped("caustic", 32, 24);
   const scene::PointLight lamp{{0, 1, 1}, scene::Rgb(1)};
   scene.point_lights = {lamp, lamp};

@@ -48,7 +48,7 @@ constexpr double rounding = 1e-5; // of float32 sums in a pixel much brighter th
 
 } // namespace
 
-TEST_CASE("A render that was broken off, and again, has the film and counts of one that was not") {
+TEST_CASE("A render that was interrupted twice has the film and counts of an uninterrupted one") {
   const std::string integrator = GENERATE("path", "light", "bidir");
   CAPTURE(integrator);
   Broken whole = begun(integrator, 180, 0.05);
@@ -68,7 +68,7 @@ TEST_CASE("A render that was broken off, and again, has the film and counts of o
   CHECK((bytes_of(broken) == bytes_of(whole))); // too long to print
 }
 
-TEST_CASE("A render goes on to more samples, and from one that time was to end") {
+TEST_CASE("A render continues to more samples, also after one with a time limit") {
   const bool open_ended = GENERATE(false, true);
   Broken whole = begun("path", 100);
   go_on(whole);
@@ -83,7 +83,7 @@ TEST_CASE("A render goes on to more samples, and from one that time was to end")
   CHECK(difference(broken.film, whole.film) < rounding);
 }
 
-TEST_CASE("Samples from a number on are those that come after that many") {
+TEST_CASE("Samples from number N on are those that follow the first N") {
   Broken whole = begun("path", 40), first = begun("path", 20), second = begun("path", 20);
   second.session.settings.first_sample = 20;
   for (Broken* broken : {&whole, &first, &second}) go_on(*broken);

@@ -81,7 +81,7 @@ TEST_CASE("Unwritable outputs are found before rendering: one line, exit code 5,
     }
 }
 
-TEST_CASE("No device that fits is one line and exit code 4") {
+TEST_CASE("No matching device is one line and exit code 4") {
   const TemporaryFolder folder;
   folder.write("scene.xml", good_scene);
   const std::map<std::string, std::string> no_platform = {{"OCL_ICD_VENDORS", "/nonexistent"}};
@@ -109,7 +109,7 @@ TEST_CASE("An empty scene is an error that names the file, exit code 3, no file"
   CHECK(folder.names() == std::set<std::string>{"scene.xml"});
 }
 
-TEST_CASE("Where rendering can go on there is a named warning") {
+TEST_CASE("Recoverable problems are warnings that name the cause") {
   const TemporaryFolder folder;
   folder.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 4\n");
   const std::vector<BadScene> odd_scenes = {

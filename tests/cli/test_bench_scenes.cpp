@@ -74,7 +74,7 @@ TEST_CASE("phlux bench scenes writes the contract's columns, a row for each meth
   }
 }
 
-TEST_CASE("phlux bench scenes goes on where it was interrupted") {
+TEST_CASE("phlux bench scenes resumes where it was interrupted") {
   const TemporaryFolder folder;
   const auto rows_of = [&](const std::string& scene) {
     std::vector<std::string> rows;
@@ -107,7 +107,7 @@ TEST_CASE("phlux bench scenes goes on where it was interrupted") {
   CHECK(rows_of("cornell-box") == second);
 }
 
-TEST_CASE("phlux bench scenes measures a strategy that is added beside what is there") {
+TEST_CASE("phlux bench scenes adds the rows of another strategy to the table") {
   const TemporaryFolder folder;
   (void)run({scenes_command({"furnace-sphere"}), folder.path(), {}, {}});
   const auto before = lines_of(TemporaryFolder::read(folder / "out/scenes.csv"));

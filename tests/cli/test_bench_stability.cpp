@@ -53,7 +53,7 @@ TEST_CASE("phlux bench stability writes a row for each cell and method, charts a
   }
 }
 
-TEST_CASE("phlux bench stability goes on where it was interrupted") {
+TEST_CASE("phlux bench stability resumes where it was interrupted") {
   const TemporaryFolder folder;
   const auto rows = [&] { return lines_of(TemporaryFolder::read(folder / "out/stability.csv")); };
   const std::vector<std::string> fast = {"--method", "path light"};

@@ -18,7 +18,7 @@ struct Renders : Workplace {
 
 } // namespace
 
-TEST_CASE("An interrupted render goes on from its checkpoint to the image of one that was not") {
+TEST_CASE("An interrupted render resumes from its checkpoint to the image of an uninterrupted one") {
   const Renders place;
   REQUIRE(place.render({"-n", "20", "--seed", "3", "-D", "radiance=10", "-o", "short.exr"}).exit_code == 0);
   const Outcome broken =
@@ -49,7 +49,7 @@ TEST_CASE("An interrupted render goes on from its checkpoint to the image of one
         std::set<std::string>{"scene.xml", "short.exr", "scene.exr", "resumed.exr", "again.exr", "c"});
 }
 
-TEST_CASE("Checkpoints are written while the render runs, and it goes on from any of them") {
+TEST_CASE("Checkpoints are written during the render, which resumes from any of them") {
   const Renders place;
   REQUIRE(place.render({"-n", "64", "--moments", "-o", "whole.exr"}).exit_code == 0);
   REQUIRE(place.render({"-n", "64", "--checkpoint", "first", "--checkpoint-every", "0.01"}).exit_code == 0);
@@ -65,7 +65,7 @@ TEST_CASE("Checkpoints are written while the render runs, and it goes on from an
              Contains("--checkpoint second: takes the place of an earlier one"));
 }
 
-TEST_CASE("What is no checkpoint of this render is refused in one line, and nothing is written") {
+TEST_CASE("A file that is not a checkpoint of this render is refused in one line, and nothing is written") {
   const Renders place;
   REQUIRE(place.render({"-n", "2", "--checkpoint", "c", "-o", "a.exr"}).exit_code == 0);
   place.write("other.xml", scene_with(sphere_of("")));
@@ -95,8 +95,7 @@ TEST_CASE("What is no checkpoint of this render is refused in one line, and noth
   CHECK(place.names() == std::set<std::string>{"scene.xml", "other.xml", "foreign", "a.exr", "c"});
 }
 
-TEST_CASE(
-    "A checkpoint that cannot be written leaves the earlier one, and the image is written all the same") {
+TEST_CASE("If a checkpoint cannot be written, the earlier one stays and the image is written") {
   const Renders place;
   REQUIRE(place.render({"-n", "2", "--size", "256x256", "--checkpoint", "c"}).exit_code == 0);
   const std::string before = TemporaryFolder::read(place / "c");

@@ -32,7 +32,7 @@ TEST_CASE("phlux compare prints the figures") {
   CHECK(nlohmann::json::parse(json.out)["rmse"] == 1.0);
 }
 
-TEST_CASE("phlux compare fails for what cannot be compared") {
+TEST_CASE("phlux compare fails for images that cannot be compared") {
   const TemporaryFolder folder;
   write_exr(folder / "a.exr", constant(2, 2, 1.0F));
   SECTION("another size") {
@@ -55,7 +55,7 @@ TEST_CASE("phlux compare fails for what cannot be compared") {
     CHECK_THAT(outcome.err, Catch::EndsWith(": an existing OpenEXR image is needed\n"));
 }
 
-TEST_CASE("phlux compare ends with 1 where values are not finite, and still prints the figures") {
+TEST_CASE("phlux compare ends with 1 if values are not finite, and prints the figures") {
   const TemporaryFolder folder;
   Image image = constant(2, 2, 1.0F);
   write_exr(folder / "b.exr", image);
@@ -121,7 +121,7 @@ TEST_CASE("A platform without devices is listed, and no command warns of it") {
   CHECK_THAT(wrong.err, Catch::EndsWith("; Driver of nothing has no devices\n"));
 }
 
-TEST_CASE("Where no platform has devices, the error names the platforms") {
+TEST_CASE("If no platform has devices, the error names the platforms") {
   const TemporaryFolder vendors, folder;
   write_vendors(vendors, false);
   const Outcome outcome = run({{"devices"}, folder.path(), {{"OCL_ICD_VENDORS", vendors.path()}}, {}});

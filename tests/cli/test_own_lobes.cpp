@@ -70,7 +70,7 @@ TEST_CASE("phlux render --lobe: a scene names a model of the user's own") {
   CHECK_THAT(render(folder, {"--lobe", "minnaert.cl"}).err, Contains("exponent must be in [0, 100]"));
 }
 
-TEST_CASE("phlux render --lobe: what the device's compiler refuses is named by the user's file and line") {
+TEST_CASE("phlux render --lobe: compiler errors name the user's file and line") {
   const TemporaryFolder folder;
   folder.write("scene.xml", scene_of(minnaert));
   std::filesystem::create_directory(folder / "my lobes");
@@ -88,7 +88,7 @@ TEST_CASE("phlux render --lobe: what the device's compiler refuses is named by t
   CHECK(render(folder, {"--lobe", "Minnaert.cl"}).is_one_line_error());
 }
 
-TEST_CASE("phlux render --lobe: a checkpoint goes on with the same model alone") {
+TEST_CASE("phlux render --lobe: a checkpoint resumes only with the same model") {
   const TemporaryFolder folder;
   folder.write("scene.xml", scene_of(minnaert));
   folder.write("minnaert.cl", minnaert_text);

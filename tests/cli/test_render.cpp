@@ -32,7 +32,7 @@ double mean(const std::vector<float>& values) {
 
 } // namespace
 
-TEST_CASE("The plain command writes an image and a preview, named after the scene, and says so") {
+TEST_CASE("The plain command writes an image and a preview, named after the scene, and prints their names") {
   const Renders place;
   const Outcome outcome = place.render({});
   CHECK(place.names() == std::set<std::string>{"scene.xml", "scene.exr", "scene.png"});
@@ -101,7 +101,7 @@ TEST_CASE("Statistics have the contract's keys with values of the right kind") {
   CHECK(place.json("again.json")["kernel_cache"] == "hit");
 }
 
-TEST_CASE("The scene says which integrator, unless -i does") {
+TEST_CASE("The scene selects the integrator, unless -i is given") {
   const Renders place;
   const auto integrator_of = [&](const std::string& plugin, std::vector<std::string> options) {
     std::string scene = good_scene;
@@ -180,7 +180,7 @@ TEST_CASE("-D reaches the scene") {
         Approx(2.0 * mean(place.image("a.exr").channels.at("R"))).epsilon(1e-4));
 }
 
-TEST_CASE("--time and --error decide how many samples there are") {
+TEST_CASE("--time and --error determine the number of samples") {
   const Renders place;
   place.render({"--time", "0.5", "--stats", "stats.json"});
   const nlohmann::json timed = place.json("stats.json");
@@ -251,7 +251,7 @@ TEST_CASE("--size keeps the field of view along fovAxis") {
   CHECK(of_narrow == Approx(of_wide).epsilon(0.05));
 }
 
-TEST_CASE("An output that is not a regular file is written to, without a preview beside it") {
+TEST_CASE("An output that is not a regular file is written, without a preview") {
   const Renders place;
   place.render({"-o", "/dev/null"});
   CHECK(std::filesystem::is_character_file("/dev/null"));

@@ -101,7 +101,7 @@ TEST_CASE("Help and version are no errors") {
 }
 
 // CLI11 2.4 throws for other names, whatever the command.
-TEST_CASE("The name of what a command takes is one word") {
+TEST_CASE("The placeholder of an argument is one word") {
   const TemporaryFolder folder;
   for (const char* command : {"render", "compare", "merge"}) {
     const Outcome help = run({{command, "--help"}, folder.path(), {}, {}});
@@ -117,7 +117,7 @@ TEST_CASE("The name of what a command takes is one word") {
   }
 }
 
-TEST_CASE("The version says what a report should") {
+TEST_CASE("The version has everything that a bug report needs") {
   const TemporaryFolder folder;
   const Outcome version = run({{"--version"}, folder.path(), {}, {}});
   CHECK(version.exit_code == 0);

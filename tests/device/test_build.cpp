@@ -112,7 +112,7 @@ TEST_CASE("PoCL keeps its programs itself") {
   CHECK(files_in(cache.path()).empty());
 }
 
-TEST_CASE("without a writable cache, programs are built all the same") {
+TEST_CASE("without a writable cache, programs are built") {
   const TemporaryFolder folder;
   folder.write("file", "");
   const Environment variable("PHLUX_CACHE_DIR", (folder.path() / "file" / "cache").string());

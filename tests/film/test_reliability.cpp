@@ -75,7 +75,7 @@ TEST_CASE("Even noise is trusted, and its figures are those of its distribution"
     CHECK(pixel == Approx(1.0 - std::sqrt(8.0 / 256.0)).margin(0.03));
 }
 
-TEST_CASE("Splats are judged as samples are") {
+TEST_CASE("The reliability of splats is that of samples") {
   std::mt19937 random(2);
   const Reliability even = reliability_of(film_of_splats(256, [] { return 1.0; }));
   CAPTURE(even.reasons);

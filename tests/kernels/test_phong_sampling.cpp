@@ -122,7 +122,7 @@ TEST_CASE("phong: each strategy draws by its density, carries the reflectivity, 
     }
 }
 
-TEST_CASE("phong: the printed estimate loses as much energy as it must") {
+TEST_CASE("phong: the energy loss of the printed estimate is as derived") {
   // MATH.md 2.4: a black diffuse part, n = 50 at 80 degrees: 10.7 percent.
   const MaterialProgram program({1}, {phong(glm::dvec3(0), glm::dvec3(1), 50)}, "lobe-estimate-printed");
   const Float3 fixed = to_float(polar(80 * std::numbers::pi / 180, 0.3));

@@ -204,7 +204,7 @@ TEST_CASE("traverse: brute force and hierarchy find the same primitives at the s
     }
 }
 
-TEST_CASE("surface: a ray that leaves a surface does not find it again, and crosses a sphere from inside") {
+TEST_CASE("surface: a ray that leaves a surface does not hit it again, and crosses a sphere from inside") {
   for (const Variant v : variants)
     for (int kind = 0; kind < 5; ++kind)
       for (const double size : {1.0, 1e4, 1e-4})

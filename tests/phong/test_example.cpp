@@ -75,7 +75,7 @@ double mean_p(const std::vector<float>& values, double expected) {
 
 } // namespace
 
-TEST_CASE("example.cl compiles of lanes, math, lobes/lobe.h and phong alone") {
+TEST_CASE("example.cl compiles with only lanes, math, lobes/lobe.h and phong") {
   const std::string text = device::expand(kernel_files(), source("phong/example.cl", "exact", 1));
   const std::regex line("#line [0-9]+ \"([^\"]+)\"");
   const std::regex allowed("(lanes|math|phong)/.*|lobes/lobe\\.h");

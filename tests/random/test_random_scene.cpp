@@ -26,7 +26,8 @@ TEST_CASE("random scenes are the same each time, and differ by family and member
   CHECK(random_scene({3, 1}).xml != random_scene({4, 1}).xml);
 }
 
-TEST_CASE("random scenes can be loaded, and together say all that a scene file may say", "[second]") {
+TEST_CASE("random scenes can be loaded, and together cover everything that a scene file may contain",
+          "[second]") {
   const auto level = spdlog::get_level();
   spdlog::set_level(spdlog::level::err);
   std::string all;

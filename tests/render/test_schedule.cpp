@@ -63,7 +63,7 @@ TEST_CASE("a schedule goes on where another stopped with the jobs that were to c
   }
 }
 
-TEST_CASE("what is missing is handed out first, however it is cut") {
+TEST_CASE("missing samples are scheduled first, however they are divided") {
   SchedulePosition position{32, 5, samples_per_block, {{3, 10, 16, 16}, {6, 2, 32, 16}}};
   Schedule schedule(pixels, 64, position);
   const std::vector<Job> jobs = jobs_of(schedule, 4);

@@ -34,7 +34,7 @@ TEST_CASE("a limit of time ends the render when two launches more are done, with
   CHECK(static_cast<double>(statistics.paths) / 4096 == Approx(film.samples_per_pixel()));
 }
 
-TEST_CASE("an error that is asked for is reached") {
+TEST_CASE("the requested error is reached") {
   render::Settings with = settings_for(1);
   with.target_error = 0.04;
   with.time_limit = 30; // in case the other condition fails

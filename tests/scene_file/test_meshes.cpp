@@ -172,7 +172,7 @@ TEST_CASE("OBJ: broken lines are errors with their number") {
   CHECK_THAT(mesh_error("obj", square), StartsWith("mesh.obj: the mesh has no triangles"));
 }
 
-TEST_CASE("Triangles without area are dropped, and counted in a warning") {
+TEST_CASE("Triangles without area are dropped, and a warning counts them") {
   const std::string bytes = square + "v 2 0 0\nf 1 2 3\nf 1 1 2\nf 1 2 5\nf 1 2\n";
   CHECK(load_mesh("obj", bytes).triangles.size() == 1);
   CHECK_THAT(mesh_log("obj", bytes), Contains("warning: mesh.obj: 3 zero-area triangles are dropped"));

@@ -59,7 +59,7 @@ TEST_CASE("Every setting's value comes back from its text, and goes to no other 
   CHECK(names.size() == other_texts.size());
 }
 
-TEST_CASE("What a setting cannot be is refused by its name") {
+TEST_CASE("An invalid value of a setting is refused with the name of the setting") {
   const auto refusal = [](const std::string& name, const std::string& text) -> std::string {
     try {
       chosen({{name, text}});

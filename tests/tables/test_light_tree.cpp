@@ -61,7 +61,7 @@ TEST_CASE("thousands of point lights in a row, or at one place, make no deep tre
   CHECK(check_tree(points(4000, {1, 2, 3}, {0, 0, 0})) < 24);
 }
 
-TEST_CASE("one light leaves nothing to choose") {
+TEST_CASE("with one light there is no choice") {
   std::vector<LightRecord> records(1);
   CHECK(tables::light_tree(points(1, {0, 0, 0}, {0, 0, 0}), records).empty());
   CHECK(tables::light_tree({}, records).empty());

@@ -70,7 +70,7 @@ TEST_CASE("verify: every model that ships passes without closed forms", "[slow]"
     }
 }
 
-TEST_CASE("verify: a user's own model passes, all checks done", "[slow]") {
+TEST_CASE("verify: a user's own model passes all checks", "[slow]") {
   const Verified verified = run_minnaert();
   CHECK(verified.failures() == "");
   for (const char* check :

@@ -65,7 +65,7 @@ TEST_CASE("verify: the printed estimate is named as biased", "[slow]") {
   }));
 }
 
-TEST_CASE("verify: wrong kernels fail the checks that are there for them", "[slow]") {
+TEST_CASE("verify: wrong kernels fail the checks for them", "[slow]") {
   struct Mistake {
     std::string strategy, file, from, to, check;
   };
