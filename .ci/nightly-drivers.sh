@@ -1,14 +1,14 @@
-# Other OpenCL drivers: what verify says on each, and whether they make the same images. Read by .ci/nightly.
-# shellcheck shell=bash disable=SC2034,SC2154 # what nightly sets and reads
+# Other OpenCL drivers: runs verify on each and compares their images. Sourced by .ci/nightly.
+# shellcheck shell=bash disable=SC2034,SC2154 # variables that nightly sets and reads
 
-# A driver's root, of roots that stage_roots makes too, and what it is called with there.
+# The Debian release in whose root each driver runs.
 declare -A release_of=([pocl-3.1]=12 [pocl-6]=13 [intel]=12)
-drivers=(pocl-3.1 pocl-6 intel) # the first is what the others are compared with
+drivers=(pocl-3.1 pocl-6 intel) # the others are compared with the first
 
 widths="1 4 8 16"
 image="--size 24x24 --spp 64 --seed 1 --moments --png none -q"
-# Of the same samples, so that drivers differ by rounding and by what rounding decides: far less than noise, unless one of
-# them is wrong. The limits are nevertheless those of noise: 1 in 1000 runs has a normal z above 6 in 400 000.
+# The same samples on each driver, so that images differ only by rounding and its consequences: far less than noise, unless a
+# driver is wrong. The limits are nevertheless those of noise: of 400,000 normal z-values one exceeds 6 in 1 of 1000 runs.
 largest_z=6 largest_share=0.003
 
 # on DRIVER COMMAND...
@@ -16,13 +16,13 @@ on() {
   local driver=$1 more=()
   shift
   root=$folder/debian${release_of[$driver]}-root
-  if [[ $driver == intel ]]; then # it needs a newer TBB than Embree brings, and the first that is loaded serves both
+  if [[ $driver == intel ]]; then # it needs a newer TBB than Embree, and both use the one loaded first
     more=(OCL_ICD_VENDORS=/opt/intel-vendors LD_PRELOAD=/opt/intel/libtbb.so.12)
   fi
   enter "$root" root env "${more[@]}" PHLUX_CACHE_DIR="/var/cache/phlux-$driver" POCL_CACHE_DIR="/var/cache/pocl-$driver" "$@"
 }
 
-fetch_intel() { # from PyPI, with the pip of this machine, for a bare root has no need of Python
+fetch_intel() { # from PyPI, with pip of this machine, as a bare root has no Python
   python3 -m venv "$folder/intel" &&
     "$folder/intel/bin/pip" install --quiet intel-opencl-rt intel-cmplr-lib-rt
 }
@@ -48,7 +48,7 @@ verify_on() { # DRIVER
 }
 verdict() { grep -E '^(passed|FAILED)|^portable lanes' "$1" | head -n 3 | paste -sd ';'; }
 
-# The scenes that ship, by their own integrator, and two of them by the others.
+# Arguments of the renders: the shipped scenes by their own integrators, and two of them by the others.
 renders() {
   local scene
   for scene in "$repository"/scenes/*.xml "$repository"/scenes/stability/*.xml; do
@@ -58,7 +58,7 @@ renders() {
     printf '%s\n' "scenes/$scene.xml -i light" "scenes/$scene.xml -i bidir"
   done
 }
-file_of() { tr -c 'a-z0-9\n-' _ <<<"$1"; } # of a line of renders
+file_of() { tr -c 'a-z0-9\n-' _ <<<"$1"; } # file name for a line of renders
 
 render_all() { # DRIVER
   local line status=0
@@ -70,7 +70,7 @@ render_all() { # DRIVER
   return "$status"
 }
 
-# compare_all DRIVER: with the first driver's images, by that driver's program.
+# compare_all DRIVER: compares its images with those of the first driver, in the root of the first.
 compare_all() {
   local line status=0
   cp "$images/"*.exr "$folder/debian${release_of[${drivers[0]}]}-root/srv/"

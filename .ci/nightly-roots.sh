@@ -1,11 +1,11 @@
-# Bare Debians, and the README's commands in them. Read by .ci/nightly.
-# shellcheck shell=bash disable=SC2154 # what nightly sets
+# Runs the README's commands on bare Debians. Sourced by .ci/nightly.
+# shellcheck shell=bash disable=SC2154 # variables that nightly sets
 
 declare -A codename=([12]=bookworm [13]=trixie)
-clone=/srv/phlux # the same for every user: a ccache holds paths
+clone=/srv/phlux # the same for every user, since ccache stores paths
 
-# enter ROOT USER COMMAND...: runs it in the root, in the clone, with /proc, /dev and /sys as a machine has. Mounts and
-# processes are gone when it ends: the inner bash is their init, and ends with unshare.
+# enter ROOT USER COMMAND...: runs the command in the clone in the root, with /proc, /dev and /sys. Mounts and processes end
+# with it: the inner bash is their init, and ends with unshare.
 enter() {
   local root=$1 user=$2 home=/root path=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin more=()
   shift 2
@@ -30,13 +30,13 @@ bootstrap() { # RELEASE ROOT
   debootstrap --variant=minbase "${codename[$1]}" "$2.new" http://deb.debian.org/debian && mv "$2.new" "$2"
 }
 
-# bare_root RELEASE: as debootstrap leaves it; sets `bare`.
+# bare_root RELEASE: the root as made by debootstrap; sets `bare`.
 bare_root() {
   bare=$folder/debian$1-bare
   [[ -d $bare ]] || timed "Debian $1: debootstrap" "debian$1-bare" bootstrap "$1" "$bare"
 }
 
-# What the README takes for granted: git, and with it a clone; a user with sudo. And ccache, where it is wanted.
+# Prerequisites of the README: git, a clone, and a user with sudo. Also ccache, if requested.
 furnish() { # ROOT USER
   local packages=(git)
   if [[ $ccache ]]; then packages+=(ccache); fi
@@ -48,23 +48,23 @@ furnish() { # ROOT USER
   fi
   git clone --quiet --no-hardlinks "$repository" "$1$clone" && chroot "$1" chown -R "$2:$2" "$clone"
 }
-enter_bare() { # before there is a clone
+enter_bare() { # enter() before the clone exists
   mkdir -p "$1$clone"
   enter "$1" root sh -c 'apt-get update -q && exec "$@"' _ "${@:2}" && rmdir "$1$clone"
 }
 
-# fresh_root RELEASE USER: a machine that has never seen the program; sets `root`.
+# fresh_root RELEASE USER: a root in which the program has never run; sets `root`.
 fresh_root() {
   bare_root "$1" || return
   root=$folder/debian$1-$2
   [[ -d $root ]] && return
-  rm -rf --one-file-system "$root.new" # of a call that was interrupted
+  rm -rf --one-file-system "$root.new" # from an interrupted call
   cp -a "$bare" "$root.new"
   timed "Debian $1, $2: user and clone" "debian$1-$2-furnish" furnish "$root.new" "$2" || return
   mv "$root.new" "$root"
 }
 
-# Lines of the launcher and of the program that a user would wonder at, and packages that went.
+# Unexpected messages of the launcher and of the program, and removed packages.
 stumbles_of() {
   { grep -E '^phlux: (not installed|going on|warning|error|internal|the build|configuring failed)|FAILED|^E: ' "$1" || true
     sed -n 's/^Remove: /removed: /p' "$root/var/log/apt/history.log" 2>/dev/null; } | sort -u | head -n 5 | paste -sd ';'

@@ -1,4 +1,4 @@
-// The device on which a test program runs its kernels, and the kernels that it tests.
+// The device under test and the kernels under test.
 #pragma once
 
 #include <cstddef>
@@ -9,14 +9,14 @@
 
 namespace phlux::test {
 
-/// PHLUX_DEVICE, else the first CPU. Never released, as drivers may be gone when static objects are
-/// destroyed.
+/// PHLUX_DEVICE, else the first CPU. Never released, because drivers may be unloaded before static objects
+/// are destroyed.
 inline const device::Device& test_device() {
   static const auto& device = *new device::Device(device::open_devices({}).front());
   return device;
 }
 
-/// Interpreters of kernels are some thousand times slower: sweeps are thinned out there.
+/// Whether the device interprets kernels, a thousand times slower: tests then use fewer cases.
 inline std::size_t thinned(std::size_t count, std::size_t factor = 64) {
   return test_device().info.platform == "Oclgrind" ? count / factor + 1 : count;
 }

@@ -1,5 +1,5 @@
-# The steps of the data's way know only those before them: fails when a file of HOST/step, or of bench/ beside HOST,
-# includes one of a step that is not in STEPS, "step:itself,and,those,before|...".
+# Checks that each folder of host/ includes only earlier ones: fails if a file of HOST/step, or of bench/ beside HOST, includes
+# one of a step that STEPS, "step:itself,and,those,before|...", does not allow.
 cmake_minimum_required(VERSION 3.25)
 string(REPLACE "|" ";" steps "${STEPS}")
 set(wrong "")

@@ -9,7 +9,7 @@
 
 class KernelCopy {
 public:
-  /// Replaces the one place of `file` where `from` stands.
+  /// Replaces the only occurrence of `from` in `file`.
   KernelCopy(const std::string& file, const std::string& from, const std::string& to) {
     std::filesystem::copy(PHLUX_SOURCE_DIR "/kernels", folder_.path(),
                           std::filesystem::copy_options::recursive);

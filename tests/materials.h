@@ -1,4 +1,4 @@
-// The parameters of phong-like materials under the names of MATH.md, whichever model holds them.
+// The parameters of phong-like materials by their names in MATH.md, for every model that has them.
 #pragma once
 
 #include "lobes/models.h"
@@ -11,7 +11,7 @@ inline scene::Rgb diffuse_of(const scene::Material& m) {
 inline scene::Rgb specular_of(const scene::Material& m) {
   return m.model == lobes::shipped("diffuse") ? scene::Rgb(0.0) : m.value("specular_reflectance");
 }
-/// Of a phong; of an anisotropic phong that along the first tangent.
+/// Exponent of a phong; of an anisotropic phong, that along the first tangent.
 inline double exponent_of(const scene::Material& m) {
   if (m.model == lobes::shipped("diffuse")) return 0;
   return m.value(m.model == lobes::shipped("phong") ? "exponent" : "exponent_u").x;

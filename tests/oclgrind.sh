@@ -1,8 +1,8 @@
 #!/bin/sh
-# Runs COMMAND with oclgrind as the only OpenCL platform. Fails when COMMAND does, and when oclgrind reports anything:
-# its own exit status is 0 even then. Kernels are built without optimisation: with it, this version of oclgrind stumbles
-# over llvm.experimental.noalias.scope.decl.
-#   oclgrind.sh FOLDER COMMAND...     FOLDER: where the log and the platform's description may be written
+# Runs COMMAND with oclgrind as the only OpenCL platform. Fails if COMMAND fails, and if oclgrind reports anything, since its own
+# exit status is 0 even then. Kernels are built without optimisation, because with it this version of oclgrind fails on
+# llvm.experimental.noalias.scope.decl.
+#   oclgrind.sh FOLDER COMMAND...     FOLDER: for the log and the platform's description
 set -eu
 folder=$1
 shift

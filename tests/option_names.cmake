@@ -1,5 +1,5 @@
-# Nothing below host/cli names an option of the command line: fails where a file of HOST does. Libraries write `seed`
-# for a setting, and host/cli/spelling.h makes --seed of it.
+# Checks that nothing below host/cli names an option of the command line: fails if a file of HOST does. Libraries write `seed`
+# for a setting, which host/cli/spelling.h turns into --seed.
 cmake_minimum_required(VERSION 3.25)
 file(GLOB_RECURSE files ${HOST}/*.h ${HOST}/*.cpp)
 set(wrong "")

@@ -1,6 +1,6 @@
-// A reflectance model of a user's own: that of Minnaert (1941), f_r = k (n + 2) / (2 pi) (cos theta_i cos
-// theta_o)^n, which is reciprocal and reflects k cos^n theta_i. Sampled exactly; its functions share no
-// value, so that a mistake in one is in no other.
+// A user's own reflectance model, that of Minnaert (1941), f_r = k (n + 2) / (2 pi) (cos theta_i cos
+// theta_o)^n, which is reciprocal and reflects k cos^n theta_i. Sampled exactly. Its functions share no code,
+// so that a mistake affects only one of them.
 #pragma once
 
 constexpr const char* minnaert_text = R"(#include "lobes/lobe.h"

@@ -1,4 +1,4 @@
-// Which kernels a test program tests.
+// The kernels under test.
 #pragma once
 
 #include <cstdlib>
@@ -6,8 +6,8 @@
 
 namespace phlux::test {
 
-/// The folder that the environment variable PHLUX_TEST_KERNELS names: to see that a test fails when they are
-/// wrong. Empty: the embedded ones.
+/// The folder in the environment variable PHLUX_TEST_KERNELS, with which a test of wrong kernels can be
+/// checked to fail. Empty: the embedded kernels.
 inline std::filesystem::path tested_kernels() {
   const char* folder = std::getenv("PHLUX_TEST_KERNELS");
   return folder == nullptr ? "" : folder;

@@ -64,15 +64,15 @@ def main():
     table = [[row.remedy, row.place, method_of(row), row.gain, row.gain_standard_error, row.variance_before,
               row.variance_after, row.rays_per_sample_before, row.rays_per_sample_after] for row in rows]
     style.section(
-        folder, "remedies", title="Remedies, before and after", order=55,
-        text=["Each remedy lowers the variance and leaves the mean unchanged. Renders with and without it alternate, with the same "
+        folder, "remedies", title="Techniques that reduce variance", order=55,
+        text=["Each technique lowers the variance and leaves the mean unchanged. Renders with and without it alternate, with the same "
               "seeds. The gain in efficiency is (variance x time) before / after; its standard error comes from those of the two "
               "variances. If few samples dominate the variance before, the gain is a lower bound."],
         summary={"columns": ["remedy", "scene", "method", "gain", "standard error", "variance before", "after",
                              "rays per sample before", "after"], "rows": table,
                  "note": "Variances are of one sample per pixel, relative to the image."},
-        charts=[{"svg": "remedies.svg", "title": "Gain of each remedy",
-                 "caption": "Error bars are two standard errors. Below 1 a remedy costs more time than it saves."}],
+        charts=[{"svg": "remedies.svg", "title": "Gain of each technique",
+                 "caption": "Error bars are two standard errors. Below 1 a technique costs more time than it saves."}],
         tables=[{"csv": "remedies.csv", "title": "All results"}])
 
 

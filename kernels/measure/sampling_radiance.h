@@ -1,4 +1,4 @@
-// Light that `phlux bench sampling` lets arrive; the host integrates the same (bench/radiance.h). Each kind is scaled
+// Light that `phlux bench sampling` lets arrive; the host integrates the same (bench/sampling/radiance.h). Each kind is scaled
 // so that its integral over the hemisphere is 2 pi, as that of radiance 1 is, where no part of it lies below the
 // horizon.
 #ifndef PHLUX_SAMPLING_RADIANCE_H

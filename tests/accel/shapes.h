@@ -1,4 +1,4 @@
-// Scenes of shapes that can be told apart: each has a material of its own.
+// Scenes of shapes with distinct materials, by which tests identify them.
 #pragma once
 
 #include <random>
@@ -9,7 +9,7 @@ namespace accel_test {
 
 using namespace phlux;
 
-/// A scene and, by material, the reference of its primitive.
+/// A scene, and the reference of each primitive by its material.
 struct Shapes {
   scene::Scene scene;
   std::vector<accel::Reference> references;
@@ -34,7 +34,7 @@ private:
   [[nodiscard]] scene::Surface surface() const { return {static_cast<int>(references.size()) - 1, -1}; }
 };
 
-/// So many of each kind, small in a cube of side 20.
+/// Small shapes in a cube of side 20.
 inline Shapes random_shapes(int triangles, int patches, int spheres) {
   Shapes shapes;
   std::mt19937 random(7);

@@ -12,7 +12,7 @@ using scene::Vec3;
 
 namespace {
 
-// The flat primitive's corner or centre, and its edges, from its values.
+// Corner or centre of a flat primitive, and its edges, from its values.
 struct Planar {
   Vec3 origin, edge_u, edge_v;
 };
@@ -120,7 +120,7 @@ TEST_CASE("boxes hold their primitives, and the radius all of them, though float
   }
 }
 
-TEST_CASE("what has no area in single precision is left out") {
+TEST_CASE("shapes without area in single precision are left out") {
   Shapes shapes;
   shapes.add_triangle({0, 0, 0}, {1, 1, 1}, {2, 2, 2});
   shapes.add_patch(scene::Patch::Region::ellipse, {0, 0, 0}, {1e-30, 0, 0}, {0, 1e-30, 0});
@@ -153,7 +153,7 @@ TEST_CASE("emitters are listed in the order of the primitives, with their areas,
   check_near(geometry.emitting[2].high + geometry.origin, {3, 4, 5});
 }
 
-TEST_CASE("triangles refer to their vertices' normals, and what is flat to none") {
+TEST_CASE("triangles refer to the normals of their vertices, flat shapes to none") {
   Shapes shapes = random_shapes(1, 1, 1);
   scene::Mesh smooth = shapes.scene.meshes[0];
   smooth.normals.assign(3, {0, 0, 1});

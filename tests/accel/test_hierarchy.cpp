@@ -1,4 +1,4 @@
-// Hierarchies as kernels walk them.
+// Hierarchies, traversed as kernels do.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -25,7 +25,7 @@ struct Box {
   }
 };
 
-// Walks a hierarchy from its root and checks it against the shapes.
+// Traverses a hierarchy from its root and compares it with the shapes.
 class Walk {
 public:
   Walk(const Shapes& shapes, const Geometry& geometry)
@@ -118,7 +118,7 @@ TEST_CASE("every primitive is in one leaf of a hierarchy, in the boxes of all no
   }
 }
 
-TEST_CASE("shapes on one heap make no deeper hierarchy than kernels have a stack for") {
+TEST_CASE("the depth of the hierarchy of coincident shapes is within the stack of the kernels") {
   Shapes shapes;
   for (int i = 0; i < 500; ++i) {
     shapes.add_sphere({0, 0, 0}, 1);
@@ -127,7 +127,7 @@ TEST_CASE("shapes on one heap make no deeper hierarchy than kernels have a stack
   for (const int lanes : widths) check_hierarchy(shapes, lanes);
 }
 
-TEST_CASE("tables are whole blocks, filled up with what nothing meets") {
+TEST_CASE("tables are whole blocks, padded with primitives that no ray hits") {
   const Shapes shapes = random_shapes(50, 21, 13);
   for (const int lanes : widths) {
     CAPTURE(lanes);
@@ -159,7 +159,7 @@ TEST_CASE("a scene without shapes has no hierarchy, and shapes without area are 
   CHECK_THROWS_AS(accel::hierarchy({}, 4), SceneError);
   Shapes shapes = random_shapes(20, 0, 0);
   const std::size_t with_area = shapes.references.size();
-  for (int i = 0; i < 40; ++i) { // leaves of their own, among them the first and the last
+  for (int i = 0; i < 40; ++i) { // in single leaves, the first and the last included
     shapes.add_triangle(scene::Vec3(100 + i), scene::Vec3(101 + i), scene::Vec3(102 + i));
     shapes.add_triangle(scene::Vec3(-100 - i), scene::Vec3(-101 - i), scene::Vec3(-102 - i));
   }

@@ -1,4 +1,4 @@
-// The tree that Embree builds: what the layouts of hierarchies and of lights rely on.
+// Properties of the tree built by Embree that the layouts of hierarchies and lights rely on.
 #include "accel/tree.h"
 
 #include <algorithm>
@@ -36,7 +36,7 @@ struct Walk {
   std::multiset<unsigned> found;
   unsigned depth = 0;
 
-  // `boxes`: of the nodes above, all of which must hold what is below.
+  // `boxes`: of the ancestors, each of which must contain all below it.
   void visit(const Tree::Node& node, std::vector<RTCBounds> boxes) {
     depth = std::max(depth, static_cast<unsigned>(boxes.size()));
     if (!node.children.empty()) {
@@ -96,6 +96,6 @@ TEST_CASE("primitives at one place, and in a row without extent, keep leaves and
   }
 }
 
-TEST_CASE("a tree of nothing is refused") {
+TEST_CASE("a tree without primitives is refused") {
   CHECK_THROWS_AS(Tree({}, shapes[0]), phlux::SceneError);
 }

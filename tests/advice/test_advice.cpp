@@ -1,4 +1,4 @@
-// What would do better where a render's error cannot be trusted.
+// Recommendations for renders whose error estimate cannot be trusted.
 #include <catch2/catch.hpp>
 
 #include "advice/advice.h"
@@ -8,12 +8,12 @@
 using namespace phlux;
 using namespace phlux::test;
 
-TEST_CASE("where path tracing cannot be trusted, trials say what can") {
+TEST_CASE("if path tracing cannot be trusted, trials find a method that can") {
   render::Settings with = settings_for(16);
   const auto bidir = Catch::Contains("try `integrator` bidir"),
              light = Catch::Contains("try `integrator` light");
   advice::Advice advice;
-  // A machine with other work needs longer for as many samples.
+  // On a busy machine the same number of samples takes longer.
   for (double seconds = 0.5; seconds <= 8 && !(bidir || light).match(advice.words); seconds *= 2)
     advice = advice::advise(shipped("caustic", 32, 24), with, seconds);
   REQUIRE(advice.trials.size() == 3); // path is its own method
@@ -21,7 +21,7 @@ TEST_CASE("where path tracing cannot be trusted, trials say what can") {
   CHECK_THAT(advice.words, bidir || light);
 }
 
-TEST_CASE("the light that makes the variance is named") {
+TEST_CASE("the light that causes the variance is named") {
   scene::Scene scene = shipped("caustic", 32, 24);
   const scene::PointLight lamp{{0, 1, 1}, scene::Rgb(1)};
   scene.point_lights = {lamp, lamp};

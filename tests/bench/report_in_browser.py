@@ -3,8 +3,8 @@
 
     report_in_browser.py PHLUX SCENES [FOLDER]
 
-Measures two of the scenes in SCENES for a second each, into FOLDER, where screenshots stay, or into a folder that is
-removed. Exit code 77 (skipped) where there is no Chromium or no matplotlib.
+Measures two of the scenes in SCENES for a second each. Output and screenshots go to FOLDER, by default a temporary folder.
+The exit code is 77 (skipped) without Chromium or matplotlib.
 """
 import json
 import os
@@ -35,7 +35,7 @@ def measure(program, scenes, folder):
 
 
 def open_page(browser, folder, name, size, scheme):
-    """A screenshot; fails on what the page complains of, and on any address but the page's own."""
+    """A screenshot; fails on messages of the page, and on requests for any other address than the page."""
     screenshot, log = os.path.join(folder, name + ".png"), os.path.join(folder, name + ".netlog.json")
     command = [browser, "--headless=new", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--disable-extensions",
                "--disable-background-networking", "--disable-component-update", "--no-first-run", "--disable-sync",
@@ -54,7 +54,7 @@ def open_page(browser, folder, name, size, scheme):
 
 
 def requests_of(log):
-    """The addresses that the page asked for; Chromium's own requests, to its maker, belong to no site."""
+    """The addresses that the page requested; Chromium's own requests, to Google, belong to no site."""
     with open(log, encoding="utf-8") as file:
         events = json.load(file)["events"]
     return {event["params"]["url"] for event in events

@@ -78,7 +78,7 @@ TEST_CASE("Figures 2 to 5: each integrand integrates to the reflectivity") {
   const Table disk = read(folder, 5);
   double sum = 0;
   for (const double value : disk.at("integrand")) sum += value * std::pow(2.0 / 96, 2);
-  CHECK(sum == Approx(sums.exact).epsilon(5e-3)); // squares at the rim count in whole or not at all
+  CHECK(sum == Approx(sums.exact).epsilon(5e-3)); // squares at the edge are included whole or not at all
   for (const int figure : {2, 3, 4, 5}) {
     const Table table = read(folder, figure);
     for (std::size_t i = 0; i < table.at("f_r").size(); ++i) {
@@ -94,7 +94,7 @@ TEST_CASE("Figures 6 and 7: the squares sum to the reflectivity") {
   const TemporaryFolder& folder = figures(&sums);
   const double sampled_error = std::sqrt(sums.exact * (1 - sums.exact) / 100'000);
   CHECK(std::abs(sums.sampled - sums.exact) < 4 * sampled_error);
-  // Ten points each: what errs are the hundred squares at the rim, by up to half of one each.
+  // Ten points each; only the hundred squares at the edge have errors, of up to half a square each.
   const double rim_error = std::sqrt(100.0 * 0.25 / 10) * 4 / (25 * 25) * .4 / std::numbers::pi;
   CHECK(std::abs(sums.evaluated - sums.exact) < 4 * rim_error);
   for (const int figure : {6, 7}) {

@@ -1,4 +1,4 @@
-// A small render that tests break off.
+// A small render that tests interrupt.
 #pragma once
 
 #include "checkpoint/checkpoint.h"
@@ -6,19 +6,19 @@
 #include "scene_file/load.h"
 #include "tested_kernels.h"
 
-/// The Cornell box, of a number of pixels that no number of lanes divides.
+/// The Cornell box, with a number of pixels that no WIDTH divides.
 [[nodiscard]] inline phlux::scene::Scene small_box() {
   return phlux::scene_file::load(PHLUX_SOURCE_DIR "/scenes/cornell-box.xml", {}, std::array{23, 17});
 }
 
-/// A render of it, as far as it came.
+/// An interrupted or complete render.
 struct Broken {
   phlux::checkpoint::Session session;
   phlux::film::Film film{23, 17};
 };
 
-/// Renders on from `broken` until the film has had so many launches more; -1: to the end. What is in flight
-/// then is lost.
+/// Continues from `broken` until the film has received this many more launches; -1: to the end. Launches
+/// still running then are lost.
 inline void go_on(Broken& broken, int launches = -1) {
   using namespace phlux;
   std::optional<Broken> then;

@@ -1,4 +1,4 @@
-// The file, and what is refused of it.
+// The checkpoint file, and the errors of damaged ones.
 #include <catch2/catch.hpp>
 
 #include "checkpoint/checkpoint.h"
@@ -39,7 +39,7 @@ checkpoint::Session small_session() {
 struct Saved : TemporaryFolder {
   std::string bytes = checkpoint::encode(small_session(), small_film());
 
-  // What is said of a file with these bytes.
+  // The error for a file with these bytes.
   [[nodiscard]] std::string refusal(const std::string& text) const {
     write("c", text);
     try {
@@ -53,7 +53,7 @@ struct Saved : TemporaryFolder {
 
 } // namespace
 
-TEST_CASE("A checkpoint comes back from its file whole") {
+TEST_CASE("A checkpoint read from its file is complete") {
   const Saved saved;
   saved.write("c", saved.bytes);
   const checkpoint::Checkpoint read = checkpoint::read(saved / "c");
@@ -74,7 +74,7 @@ TEST_CASE("The format is that of its version: who changes one raises the other, 
   CHECK(Saved().bytes.size() == 10007);
 }
 
-TEST_CASE("What is no whole checkpoint of this version is refused in a line that says why") {
+TEST_CASE("A file that is not a complete checkpoint of this version is refused with the reason") {
   const Saved saved;
   CHECK(saved.refusal(saved.bytes) == "nothing");
   CHECK_THAT(saved.refusal(""), Contains("is no checkpoint of phlux"));
@@ -144,7 +144,7 @@ TEST_CASE("A checkpoint of another image is refused, naming what differs") {
   CHECK_THAT(refusal([](Settings& s) { s.double_precision = true; }), Contains("`precision` single"));
 }
 
-TEST_CASE("A checkpoint with more samples than are asked for is refused") {
+TEST_CASE("A checkpoint with more samples than requested is refused") {
   CHECK_THAT(
       refusal([](render::Settings& s) { s.samples_per_pixel = 31; }),
       Contains("has 32 samples per pixel already, and `spp` 31 asks for fewer: give `spp` 32 or more"));

@@ -1,4 +1,4 @@
-// A render that goes on from a checkpoint is the one that never stopped.
+// A render that resumes from a checkpoint equals an uninterrupted one.
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -19,7 +19,7 @@ Broken begun(const std::string& integrator, int samples, double launch_seconds =
   return broken;
 }
 
-// All that there is to know of it.
+// The bytes of the whole state.
 std::string bytes_of(Broken broken) {
   broken.session.state.seconds_render = 0.0;
   return checkpoint::encode(broken.session, broken.film);
@@ -44,11 +44,11 @@ double difference(const film::Film& a, const film::Film& b) {
   return largest / (sum / (3.0 * static_cast<double>(a.pixels().size())));
 }
 
-constexpr double rounding = 1e-5; // of a pixel much brighter than the mean, in float32 sums
+constexpr double rounding = 1e-5; // of float32 sums in a pixel much brighter than the mean
 
 } // namespace
 
-TEST_CASE("A render that was broken off, and again, has the film and counts of one that was not") {
+TEST_CASE("A render that was interrupted twice has the film and counts of an uninterrupted one") {
   const std::string integrator = GENERATE("path", "light", "bidir");
   CAPTURE(integrator);
   Broken whole = begun(integrator, 180, 0.05);
@@ -57,7 +57,7 @@ TEST_CASE("A render that was broken off, and again, has the film and counts of o
 
   Broken broken = begun(integrator, 180);
   go_on(broken, 2);
-  CHECK_FALSE(broken.session.state.position.missing.empty()); // a launch that was in flight
+  CHECK_FALSE(broken.session.state.position.missing.empty()); // a launch that was running
   through_a_file(broken);
   const std::uint64_t paths = broken.session.state.paths;
   go_on(broken, 3);
@@ -68,7 +68,7 @@ TEST_CASE("A render that was broken off, and again, has the film and counts of o
   CHECK((bytes_of(broken) == bytes_of(whole))); // too long to print
 }
 
-TEST_CASE("A render goes on to more samples, and from one that time was to end") {
+TEST_CASE("A render continues to more samples, also after one with a time limit") {
   const bool open_ended = GENERATE(false, true);
   Broken whole = begun("path", 100);
   go_on(whole);
@@ -83,7 +83,7 @@ TEST_CASE("A render goes on to more samples, and from one that time was to end")
   CHECK(difference(broken.film, whole.film) < rounding);
 }
 
-TEST_CASE("Samples from a number on are those that come after that many") {
+TEST_CASE("Samples from number N on are those that follow the first N") {
   Broken whole = begun("path", 40), first = begun("path", 20), second = begun("path", 20);
   second.session.settings.first_sample = 20;
   for (Broken* broken : {&whole, &first, &second}) go_on(*broken);

@@ -1,4 +1,4 @@
-// What `phlux bench` leaves behind: tables, as text, and charts.
+// Output of `phlux bench`: tables as text, and charts.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 #include "cli/program.h"
 
-/// Of every table of methods, after what names the scene.
+/// Columns of every table of methods, after the key of the scene.
 inline const char* const method_columns =
     ",integrator,strategy,connect_or_weights,device,samples_per_pixel,seconds,relmse,variance_per_sample,"
     "variance_standard_error,top_share,seconds_per_sample,variance_times_seconds,";
@@ -17,8 +17,8 @@ inline const char* const method_columns =
 [[nodiscard]] std::string value_of(const std::string& row, const std::vector<std::string>& columns,
                                    const std::string& name);
 
-/// Whether the charts are there; without matplotlib they cannot be, and the exit code says so.
+/// Whether the charts were drawn, by the exit code: without matplotlib they cannot be.
 [[nodiscard]] bool has_charts(const Outcome& outcome);
 
-/// The file of a scene that ships.
+/// File of a shipped scene.
 [[nodiscard]] std::string shipped(const std::string& name);

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Whether the header behind `phlux --version` names the commit, says where sources differ, and is written anew only then.
+# Checks that the header for `phlux --version` names the commit, marks modified sources, and is rewritten only if it changes.
 #   commit.sh GIT CMAKE write_commit.cmake
 set -eu
 git=$1 cmake=$2 script=$3
@@ -37,7 +37,7 @@ touch -d 2001-01-01 commit.h
 write
 [ -z "$(find commit.h -newermt 2001-01-02)" ] || { echo "written anew without need"; exit 1; }
 
-# A folder in a repository of something else.
+# A folder inside the repository of another project.
 mkdir -p clone/inner/host
 "$cmake" -DGIT="$git" -DSOURCE="$folder/clone/inner" -DOUTPUT="$folder/commit.h" -P "$script"
 expect unknown

@@ -23,7 +23,7 @@
 
 namespace {
 
-// What the program was asked and said in the test case that runs.
+// Arguments and output of the runs in the current test case.
 class Record {
 public:
   void forget() {
@@ -51,7 +51,7 @@ private:
 
 Record record;
 
-// Shows every run of a test case that failed, whichever of its assertions did.
+// Prints every run of a failed test case, whichever assertion failed.
 struct ShowRuns : Catch::TestEventListenerBase {
   using Catch::TestEventListenerBase::TestEventListenerBase;
 
@@ -78,7 +78,7 @@ void redirect(int descriptor, const std::filesystem::path& file) {
   if (invocation.largest_file) {
     const rlimit limit{*invocation.largest_file, *invocation.largest_file};
     if (::setrlimit(RLIMIT_FSIZE, &limit) != 0) ::_exit(126);
-    std::signal(SIGXFSZ, SIG_IGN); // else it ends the program
+    std::signal(SIGXFSZ, SIG_IGN); // its default action ends the program
   }
   for (const auto& [name, value] : invocation.environment) ::setenv(name.c_str(), value.c_str(), 1);
   std::vector<std::string> texts = {PHLUX_PROGRAM};
@@ -90,8 +90,8 @@ void redirect(int descriptor, const std::filesystem::path& file) {
   ::_exit(127);
 }
 
-// Whether the program is there, no longer this process's copy, and has a handler of its own for SIGINT. True
-// of one that has ended.
+// Whether exec() has replaced this process's copy by the program and the program handles SIGINT. True if it
+// has ended.
 bool catches_interrupts(pid_t process) {
   const std::filesystem::path folder = "/proc/" + std::to_string(process);
   std::error_code ended;

@@ -1,5 +1,5 @@
-// The built program as a user runs it: arguments in, exit code, output and errors out. A test case that fails
-// shows what the program's runs in it were asked, ended with and wrote to standard error.
+// Runs the built program: arguments in; exit code, output and errors out. A failed test case prints the
+// arguments, exit code and standard error of its runs.
 #pragma once
 
 #include <chrono>
@@ -13,7 +13,7 @@ struct Outcome {
   int exit_code = -1; ///< 128 + the signal's number when a signal ended it
   std::string out, err;
 
-  /// The errors are one line that begins with "phlux: " and is no warning.
+  /// Whether the errors are one line that begins with "phlux: " and is not a warning.
   [[nodiscard]] bool is_one_line_error() const;
 };
 
@@ -21,11 +21,11 @@ struct Invocation {
   std::vector<std::string> arguments;
   std::filesystem::path folder;                   ///< where it runs
   std::map<std::string, std::string> environment; ///< on top of this process's
-  /// SIGINT is sent that long after the program is ready for it.
+  /// Time from when the program handles SIGINT until the signal is sent.
   std::optional<std::chrono::milliseconds> interrupt_after;
-  /// No file of more bytes can be written.
+  /// Limit on the size of written files, in bytes.
   std::optional<std::size_t> largest_file = std::nullopt;
 };
 
-/// Waits for its end. Standard output and error are no terminals.
+/// Waits for the program to end. Standard output and error are not terminals.
 [[nodiscard]] Outcome run(const Invocation& invocation);

@@ -1,11 +1,11 @@
-// Scenes small enough to render in an instant: a quarter of the image sees a sphere that shines.
+// Scenes that render in an instant: an emitting sphere fills a quarter of the image.
 #pragma once
 
 #include <string>
 
 #include "temporary_folder.h"
 
-/// `body` goes beside the camera of a 16x12 film.
+/// A camera with a 16x12 film, and `body`.
 [[nodiscard]] inline std::string scene_with(const std::string& body, const std::string& film_size = "16 12") {
   const std::size_t space = film_size.find(' ');
   return "<scene version=\"0.6.0\">\n"
@@ -26,7 +26,7 @@ inline const std::string light =
   return "<shape type=\"sphere\"><float name=\"radius\" value=\"1\"/>" + bsdf + "</shape>\n";
 }
 
-/// A grey sphere on a slab under a small light: noisy in every way.
+/// A grey sphere on a slab under a small light: noisy with every method.
 inline const std::string good_scene =
     scene_with("<default name=\"radiance\" value=\"20\"/>\n" +
                sphere_of("<bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\".5\"/></bsdf>") +

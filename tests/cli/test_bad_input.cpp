@@ -5,7 +5,7 @@
 
 namespace {
 
-// A user who gives a bad file sees its name, why, and nothing else; no file appears.
+// The error for a bad file names the file and the reason, and nothing else; no file is written.
 void check_rejected(const TemporaryFolder& folder, const std::vector<std::string>& arguments, int exit_code,
                     const std::map<std::string, std::string>& environment = {}) {
   const std::set<std::string> before = folder.names();
@@ -76,12 +76,12 @@ TEST_CASE("Unwritable outputs are found before rendering: one line, exit code 5,
   folder.write("file", "");
   for (const std::string option : {"--output", "--png", "--stats"})
     for (const std::string path : {"missing/a", "file/a", ".", "/proc/a"}) {
-      // Hours of samples: only a check before rendering ends this in time.
+      // Hours of samples: this only ends in time if the check precedes rendering.
       check_rejected(folder, {"render", "scene.xml", "-n", "100000000", option, path}, 5);
     }
 }
 
-TEST_CASE("No device that fits is one line and exit code 4") {
+TEST_CASE("No matching device is one line and exit code 4") {
   const TemporaryFolder folder;
   folder.write("scene.xml", good_scene);
   const std::map<std::string, std::string> no_platform = {{"OCL_ICD_VENDORS", "/nonexistent"}};
@@ -109,7 +109,7 @@ TEST_CASE("An empty scene is an error that names the file, exit code 3, no file"
   CHECK(folder.names() == std::set<std::string>{"scene.xml"});
 }
 
-TEST_CASE("Where rendering can go on there is a named warning") {
+TEST_CASE("Recoverable problems are warnings that name the cause") {
   const TemporaryFolder folder;
   folder.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 4\n");
   const std::vector<BadScene> odd_scenes = {

@@ -7,7 +7,7 @@
 
 namespace {
 
-// bench scenes on small images, a second for each scene.
+// bench scenes with small images, one second for each scene.
 std::vector<std::string> scenes_command(const std::vector<std::string>& names,
                                         const std::vector<std::string>& more = {}) {
   std::vector<std::string> arguments = {"bench",     "scenes", "--quick", "--side", "8",
@@ -54,7 +54,7 @@ TEST_CASE("phlux bench scenes writes the contract's columns, a row for each meth
   }
   CHECK(sound >= 3);
   CHECK_THAT(lines[6], Catch::StartsWith("point-light,path,exact,none,"));
-  CHECK(value_of(lines[6], columns, "verdict") == "refused"); // no path hits a point
+  CHECK(value_of(lines[6], columns, "verdict") == "refused"); // no path hits a point light
   const auto points = lines_of(TemporaryFolder::read(folder / "out/scenes-convergence.csv"));
   CHECK(points.size() > 5);
   CHECK(points[0] ==
@@ -74,7 +74,7 @@ TEST_CASE("phlux bench scenes writes the contract's columns, a row for each meth
   }
 }
 
-TEST_CASE("phlux bench scenes goes on where it was interrupted") {
+TEST_CASE("phlux bench scenes resumes where it was interrupted") {
   const TemporaryFolder folder;
   const auto rows_of = [&](const std::string& scene) {
     std::vector<std::string> rows;
@@ -100,14 +100,14 @@ TEST_CASE("phlux bench scenes goes on where it was interrupted") {
   CHECK(second.size() == 5);
   (void)has_charts(whole);
 
-  // Another seed is another measurement; the other scene's rows stay.
+  // Another seed is a new measurement; the rows of the other scene stay.
   (void)run({scenes_command({"furnace-sphere"}, {"--seed", "2"}), folder.path(), {}, {}});
   CHECK(rows_of("furnace-sphere").size() == 5);
   CHECK(rows_of("furnace-sphere") != first);
   CHECK(rows_of("cornell-box") == second);
 }
 
-TEST_CASE("phlux bench scenes measures a strategy that is added beside what is there") {
+TEST_CASE("phlux bench scenes adds the rows of another strategy to the table") {
   const TemporaryFolder folder;
   (void)run({scenes_command({"furnace-sphere"}), folder.path(), {}, {}});
   const auto before = lines_of(TemporaryFolder::read(folder / "out/scenes.csv"));

@@ -40,7 +40,8 @@ TEST_CASE("phlux bench stability writes a row for each cell and method, charts a
   }
   CHECK_THAT(lines[1], Catch::StartsWith("1,0.3,path,exact,none,"));
   CHECK_THAT(lines[3], Catch::StartsWith("100,0.0001,path,exact,none,"));
-  CHECK(value_of(lines[3], columns, "verdict") == "suspect"); // directions do not hit so small a light
+  CHECK(value_of(lines[3], columns, "verdict") ==
+        "suspect"); // sampled directions do not hit such a small light
   CHECK_THAT(outcome.out, Catch::Contains("path none suspect"));
   if (!has_charts(outcome)) return;
   CHECK_THAT(TemporaryFolder::read(folder / "out/index.html"), Catch::Contains("Where methods fail"));
@@ -52,7 +53,7 @@ TEST_CASE("phlux bench stability writes a row for each cell and method, charts a
   }
 }
 
-TEST_CASE("phlux bench stability goes on where it was interrupted") {
+TEST_CASE("phlux bench stability resumes where it was interrupted") {
   const TemporaryFolder folder;
   const auto rows = [&] { return lines_of(TemporaryFolder::read(folder / "out/stability.csv")); };
   const std::vector<std::string> fast = {"--method", "path light"};
@@ -72,10 +73,10 @@ TEST_CASE("phlux bench stability goes on where it was interrupted") {
   REQUIRE(rows().size() == 3);
   CHECK(rows()[1] == first[1]);
 
-  // A method that is added joins what is there; another seed is another measurement.
+  // The rows of an added method join the others; another seed is a new measurement.
   (void)run({stability_command({"10,.1"}, {"--method", "path none"}), folder.path(), {}, {}});
   CHECK(rows().size() == 4);
   (void)run({stability_command({"10,.1"}, {"--method", "path light", "--seed", "2"}), folder.path(), {}, {}});
-  REQUIRE(rows().size() == 3); // and that of the other cell
+  REQUIRE(rows().size() == 3); // and the row of the other cell
   CHECK(rows()[2] != first[1]);
 }

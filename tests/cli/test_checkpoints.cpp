@@ -1,4 +1,4 @@
-// Renders that are broken off and go on, by the program.
+// Interrupting and resuming renders with the program.
 #include <catch2/catch.hpp>
 
 #include "cli/workplace.h"
@@ -18,7 +18,7 @@ struct Renders : Workplace {
 
 } // namespace
 
-TEST_CASE("An interrupted render goes on from its checkpoint to the image of one that was not") {
+TEST_CASE("An interrupted render resumes from its checkpoint to the image of an uninterrupted one") {
   const Renders place;
   REQUIRE(place.render({"-n", "20", "--seed", "3", "-D", "radiance=10", "-o", "short.exr"}).exit_code == 0);
   const Outcome broken =
@@ -28,7 +28,7 @@ TEST_CASE("An interrupted render goes on from its checkpoint to the image of one
   CHECK_THAT(broken.out, Contains(", interrupted: --resume c goes on\n"));
   const double samples = place.image("scene.exr").info.samples;
 
-  // What the command leaves out is as it was, and the file holds the latest checkpoint.
+  // Options that are not given keep their values, and the file holds the latest checkpoint.
   const std::string more = std::to_string(static_cast<int>(samples) / 16 * 16 + 64);
   const Outcome resumed = place.render({"--resume", "c", "-n", more, "--moments", "-o", "resumed.exr"});
   CAPTURE(resumed.out, resumed.err);
@@ -42,14 +42,14 @@ TEST_CASE("An interrupted render goes on from its checkpoint to the image of one
   CHECK_THAT(place.render({"--resume", "c", "-n", "8"}).err,
              Contains("has " + more + " samples per pixel already"));
 
-  // In whole blocks, and nothing is left to do.
+  // Whole blocks of samples; the render is complete.
   REQUIRE(place.render({"--resume", "c", "-o", "again.exr", "--moments"}).exit_code == 0);
   CHECK(place.image("again.exr").channels == image.channels);
   CHECK(place.names() ==
         std::set<std::string>{"scene.xml", "short.exr", "scene.exr", "resumed.exr", "again.exr", "c"});
 }
 
-TEST_CASE("Checkpoints are written while the render runs, and it goes on from any of them") {
+TEST_CASE("Checkpoints are written during the render, which resumes from any of them") {
   const Renders place;
   REQUIRE(place.render({"-n", "64", "--moments", "-o", "whole.exr"}).exit_code == 0);
   REQUIRE(place.render({"-n", "64", "--checkpoint", "first", "--checkpoint-every", "0.01"}).exit_code == 0);
@@ -65,7 +65,7 @@ TEST_CASE("Checkpoints are written while the render runs, and it goes on from an
              Contains("--checkpoint second: replaces an earlier checkpoint"));
 }
 
-TEST_CASE("What is no checkpoint of this render is refused in one line, and nothing is written") {
+TEST_CASE("A file that is not a checkpoint of this render is refused in one line, and nothing is written") {
   const Renders place;
   REQUIRE(place.render({"-n", "2", "--checkpoint", "c", "-o", "a.exr"}).exit_code == 0);
   place.write("other.xml", scene_with(sphere_of("")));
@@ -95,13 +95,12 @@ TEST_CASE("What is no checkpoint of this render is refused in one line, and noth
   CHECK(place.names() == std::set<std::string>{"scene.xml", "other.xml", "foreign", "a.exr", "c"});
 }
 
-TEST_CASE(
-    "A checkpoint that cannot be written leaves the earlier one, and the image is written all the same") {
+TEST_CASE("If a checkpoint cannot be written, the earlier one stays and the image is written") {
   const Renders place;
   REQUIRE(place.render({"-n", "2", "--size", "256x256", "--checkpoint", "c"}).exit_code == 0);
   const std::string before = TemporaryFolder::read(place / "c");
   std::filesystem::remove(place / "scene.exr");
-  // Larger than the kernels that the driver keeps, smaller than the checkpoint.
+  // Larger than the driver's cached kernels, smaller than the checkpoint.
   constexpr std::size_t largest_file = std::size_t{1} << 21;
   CHECK(before.size() > largest_file);
   const Outcome outcome = run({{"render", "scene.xml", "--resume", "c", "-n", "4", "--png", "none"},

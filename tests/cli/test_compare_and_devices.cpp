@@ -32,7 +32,7 @@ TEST_CASE("phlux compare prints the figures") {
   CHECK(nlohmann::json::parse(json.out)["rmse"] == 1.0);
 }
 
-TEST_CASE("phlux compare fails for what cannot be compared") {
+TEST_CASE("phlux compare fails for images that cannot be compared") {
   const TemporaryFolder folder;
   write_exr(folder / "a.exr", constant(2, 2, 1.0F));
   SECTION("another size") {
@@ -55,7 +55,7 @@ TEST_CASE("phlux compare fails for what cannot be compared") {
     CHECK_THAT(outcome.err, Catch::EndsWith(": an existing OpenEXR image is needed\n"));
 }
 
-TEST_CASE("phlux compare ends with 1 where values are not finite, and still prints the figures") {
+TEST_CASE("phlux compare ends with 1 if values are not finite, and prints the figures") {
   const TemporaryFolder folder;
   Image image = constant(2, 2, 1.0F);
   write_exr(folder / "b.exr", image);
@@ -93,7 +93,7 @@ namespace {
 
 constexpr const char* system_vendors = "/etc/OpenCL/vendors";
 
-// Where the loader finds a driver without devices, and those of the system beside it if wanted.
+// A folder of drivers for the loader: one without devices, and those of the system if requested.
 void write_vendors(const TemporaryFolder& folder, bool with_system) {
   folder.write("nothing.icd", PHLUX_DRIVER_OF_NOTHING "\n");
   if (with_system)
@@ -104,7 +104,7 @@ void write_vendors(const TemporaryFolder& folder, bool with_system) {
 } // namespace
 
 TEST_CASE("A platform without devices is listed, and no command warns of it") {
-  if (!std::filesystem::exists(system_vendors)) return; // drivers are elsewhere
+  if (!std::filesystem::exists(system_vendors)) return; // the system keeps its drivers elsewhere
   const TemporaryFolder vendors, folder;
   write_vendors(vendors, true);
   const std::map<std::string, std::string> environment = {{"OCL_ICD_VENDORS", vendors.path()}};
@@ -121,7 +121,7 @@ TEST_CASE("A platform without devices is listed, and no command warns of it") {
   CHECK_THAT(wrong.err, Catch::EndsWith("; Driver of nothing has no devices\n"));
 }
 
-TEST_CASE("Where no platform has devices, the error names the platforms") {
+TEST_CASE("If no platform has devices, the error names the platforms") {
   const TemporaryFolder vendors, folder;
   write_vendors(vendors, false);
   const Outcome outcome = run({{"devices"}, folder.path(), {{"OCL_ICD_VENDORS", vendors.path()}}, {}});

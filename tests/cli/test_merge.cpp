@@ -1,4 +1,4 @@
-// phlux merge, as a user runs it.
+// The command phlux merge.
 #include <algorithm>
 #include <cmath>
 
@@ -43,7 +43,7 @@ TEST_CASE("Renders of the two halves of a seed's samples merge to the render of 
     variance += merged.channels.at("variance.G")[pixel];
     expected_variance += all.channels.at("variance.G")[pixel];
   }
-  CHECK(variance == Approx(expected_variance).epsilon(0.1)); // each half's is about its own mean
+  CHECK(variance == Approx(expected_variance).epsilon(0.1)); // that of each half is about its own mean
 
   const Outcome twice = merge({"a.exr", "b.exr", "all.exr", "-o", "none.exr"});
   CHECK(twice.exit_code == 3);

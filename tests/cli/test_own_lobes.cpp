@@ -10,7 +10,7 @@ using Catch::Contains;
 
 namespace {
 
-// A sphere in constant light, by a model of the given type.
+// A sphere in constant light, with a material of the given type.
 std::string scene_of(const std::string& bsdf) {
   return R"(<scene version="0.6.0">
 <sensor type="perspective"><film type="hdrfilm"><integer name="width" value="8"/><integer name="height" value="8"/></film>
@@ -35,7 +35,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 
 const char* const minnaert = R"(<bsdf type="minnaert"><float name="exponent" value="1"/></bsdf>)";
 
-// Directions by the cosine alone.
+// Samples directions by the cosine.
 const char* const plain_strategy =
     R"(static inline Real phong_density(Phong m, Vec3 fixed, Vec3 generated, Real lobe) {
   return larger(generated.z, (Real)(0.0f)) * INV_PI;
@@ -70,7 +70,7 @@ TEST_CASE("phlux render --lobe: a scene names a model of the user's own") {
   CHECK_THAT(render(folder, {"--lobe", "minnaert.cl"}).err, Contains("exponent must be in [0, 100]"));
 }
 
-TEST_CASE("phlux render --lobe: what the device's compiler refuses is named by the user's file and line") {
+TEST_CASE("phlux render --lobe: compiler errors name the user's file and line") {
   const TemporaryFolder folder;
   folder.write("scene.xml", scene_of(minnaert));
   std::filesystem::create_directory(folder / "my lobes");
@@ -88,7 +88,7 @@ TEST_CASE("phlux render --lobe: what the device's compiler refuses is named by t
   CHECK(render(folder, {"--lobe", "Minnaert.cl"}).is_one_line_error());
 }
 
-TEST_CASE("phlux render --lobe: a checkpoint goes on with the same model alone") {
+TEST_CASE("phlux render --lobe: a checkpoint resumes only with the same model") {
   const TemporaryFolder folder;
   folder.write("scene.xml", scene_of(minnaert));
   folder.write("minnaert.cl", minnaert_text);

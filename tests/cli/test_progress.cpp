@@ -6,7 +6,7 @@
 
 using namespace phlux;
 
-TEST_CASE("Progress is the furthest of what may end the render") {
+TEST_CASE("Progress is the largest of those of the limits") {
   const double unknown = std::numeric_limits<double>::infinity();
   CHECK(cli::fraction_done({25.0, 100.0, 1.0, 0}, {}, {}, unknown) == 0.25);
   CHECK(cli::fraction_done({25.0, {}, 3.0, 0}, 4.0, {}, unknown) == 0.75);

@@ -32,7 +32,7 @@ double mean(const std::vector<float>& values) {
 
 } // namespace
 
-TEST_CASE("The plain command writes an image and a preview, named after the scene, and says so") {
+TEST_CASE("The plain command writes an image and a preview, named after the scene, and prints their names") {
   const Renders place;
   const Outcome outcome = place.render({});
   CHECK(place.names() == std::set<std::string>{"scene.xml", "scene.exr", "scene.png"});
@@ -101,7 +101,7 @@ TEST_CASE("Statistics have the contract's keys with values of the right kind") {
   CHECK(place.json("again.json")["kernel_cache"] == "hit");
 }
 
-TEST_CASE("The scene says which integrator, unless -i does") {
+TEST_CASE("The scene selects the integrator, unless -i is given") {
   const Renders place;
   const auto integrator_of = [&](const std::string& plugin, std::vector<std::string> options) {
     std::string scene = good_scene;
@@ -130,7 +130,7 @@ TEST_CASE("Every width and traversal renders, and --stats says which") {
     }
 }
 
-// A macro makes a builtin that is there impossible to use.
+// The macro makes an existing builtin unusable.
 TEST_CASE("Where the compiler refuses the processor's own instructions, portable lanes make the same image") {
   const phlux::device::DeviceInfo device = phlux::device::open_devices({}).front().info;
   if (device.platform != "Portable Computing Language" || device.native_float_width != 16)
@@ -180,12 +180,12 @@ TEST_CASE("-D reaches the scene") {
         Approx(2.0 * mean(place.image("a.exr").channels.at("R"))).epsilon(1e-4));
 }
 
-TEST_CASE("--time and --error decide how many samples there are") {
+TEST_CASE("--time and --error determine the number of samples") {
   const Renders place;
   place.render({"--time", "0.5", "--stats", "stats.json"});
   const nlohmann::json timed = place.json("stats.json");
   CHECK(timed["seconds"]["render"] >= 0.45);
-  CHECK(timed["seconds"]["render"] < 60.0); // a machine with much other work
+  CHECK(timed["seconds"]["render"] < 60.0); // generous, for a busy machine
   CHECK(timed["samples_per_pixel"] > 0.0);
 
   place.render({"--error", "0.05", "--stats", "stats.json"});
@@ -242,7 +242,7 @@ TEST_CASE("--size keeps the field of view along fovAxis") {
   place.render({"-n", "256", "--size", "8x12", "-o", "narrow.exr"});
   place.render({"-n", "256", "--size", "24x12", "-o", "wide.exr"});
   const Image narrow = place.image("narrow.exr"), wide = place.image("wide.exr");
-  double of_narrow = 0, of_wide = 0; // what the narrow one shows is the middle third of the wide one
+  double of_narrow = 0, of_wide = 0; // the narrow image is the middle third of the wide one
   for (std::size_t y = 0; y < 12; ++y)
     for (std::size_t x = 0; x < 8; ++x) {
       of_narrow += narrow.channels.at("G")[8 * y + x];
@@ -251,7 +251,7 @@ TEST_CASE("--size keeps the field of view along fovAxis") {
   CHECK(of_narrow == Approx(of_wide).epsilon(0.05));
 }
 
-TEST_CASE("An output that is not a regular file is written to, without a preview beside it") {
+TEST_CASE("An output that is not a regular file is written, without a preview") {
   const Renders place;
   place.render({"-o", "/dev/null"});
   CHECK(std::filesystem::is_character_file("/dev/null"));

@@ -100,8 +100,8 @@ TEST_CASE("Help and version are no errors") {
     CHECK_THAT(of_render.out, Catch::Contains(option));
 }
 
-// CLI11 2.4 throws for others, whatever the command.
-TEST_CASE("The name of what a command takes is one word") {
+// CLI11 2.4 throws for other names, whatever the command.
+TEST_CASE("The placeholder of an argument is one word") {
   const TemporaryFolder folder;
   for (const char* command : {"render", "compare", "merge"}) {
     const Outcome help = run({{command, "--help"}, folder.path(), {}, {}});
@@ -117,7 +117,7 @@ TEST_CASE("The name of what a command takes is one word") {
   }
 }
 
-TEST_CASE("The version says what a report should") {
+TEST_CASE("The version has everything that a bug report needs") {
   const TemporaryFolder folder;
   const Outcome version = run({{"--version"}, folder.path(), {}, {}});
   CHECK(version.exit_code == 0);
@@ -127,7 +127,7 @@ TEST_CASE("The version says what a report should") {
                            "spdlog ", "pugixml ", "CLI11 ", "\nOpenCL     ", "\nplatform 0 "})
     CHECK_THAT(version.out, Catch::Contains(text));
   CHECK_THAT(version.out, !Catch::Contains("unknown version"));
-  // Which commit, cli/commit.sh tests: this build may be older than the latest, or made without git.
+  // cli/commit.sh tests the commit: this build may be older than HEAD, or made without git.
   CHECK_THAT(version.out, Catch::Matches("(.|\\n)*\\ncommit     ([0-9a-f]{7,} of 20|unknown\\n)(.|\\n)*"));
 }
 
@@ -138,7 +138,7 @@ TEST_CASE("Without a platform the version says so") {
   CHECK_THAT(version.out, Catch::EndsWith("\nplatform   none\n"));
 }
 
-// ctest runs it, and looks for the program's standard error in what a failure shows.
+// Run by ctest, which searches the output of this failure for the program's standard error.
 TEST_CASE("A run whose failure is shown", "[.fails]") {
   const TemporaryFolder folder;
   const Outcome outcome = run({{"paint"}, folder.path(), {}, {}});

@@ -1,4 +1,4 @@
-// A folder with a scene, in which the program renders.
+// A folder with a scene, used as working directory of the program.
 #pragma once
 
 #include "cli/program.h"

@@ -52,7 +52,7 @@ TEST_CASE("a program is built once and then loaded") {
   const TemporaryFolder cache;
   const Environment variable("PHLUX_CACHE_DIR", cache.path().string());
   const Environment no_driver_cache("POCL_KERNEL_CACHE",
-                                    "0"); // PoCL read it when it started; phlux reads it now
+                                    "0"); // PoCL read it at its start; phlux reads it now
   const auto device = test_device();
 
   const auto first = build(device, sources::KernelFiles(), twice());
@@ -103,7 +103,7 @@ TEST_CASE("PoCL keeps its programs itself") {
   if (device.info.platform != "Portable Computing Language") return;
   const TemporaryFolder cache;
   const Environment variable("PHLUX_CACHE_DIR", cache.path().string());
-  auto source = twice(); // a comment would not do: the key passes over those
+  auto source = twice(); // a comment would not change the key
   source.defines["UNIQUE"] = std::to_string(std::chrono::system_clock::now().time_since_epoch().count());
   CHECK_FALSE(build(device, sources::KernelFiles(), source).from_cache);
   const auto again = build(device, sources::KernelFiles(), source);
@@ -112,7 +112,7 @@ TEST_CASE("PoCL keeps its programs itself") {
   CHECK(files_in(cache.path()).empty());
 }
 
-TEST_CASE("without a writable cache, programs are built all the same") {
+TEST_CASE("without a writable cache, programs are built") {
   const TemporaryFolder folder;
   folder.write("file", "");
   const Environment variable("PHLUX_CACHE_DIR", (folder.path() / "file" / "cache").string());
@@ -228,10 +228,10 @@ TEST_CASE("slow is called when building takes long, and only then", "[slow]") {
     calls = 0;
     return build(device, sources::KernelFiles(), {"", {{"UNIQUE", now}}, {}, text}, [&] { ++calls; }).seconds;
   };
-  // Its patience is 0.2 s; near that, or where the machine has other work, it may be called or not.
+  // The callback is due after 0.2 s; near that, or on a busy machine, either result is valid.
   constexpr double quick = 0.1, slow = 0.6;
   (void)seconds_for(1);
-  if (seconds_for(1) < quick) CHECK(calls == 0); // it is in the cache
+  if (seconds_for(1) < quick) CHECK(calls == 0); // from the cache
   double seconds = 0;
   for (int kernels = 32; seconds < slow; kernels *= 2) seconds = seconds_for(kernels);
   CHECK(calls == 1);
@@ -242,7 +242,7 @@ TEST_CASE("options for every program") {
   CHECK_THAT(build_options(), !Contains("fast"));
   const Environment more("PHLUX_KERNEL_OPTIONS", "-Werror");
   CHECK_THAT(build_options(), Contains(" -Werror"));
-  if (test_device().info.platform == "Portable Computing Language") // not every compiler knows the option
+  if (test_device().info.platform == "Portable Computing Language") // other compilers may reject the option
     CHECK_THROWS_AS(
         build(test_device(), sources::KernelFiles(), {"", {}, {}, "__kernel void f(void) { int x; x; }\n"}),
         DeviceError);

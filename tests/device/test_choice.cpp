@@ -1,4 +1,4 @@
-// Which devices a specification means, on machines that are not here.
+// Choice of devices by specifications, on simulated machines.
 #include <catch2/catch.hpp>
 
 #include "device/choice.h"
@@ -31,7 +31,7 @@ const std::vector<DeviceInfo> machine = {
 
 } // namespace
 
-TEST_CASE("a part of a platform's name goes before a part of a device's") {
+TEST_CASE("parts of platform names take precedence over parts of device names") {
   const Choice intel = choose({"intel"}, machine);
   CHECK(intel.devices == Indices{2, 3});
   CHECK(intel.notes.empty());
@@ -78,7 +78,7 @@ TEST_CASE("the same cores are taken twice where the user names both, with a note
   CHECK(choose({"1:0", "1:0"}, machine).notes.empty());
 }
 
-TEST_CASE("what names nothing is refused with a list") {
+TEST_CASE("a specification without a match is refused with a list of devices") {
   for (const char* wrong : {"amd", "", "9:0", "1.5:0", ":0"}) {
     CAPTURE(wrong);
     CHECK_THROWS_AS(choose({wrong}, machine), phlux::DeviceError);

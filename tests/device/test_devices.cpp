@@ -11,7 +11,7 @@
 using namespace phlux::device;
 using Catch::Contains;
 
-TEST_CASE("what is listed can be used") {
+TEST_CASE("listed devices can be used") {
   const auto devices = list_devices();
   REQUIRE_FALSE(devices.empty());
   for (const auto& each : devices) {

@@ -1,4 +1,4 @@
-// Arguments of kernels by their names.
+// Setting kernel arguments by name.
 #include "device/kernel.h"
 
 #include <catch2/catch.hpp>
@@ -30,7 +30,7 @@ float weigh(const Device& device, const BuiltProgram& program) {
   Kernel kernel(program, "weigh");
   kernel.set("results", results);
   kernel.set("second", 2.0F);
-  kernel.set("third", 5.0F); // which it does not have
+  kernel.set("third", 5.0F); // not an argument
   CHECK(kernel.first_unset() == 0);
   CHECK_THROWS_AS(kernel.ready(), DeviceError);
   CHECK_THROWS_WITH(kernel.ready(), "kernel weigh: nothing sets its argument first: set each argument before "

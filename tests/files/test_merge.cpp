@@ -11,7 +11,7 @@ using Catch::Contains;
 
 namespace {
 
-// 2x1 pixels of one value.
+// 2x1 pixels with the same value.
 Image flat(float radiance, float variance, double samples, SampleRange range) {
   Image image{.width = 2, .height = 1, .channels = {}, .info = {}};
   for (const char* name : {"R", "G", "B"}) {
@@ -72,7 +72,7 @@ TEST_CASE("Images are weighted by their samples, and their variances by the squa
   CHECK(merged.info.text("max-depth") == "8");
   CHECK(merged.info.device == "a");
 
-  Merger more; // a merged image is an image
+  Merger more; // a merged image can be merged again
   more.add("m.exr", merged);
   more.add("c.exr", flat(2, 1, 40, {8, 30, 70}));
   CHECK(more.result().channels.at("R")[0] == Approx((40 * 3.25 + 40 * 2) / 80));

@@ -18,7 +18,7 @@ using phlux::files::write_file;
 
 namespace {
 
-// Writes beyond 1000 bytes fail, as on a full disk.
+// Writing beyond 1000 bytes fails, as on a full disk.
 class FullDisk {
 public:
   FullDisk() : handler_(std::signal(SIGXFSZ, SIG_IGN)) {

@@ -13,7 +13,7 @@ using phlux::film::Film;
 
 namespace {
 
-// What a device does: float32 sums of one block.
+// Sums of one block in float32, as on a device.
 BlockSum sum_block(const std::vector<float>& samples) {
   BlockSum block{};
   for (const float x : samples)
@@ -24,7 +24,7 @@ BlockSum sum_block(const std::vector<float>& samples) {
   return block;
 }
 
-// Fills pixel 0 with `blocks` blocks of samples that `next` draws; returns all samples.
+// Adds `blocks` blocks of samples from `next` to pixel 0; returns all samples.
 template<class Draw>
 std::vector<float> fill(Film& film, int blocks, int block_length, Draw next) {
   std::vector<float> all, block(static_cast<std::size_t>(block_length));
@@ -113,7 +113,7 @@ TEST_CASE("Variance is never negative") {
 }
 
 TEST_CASE("A mean does not stall where float32 sums do", "[exactness]") {
-  // MATH.md 6: an average of 0.505. A float32 sum of it stands still once half its spacing exceeds 0.505.
+  // MATH.md 6: an average of 0.505. A float32 sum stops growing once half its spacing exceeds 0.505.
   constexpr std::uint32_t block_length = 250;
   const float value = 0.505F;
   const auto samples = GENERATE(std::uint64_t{1'000'000}, std::uint64_t{100'000'000});
@@ -123,7 +123,7 @@ TEST_CASE("A mean does not stall where float32 sums do", "[exactness]") {
   CHECK(film.pixels()[0].samples == samples);
   CHECK(film.mean(0)[0] == Approx(static_cast<double>(value)).epsilon(block_length * 0x1p-24));
 
-  // Every block is the same, so the closed form is the block's own mean, to float64 rounding.
+  // All blocks are equal, so the exact value is the mean of a block, up to float64 rounding.
   CHECK(film.mean(0)[0] == Approx(static_cast<double>(block.radiance[0]) / block_length).epsilon(1e-10));
 
   float stalled = 0.0F;
@@ -132,8 +132,8 @@ TEST_CASE("A mean does not stall where float32 sums do", "[exactness]") {
 }
 
 TEST_CASE("Two-valued samples have their closed-form variance at 1e8 samples", "[exactness]") {
-  // 0 and 1 in turn: mean 1/2, variance of one sample n/(4(n-1)), of the mean 1/(4(n-1)); every float32 sum
-  // is exact.
+  // Alternately 0 and 1: mean 1/2, variance of one sample n/(4(n-1)), of the mean 1/(4(n-1)); every float32
+  // sum is exact.
   Film film(1, 1);
   constexpr std::uint32_t block_length = 1000;
   constexpr double sample_count = 1e8;

@@ -1,4 +1,4 @@
-// Can a film tell when its error estimate is not to be trusted?
+// Detection of error estimates that cannot be trusted.
 #include "film/reliability.h"
 
 #include <cmath>
@@ -41,7 +41,7 @@ Film film_of(int samples, const Draw& draw) {
   return film;
 }
 
-// Paths that splat 1 / (chance of each) to `splats` pixels on average.
+// Each path splats value() to a random pixel.
 Film film_of_splats(int paths_per_pixel, const std::function<double()>& value) {
   std::mt19937 random(5);
   Film film(side, side);
@@ -75,12 +75,12 @@ TEST_CASE("Even noise is trusted, and its figures are those of its distribution"
     CHECK(pixel == Approx(1.0 - std::sqrt(8.0 / 256.0)).margin(0.03));
 }
 
-TEST_CASE("Splats are judged as samples are") {
+TEST_CASE("The reliability of splats is that of samples") {
   std::mt19937 random(2);
   const Reliability even = reliability_of(film_of_splats(256, [] { return 1.0; }));
   CAPTURE(even.reasons);
   CHECK(even.trusted);
-  CHECK(even.variance == Approx(1.0).epsilon(0.08)); // a path in as many as there are pixels reaches one
+  CHECK(even.variance == Approx(1.0).epsilon(0.08)); // one path in `pixels` reaches a given pixel
   const Reliability heavy = reliability_of(film_of_splats(256, [&] { return pareto(random, 1.2); }));
   CHECK_FALSE(heavy.trusted);
   REQUIRE(heavy.tail_index);
@@ -107,9 +107,9 @@ TEST_CASE("Rare events are not trusted before pixels have met some of them") {
   };
   const Reliability few = rare(64), many = rare(4096);
   CHECK_FALSE(few.trusted);
-  CHECK(few.understated > 0.3); // a pixel has seen a quarter of a hit
+  CHECK(few.understated > 0.3); // a quarter of a hit per pixel
   CAPTURE(many.reasons);
-  CHECK(many.trusted); // 16 hits each
+  CHECK(many.trusted); // 16 hits per pixel
   CHECK(many.understated == Approx(1.0 / 16 / 8).epsilon(0.2));
 }
 
@@ -157,8 +157,8 @@ TEST_CASE("Sizes: the share of the largest and the index of the tail") {
   for (int i = 0; i < 999; ++i) sizes.add(0.0);
   sizes.add(4.0);
   CHECK(sizes.share_of_largest(1) == 1.0);
-  CHECK_FALSE(sizes.tail_index(1)); // all of a size
-  sizes.add(1e300);                 // beyond float
+  CHECK_FALSE(sizes.tail_index(1)); // all of equal size
+  sizes.add(1e300);                 // above the largest float
   CHECK(std::isfinite(sizes.largest()));
   ContributionSizes tail;
   std::mt19937 random(8);

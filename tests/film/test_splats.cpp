@@ -1,4 +1,4 @@
-// Splats: what paths bring to pixels that they did not begin in.
+// Splats: contributions of paths to pixels in which they did not start.
 #include "film/film.h"
 
 #include <cmath>
@@ -34,7 +34,7 @@ double variance_of_mean(const std::vector<double>& values) {
   return squares / (n - 1) / n;
 }
 
-// Records as a device writes them.
+// Records in the format of the device.
 struct Records {
   struct Record {
     int pixel, path;
@@ -44,7 +44,8 @@ struct Records {
   std::size_t capacity = 0;
 
   [[nodiscard]] std::vector<float> words() const {
-    std::vector<float> result(capacity * (RECORD_VALUE + 3), -1e30f); // beyond the count: what must not count
+    std::vector<float> result(capacity * (RECORD_VALUE + 3),
+                              -1e30f); // records beyond the count must be ignored
     for (std::size_t i = 0; i < list.size(); ++i) {
       std::memcpy(&result[RECORD_PIXEL * capacity + i], &list[i].pixel, 4);
       std::memcpy(&result[RECORD_PATH * capacity + i], &list[i].path, 4);
@@ -126,14 +127,14 @@ TEST_CASE("Own samples and splats of others: two populations, whose variances ad
   for (const double value : own) film.add(2, one_sample(static_cast<float>(value)), 1);
   for (const double value : others)
     if (value > 0) film.add_splat(2, {value, value, value});
-  // The splats' mean over the 9 paths that began elsewhere, which is 3 paths a pixel x 3 pixels.
+  // Mean of the splats over the 9 paths that started elsewhere: 3 paths per pixel, 3 pixels.
   const double scale = 9.0 / (12.0 / pixels);
   CHECK(film.mean(2)[0] == Approx(7.0 / 3 + 13.0 / 3));
   CHECK(film.variance_of_mean(2)[0] ==
         Approx(variance_of_mean(own) + scale * scale * variance_of_mean(others)).epsilon(1e-12));
 }
 
-// What the estimate is of: means of many films scatter as each of them says.
+// The spread of the means of many films matches the estimate of each.
 TEST_CASE("Films of samples and splats scatter as their variances say") {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> uniform;
@@ -148,7 +149,7 @@ TEST_CASE("Films of samples and splats scatter as their variances say") {
       film.use_splats();
       for (std::size_t begin = 0; begin < pixels; ++begin)
         for (int sample = 0; sample < samples; ++sample) {
-          // To pixel 0, of a path's own or not; a path that begins elsewhere reaches it one time in two.
+          // Splats to pixel 0. Half of the paths that start elsewhere reach it.
           const double value = uniform(random) < 0.5 ? uniform(random) : 0;
           if (begin == 0 && has_own)
             film.add(0, one_sample(static_cast<float>(value + 1)), 1);
@@ -160,8 +161,8 @@ TEST_CASE("Films of samples and splats scatter as their variances say") {
       said += film.variance_of_mean(0)[0] / films;
     }
     const double scatter = variance_of_mean(means) * films;
-    // The variance of nearly normal means is known to sqrt(2 / films) = 2.2%: 5 standard errors, a chance of
-    // 6e-7.
+    // The variance of nearly normal means has a relative standard error of sqrt(2 / films) = 2.2%; 5 of them
+    // are exceeded with probability 6e-7.
     CHECK(scatter / said == Approx(1).epsilon(0.11));
   }
 }
@@ -176,7 +177,7 @@ TEST_CASE("A film of splats has a variance once there are two paths for every pi
   film.add_splatting_paths(2);
   CHECK(film.has_variance());
   CHECK(std::isfinite(film.relative_standard_error()));
-  // Where paths have pixels of their own, these must have two samples each as before.
+  // If paths start in pixels, each pixel still needs two samples.
   film.add(0, one_sample(1), 1);
   CHECK_FALSE(film.has_variance());
   film.add(0, one_sample(1), 1);
@@ -223,7 +224,7 @@ TEST_CASE("Paths of another batch are other paths, and what lies beyond a batch'
 
 TEST_CASE("Random records fold as a table of paths and pixels does") {
   std::mt19937 random(11);
-  // Few pixels: many repeats; many: pixels that share a bit of the folder's 64.
+  // Few pixels: many repeated pixels. Many: several pixels per bit of the folder's 64.
   for (const int pixels : {1, 3, 40, 1000}) {
     CAPTURE(pixels);
     Film film(pixels, 1), reference(pixels, 1);

@@ -36,7 +36,7 @@ Value mean_over_image(const Estimate& image, std::size_t channel) {
   return sum;
 }
 
-// Standard errors by which two values differ beyond rounding; infinite for values that are not finite.
+// Difference of two values beyond rounding, in standard errors; infinite for values that are not finite.
 double z_of(const Value& a, const Value& b, double tolerance) {
   const double difference =
       std::abs(a.mean - b.mean) - tolerance * std::max(std::abs(a.mean), std::abs(b.mean));
@@ -45,7 +45,7 @@ double z_of(const Value& a, const Value& b, double tolerance) {
   return std::isfinite(z) ? z : std::numeric_limits<double>::infinity();
 }
 
-// The worst of all tests.
+// The test with the least p-value.
 class Worst {
 public:
   void add(const Value& a, const Value& b, double tolerance, const std::string& where) {

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t longest_name = 80; // of a file, before its number
 
-// The running test case, in letters that file names may hold, with a number of its own.
+// Name of the running test case in characters allowed in file names, with a unique number.
 std::string file_name() {
   static std::atomic<int> count = 0;
   std::string name = Catch::getResultCapture().getCurrentTestName().substr(0, longest_name);

@@ -1,4 +1,4 @@
-// What a comparison of images that fails leaves behind to look at.
+// Images written by failed comparisons, for inspection.
 #pragma once
 
 #include <string>
@@ -7,14 +7,15 @@
 
 namespace phlux::test {
 
-/// Writes four EXR files, named after the running test case and counted: NAME.image.exr, NAME.reference.exr,
-/// NAME.variance.exr (of their difference, per pixel and channel) and NAME.p.exr (of agreement()'s tests of
-/// pixels, one by one: not corrected). Images of different sizes have no p. Returns a line that names them.
+/// Writes four EXR files, named after the running test case and numbered: NAME.image.exr, NAME.reference.exr,
+/// NAME.variance.exr (of their difference, per pixel and channel) and NAME.p.exr (p-values of the tests of
+/// pixels, uncorrected). There are no p-values for images of different sizes. Returns a line that names the
+/// files.
 [[nodiscard]] std::string leave_evidence(const Estimate& image, const Estimate& reference,
                                          double tolerance = rounding);
 
-/// CHECKs the result of agreement() or agreement_of_pixels() of these two images, with its message, and
-/// leaves evidence where they do not agree.
+/// CHECKs the result of agreement() or agreement_of_pixels() of these two images, with its message; writes
+/// the files if it fails.
 void check(const Agreement& result, const Estimate& image, const Estimate& reference,
            double tolerance = rounding);
 

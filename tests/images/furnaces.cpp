@@ -12,8 +12,8 @@ using scene::Vec3;
 
 namespace {
 
-// rho_s / ks of one exponent over the cosine, finely tabulated: linear between 2^14 values errs by less than
-// 1e-6.
+// rho_s / ks of one exponent as a function of the cosine. Linear interpolation between 2^14 values has an
+// error below 1e-6.
 class LobeReflectivity {
 public:
   explicit LobeReflectivity(double exponent) {

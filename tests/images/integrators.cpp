@@ -64,7 +64,7 @@ Repeated repeated(const scene::Scene& scene, const Method& method, render::Setti
 
 namespace {
 
-// Below this part of the image's mean a tile may have too few samples that bring light to tell their
+// Below this fraction of the image's mean, a tile may have too few nonzero samples to estimate their
 // variance.
 constexpr double faint = 1e-4;
 
@@ -74,8 +74,9 @@ double mean_of(const std::vector<Channels>& values, std::size_t channel) {
   return sum / static_cast<double>(values.size());
 }
 
-// Where `expected` is faint, samples that bring light are as good as Poisson's events: of them a mean has the
-// variance of the whole image's per light, times the light that is expected; without any it would say 0.
+// Where `expected` is faint, nonzero samples are Poisson events: the variance of a mean is that of the whole
+// image per unit of radiance, times the expected radiance. The sample variance would be 0 without such
+// samples.
 Estimate with_variance_of_faint(Estimate image, const Estimate& expected) {
   for (std::size_t c = 0; c < 3; ++c) {
     const double light = mean_of(image.mean, c);

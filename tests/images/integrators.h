@@ -23,13 +23,13 @@ inline const Method path{"path"}, light{"light"}, bidir{"bidir"},
     path_hits{"path", render::Weights::balance, render::Connect::none},
     path_light_samples{"path", render::Weights::balance, render::Connect::light};
 
-/// The same settings for that method.
+/// The settings for this method.
 [[nodiscard]] render::Settings by(const Method& method, render::Settings settings);
-/// `samples` samples a pixel by that method.
+/// A render with `samples` samples per pixel by this method.
 [[nodiscard]] render::Settings settings_for(const Method& method, int samples, int max_depth = -1);
 
-/// Means of independent renders. One path may reach several pixels, so that pixels are not independent: the
-/// variance of the image's mean is therefore measured between the renders.
+/// Means of independent renders. A path may contribute to several pixels, so pixels are not independent: the
+/// variance of the image's mean is estimated from the differences between renders.
 struct Repeated {
   Estimate image; ///< variances as the films say
   Estimate mean;  ///< of the whole image, as one pixel; variance from `renders` of them
@@ -40,11 +40,12 @@ struct Repeated {
                                 int renders = 16);
 
 /// The z-tests of agreement() for tiles of `side` x `side` pixels and, instead of its test of the image's
-/// mean, Welch's t-test of the means of the renders. A false alarm of either has the chance false_alarm_rate.
+/// mean, Welch's t-test of the means of the renders. The probability of a false alarm is false_alarm_rate for
+/// each.
 void check_methods(const Repeated& image, const Repeated& reference, int side = 1,
                    double tolerance = rounding);
 
-/// Renders by all of `methods` with their own seeds and compares them with path tracing.
+/// Renders by each of `methods` with different seeds and compares them with path tracing.
 void check_against_path(const scene::Scene& scene, const std::vector<Method>& methods,
                         const render::Settings& with, int side = 1);
 

@@ -1,4 +1,4 @@
-// Many renders of one scene by one method, whose kernels are built once.
+// Many renders of one scene by one method with kernels that are built once.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,11 @@
 
 namespace phlux::test {
 
-/// What render::render() does on one device, made ready once: of small images, PoCL takes longer to find in
-/// its cache what it has built than to render.
+/// render::render() on one device, prepared once: for small images, PoCL's look-up of built kernels in its
+/// cache takes longer than rendering.
 class PreparedRender {
 public:
-  /// @throws what render::render() throws
+  /// @throws as render::render()
   PreparedRender(const scene::Scene& scene, const render::Settings& settings);
 
   struct Image {

@@ -19,7 +19,7 @@ scene::Material brushed_metal() {
   return lobes::anisotropic_phong(Rgb(0.3, 0.2, 0.1), Rgb(0.3, 0.4, 0.5), 10, 30);
 }
 
-// A ball of eight triangles with the ball's normals.
+// An octahedron with the interpolated normals of a sphere.
 scene::Mesh smooth_ball(const Vec3& center, double radius, int material) {
   scene::Mesh mesh;
   for (const Vec3& p :
@@ -34,7 +34,7 @@ scene::Mesh smooth_ball(const Vec3& center, double radius, int material) {
 
 void add_shapes(scene::Scene& scene) {
   scene.patches = {square({0, 0, 0}, {0, 0, 1}, {1, 0, 0}, 3, {floor_material, -1})};
-  // Seen from behind as well: what is above it is lit by what it reflects.
+  // Also seen from behind: it reflects light to what is above it.
   scene.patches.push_back(
       square({-1.4, 1.2, -1}, glm::normalize(Vec3(1, 0, -2)), {0, 1, 0}, 0.6, {both_sides, -1}));
   scene.patches.push_back({scene::Patch::Region::ellipse,
@@ -46,7 +46,7 @@ void add_shapes(scene::Scene& scene) {
   scene.meshes = {smooth_ball({-0.4, 0.8, 0.8}, 0.4, floor_material)};
 }
 
-// Each emitter's own colour, so that one that took another's place would show.
+// Each emitter has a different colour, so that mistaking one for another changes the image.
 void add_lights(scene::Scene& scene) {
   scene.area_emitters = {{Rgb(9, 6, 3)}, {Rgb(8, 9, 2)},       {Rgb(6, 8, 10)},
                          {Rgb(5, 3, 4)}, {Rgb(0.5, 0.7, 0.6)}, {Rgb(7, 7, 7)}};
@@ -66,7 +66,7 @@ void add_lights(scene::Scene& scene) {
   scene.spot_lights = {{{1, 2.5, 1}, glm::normalize(Vec3(-0.5, -2.5, -0.9)), Rgb(9, 7, 8), 0.7, 0.4}};
   scene.directional_lights = {{glm::normalize(Vec3(0.5, -2, -1)), Rgb(1, 1.5, 0.8)}};
   scene.constant_radiance = Rgb(0.4, 0.5, 0.7);
-  // The camera sees its back, which reflects; its front lights what stands behind it.
+  // The camera sees its back, which reflects; its front lights what is behind it.
   const Vec3 across = glm::normalize(Vec3(1, 0, -0.3));
   scene.patches.push_back(
       square({0.7, 1.6, 1.2}, across, glm::normalize(Vec3(0, -1, 0.4)), 0.25, {both_sides, of_flipped}));
@@ -91,7 +91,7 @@ scene::Scene room(const std::vector<std::string>& shining) {
   scene.materials[both_sides].two_sided = true;
   add_shapes(scene);
   add_lights(scene);
-  // All of it within a ball that shines inwards, where that one is on: it would keep sun and sky out.
+  // Everything is inside a sphere that emits inwards, if that emitter is on: it would block sun and sky.
   if (on("inside")) scene.spheres.push_back({{0.5, 1, 0}, 9, true, {floor_material, of_inside}});
   const auto off = [&](const char* name, Rgb& power) {
     if (!on(name)) power = Rgb(0.0);

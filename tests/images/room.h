@@ -1,5 +1,5 @@
-// A scene that holds every kind of shape, material and light, in which any of the lights can be on. The
-// kernels of all its variants are the same.
+// A scene with every kind of shape, material and light, in which any of the lights can be on. All variants
+// have the same kernels.
 #pragma once
 
 #include <string>
@@ -9,11 +9,11 @@
 
 namespace phlux::test {
 
-/// Names that room() takes: what can shine.
+/// Names of the emitters, for room().
 [[nodiscard]] const std::vector<std::string>& emitter_kinds();
 
-/// The room with these emitters on and the others without power. No two of its surfaces come close, so that a
-/// connection's 1 / distance^2 is bounded.
+/// The room with these emitters on and the others without power. No two of its surfaces are close to each
+/// other, so that 1 / distance^2 of a connection is bounded.
 [[nodiscard]] scene::Scene room(const std::vector<std::string>& shining);
 
 } // namespace phlux::test

@@ -1,4 +1,4 @@
-// Scenes for the tests of rendering, shipped and built here, and their renders.
+// Scenes for the tests of rendering, shipped or built here, and their renders.
 #pragma once
 
 #include <filesystem>
@@ -17,7 +17,7 @@ namespace phlux::test {
 /// Names of the scenes in scenes/, without ".xml".
 [[nodiscard]] const std::vector<std::string>& shipped_names();
 [[nodiscard]] scene::Scene shipped(const std::string& name, int width, int height);
-/// A scene of Mitsuba's XML.
+/// A scene from Mitsuba's XML.
 [[nodiscard]] scene::Scene from_xml(const std::string& text);
 
 [[nodiscard]] scene::Camera look_at(const scene::Vec3& origin, const scene::Vec3& target, double fov_degrees,
@@ -33,15 +33,15 @@ namespace phlux::test {
 using lobes::diffuse;
 using lobes::phong;
 
-/// A square of half side `half` about `center`; edge_u and edge_v (unit) span it, their cross product is its
-/// front.
+/// A square of half side `half` about `center`, spanned by the unit vectors edge_u and edge_v; their cross
+/// product is the normal of its front.
 [[nodiscard]] scene::Patch square(const scene::Vec3& center, const scene::Vec3& edge_u,
                                   const scene::Vec3& edge_v, double half, scene::Surface surface);
 
-/// Scales everything about the world's origin and then moves it; lights keep what they do to surfaces.
+/// Scales everything about the world's origin and then moves it; lights keep the irradiance of surfaces.
 [[nodiscard]] scene::Scene placed(scene::Scene scene, double scale, const scene::Vec3& offset);
 
-/// Whether no pixel has any light.
+/// Whether all pixels are black.
 [[nodiscard]] bool is_black(const film::Film& film);
 
 struct Render {
@@ -49,8 +49,8 @@ struct Render {
   render::Statistics statistics;
 };
 
-/// `samples` samples a pixel of the tested kernels (tested_kernels.h); the path's depth as given (-1:
-/// unbounded).
+/// Settings with `samples` samples per pixel, the tested kernels (tested_kernels.h) and this depth of paths
+/// (-1: unbounded).
 [[nodiscard]] render::Settings settings_for(int samples, int max_depth = -1);
 [[nodiscard]] Render render_of(const scene::Scene& scene, const render::Settings& settings);
 

@@ -1,5 +1,4 @@
-// The scenes of scenes/stability, and how far an image of one is off. scenes/stability/README.md has the
-// figures.
+// The scenes of scenes/stability and the errors of their images, which scenes/stability/README.md lists.
 #pragma once
 
 #include <filesystem>
@@ -12,30 +11,29 @@ namespace phlux::test {
 
 using Definitions = std::map<std::string, std::string>;
 
-/// Images are compared by tiles of so many pixels' side.
+/// Side in pixels of the tiles in which images are compared.
 inline constexpr int tile = 4;
 
 [[nodiscard]] std::filesystem::path stability_folder();
-/// 32 x 24 pixels, unless the definitions say otherwise.
+/// The scene with 32 x 24 pixels, unless the definitions say otherwise.
 [[nodiscard]] scene::Scene stability(const std::string& name, Definitions definitions = {});
 
-/// `samples` samples a pixel by a method.
+/// Settings with `samples` samples per pixel for a method.
 [[nodiscard]] render::Settings settings_with_seed(const Method& method, int samples, std::uint64_t seed);
 [[nodiscard]] film::Film film_by(const Method& method, const scene::Scene& scene, int samples,
                                  std::uint64_t seed);
 [[nodiscard]] Estimate image_by(const Method& method, const scene::Scene& scene, int samples,
                                 std::uint64_t seed);
 
-/// CHECKs whether the program would say that the film's error estimate can be believed, with its reasons if
-/// not.
+/// CHECKs whether the error estimate of the film counts as trusted; prints the reasons if not.
 void check_verdict(const film::Film& film, bool trusted);
-/// CHECKs that tiles differ by noise alone. Pixels of one path are not independent, and so nothing is said of
-/// the image's mean.
+/// CHECKs that tiles differ only by noise. The mean of the image is not tested, since pixels with a common
+/// path are not independent.
 void check_tiles(const Estimate& image, const Estimate& reference);
 
-/// Root of the mean squared difference of tiles, relative to the root of their mean square.
+/// Root mean square difference of tiles, relative to their root mean square.
 [[nodiscard]] double relative_error(const Estimate& image, const Estimate& reference);
-/// Over pixels and channels.
+/// Mean over pixels and channels.
 [[nodiscard]] double mean_of(const Estimate& image);
 
 } // namespace phlux::test

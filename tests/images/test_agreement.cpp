@@ -1,4 +1,4 @@
-// The tests' own measure: it raises false alarms as seldom as it says, and sees what is wrong.
+// agreement(): its false-alarm rate, and that it detects differences.
 #include <cmath>
 #include <random>
 

@@ -1,5 +1,4 @@
-// Lights with extent over a plane: irradiance in closed form, by the form factors of disk, sphere and
-// polygon.
+// Area lights over a plane: irradiance in closed form, from the form factors of disk, sphere and polygon.
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -123,8 +122,8 @@ TEST_CASE("a constant sky over a plane") {
   check_all_ways(scene, {Connect::light, Connect::mis}, lit(scene, [](const Vec3&) { return 1.0; }));
 }
 
-// Each kind with its own colour, so that a light that took another's place would show. What lies behind the
-// lights is the sky, so that each of them adds its radiance less the sky's.
+// Each kind has a different colour, so that mistaking one for another changes the image. Lights hide the sky,
+// so each adds its radiance minus that of the sky.
 TEST_CASE("every kind of light at once") {
   scene::Scene scene = plane();
   const Rgb sky(0.1, 0.2, 0.3), of_disk_light(6, 1, 0), of_sphere_light(0, 7, 1), of_triangle(2, 0, 9),
@@ -161,7 +160,7 @@ TEST_CASE("every kind of light at once") {
     const Rgb result = albedo * sum;
     return Channels{result.r, result.g, result.b};
   });
-  // A light may be chosen once in thirty samples: enough of them for its share to be normal.
+  // A light may be chosen by one sample in thirty: there are enough for a normal mean.
   check_all_ways(scene, {Connect::light, Connect::mis}, reference, 8192);
   render::Settings with = settings_for(8192, 2);
   with.traversal = render::Traversal::bvh;

@@ -1,4 +1,4 @@
-// The shipped scenes, lit by hits, by light samples and by both: three estimators of one image.
+// The shipped scenes by hits, by light samples and by both: three estimators of one image.
 #include <algorithm>
 #include <cmath>
 
@@ -37,10 +37,10 @@ TEST_CASE("every shipped scene: hits alone, light samples alone and both agree; 
   REQUIRE(shipped_names().size() >= 8);
   for (const std::string& name : shipped_names()) {
     CAPTURE(name);
-    // Caustics are found by one path in hundreds: only large tiles hold enough of them.
+    // One path in hundreds finds a caustic: only large tiles have enough of them.
     const int side = name == "caustic" || name == "mirror-ball" ? 16 : 4;
     const Estimate both = image_of(name, {Connect::mis, 128}, 1, side);
-    // Light samples alone have infinite variance along the edges of a box whose walls are the light.
+    // Light samples alone have infinite variance along the edges of a box with emitting walls.
     if (name != "furnace-box") {
       INFO("light samples alone against both");
       check_agreement(image_of(name, {Connect::light, 256}, 2, side), both);
@@ -52,9 +52,8 @@ TEST_CASE("every shipped scene: hits alone, light samples alone and both agree; 
   }
 }
 
-// Under a sky of one colour a sampler may draw wrong directions unseen when its weights are constant; under a
-// lamp that fills a part of the hemisphere it may not. Seen at 80 degrees much of the lobe is cut off by the
-// horizon.
+// Under a constant sky, wrong directions go undetected if the weights are constant; under a lamp that fills a
+// part of the hemisphere they do not. At 80 degrees much of the lobe is below the horizon.
 TEST_CASE("a lamp over a glossy plane at grazing angles: hits agree with light samples") {
   scene::Scene scene;
   scene.materials = {phong({0.05, 0.1, 0.05}, {0.9, 0.5, 0.3}, 8), diffuse({0, 0, 0})};

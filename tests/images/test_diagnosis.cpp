@@ -1,4 +1,4 @@
-// What a render finds out about itself: clamped light, contributions that are not finite.
+// Diagnosis of a render: clamped light, contributions that are not finite.
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -87,7 +87,7 @@ TEST_CASE("a sample that is not finite is dropped, counted, and its block is nam
 }
 
 TEST_CASE("splats and connections that are not finite are dropped, counted, and their path is named") {
-  // Path 0 of a batch: sample 0 of the pixel that the batch begins with.
+  // Path 0 of a batch: sample 0 of the first pixel of the batch.
   const KernelCopy broken("transport/contributions.cl", "Mask recorded = m;",
                           "Mask recorded = m;\n"
                           "  c.value.x = c.path == 0 ? (Real)(INFINITY) : c.value.x;");

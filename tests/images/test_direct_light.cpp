@@ -1,4 +1,4 @@
-// Lights without extent over a plane: what arrives is known at every point.
+// Point, spot and directional lights over a plane: the irradiance is known at every point.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -20,7 +20,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 const Vec3 eye(0.1, -0.3, 1);
 
-// The plane z = 0 as far as the camera sees, and further.
+// The plane z = 0, larger than the view.
 scene::Scene plane(const scene::Material& material) {
   scene::Scene scene;
   scene.materials = {material};
@@ -79,7 +79,8 @@ TEST_CASE("a spot light: full in its beam, fading to its cutoff, nothing outside
       return angle >= cutoff ? Rgb(0.0) : Rgb(3, 2, 1) * ((cutoff - angle) / (cutoff - beam));
     };
     const Estimate image = estimate_of(render_of(scene, settings_for(512, 2)).film);
-    // Pixels on the sharp rim of a beam as wide as its cone: the midpoint rule is right to 1 / points there.
+    // Pixels on the sharp edge of a beam as wide as its cone: the error of the midpoint rule is 1 / points
+    // there.
     const bool sharp = beam == cutoff;
     check_agreement(image, lit_from(scene, position, intensity, sharp ? 256 : 64), sharp ? 2e-3 : 2e-4);
     CHECK(image.mean.front() == Channels{});

@@ -1,4 +1,4 @@
-// A comparison that fails leaves images behind.
+// A failed comparison writes images.
 #include <catch2/catch.hpp>
 
 #include "files/exr.h"
@@ -35,7 +35,7 @@ TEST_CASE("evidence: image, reference, variance and p of every pixel, named afte
   const std::vector<float> p = green("p");
   CHECK(p[4] == Approx(0.0026998)); // two-sided, of 3 standard errors
   CHECK(p[3] == 1);
-  CHECK(leave_evidence(estimate(), exact) != line); // a name of its own
+  CHECK(leave_evidence(estimate(), exact) != line); // a new name
 }
 
 TEST_CASE("evidence: images of different sizes are left without p") {

@@ -1,4 +1,4 @@
-// Scenes of scenes/stability whose sizes, powers, shapes and films are far from usual.
+// Scenes of scenes/stability with extreme sizes, powers, shapes and films.
 #include <random>
 
 #include <catch2/catch.hpp>
@@ -15,7 +15,7 @@ using scene::Vec3;
 
 namespace {
 
-// In another unit of radiance.
+// The image in another unit of radiance.
 Estimate scaled(Estimate image, double factor) {
   for (std::size_t i = 0; i < image.mean.size(); ++i)
     for (std::size_t c = 0; c < 3; ++c) {
@@ -63,7 +63,7 @@ TEST_CASE("floor and light of needle triangles look like rectangles") {
   }
 }
 
-// What is below would be seen through a gap between two needles.
+// Gaps between two triangles would show what is below.
 TEST_CASE("nothing shines through a floor of needle triangles") {
   scene::Scene scene = stability("slivers");
   scene.patches.push_back(square({0, -0.5, 0}, {0, 0, 1}, {1, 0, 0}, 3, scene.meshes[1].surface));
@@ -78,7 +78,7 @@ TEST_CASE("nothing shines through a floor of needle triangles") {
 
 namespace {
 
-// As million_lights.py.
+// As in million_lights.py.
 void scatter_lights(scene::Mesh& mesh, int side) {
   constexpr double edge = 0.15;
   std::mt19937 generator(1);
@@ -109,7 +109,7 @@ TEST_CASE(
   render::Settings by_power = settings_with_seed(path_light_samples, 512, 2);
   by_power.light_selection = render::LightSelection::power;
   const film::Film samples = render_of(scene, by_power).film;
-  // A sky of as much light; the lights reflect, too, and are where chance put them.
+  // A sky of equal irradiance. The tolerance is for the reflectance and the random places of the lights.
   const double sky = 0.5 * 0.15 * 0.15 * 100;
   const Estimate reference = expected(
       scene.camera,
@@ -126,7 +126,7 @@ TEST_CASE(
 
 namespace {
 
-// Means over runs of pixels of an image that is one pixel wide or high.
+// Means over runs of pixels in an image one pixel wide or high.
 Estimate strip(const Estimate& image, int run) {
   const auto pixels = static_cast<double>(run);
   Estimate result = closed_form(static_cast<int>(image.mean.size()) / run, 1, {});
@@ -153,7 +153,7 @@ TEST_CASE("films of one pixel, one column and one row") {
     for (const Method& method : {light, bidir}) {
       CAPTURE(width, height, name_of(method));
       const Estimate image = strip(image_by(method, scene, samples, 2000), run);
-      if (run > 1 && method.integrator == "light") continue; // hardly a particle meets so narrow a film
+      if (run > 1 && method.integrator == "light") continue; // few light paths reach such a narrow film
       check_agreement_of_pixels(image, reference);
     }
   }

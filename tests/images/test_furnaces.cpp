@@ -1,5 +1,4 @@
-// Scenes whose radiance is known in closed form: nothing may be gained or lost over any number of
-// reflections.
+// Scenes with a radiance in closed form: energy is neither gained nor lost over any number of reflections.
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -21,7 +20,7 @@ const scene::Rgb kd(0.3, 0.1, 0.0), ks(0.6, 0.2, 0.9);
 
 TEST_CASE("furnace box: 2 at every pixel") {
   const scene::Scene scene = shipped("furnace-box", 16, 16);
-  // Light samples alone are left out: near an edge of the box their 1 / distance^2 has infinite variance.
+  // Without `light`: near an edge of the box its 1 / distance^2 has infinite variance.
   for (const Connect connect : {Connect::none, Connect::mis}) {
     render::Settings with = settings_for(512);
     with.connect = connect;
@@ -53,8 +52,7 @@ TEST_CASE("furnace sphere: the reflectivity in every pixel, the sky around it") 
   Estimate reference = sphere_reference(scene, material), image = estimate_of(sphere.film);
   int on_sphere = 0, beside = 0;
   for (int i = 0; i < 256; ++i) {
-    int corners =
-        0; // of the pixel that see the sphere; pixels wholly on it, or off it, are those of one kind
+    int corners = 0; // of the pixel that see the sphere: all or none, except on the outline
     for (const int corner : {0, 1, 2, 3})
       corners +=
           cosine_on_sphere(direction_through(scene.camera, i % 16 + corner % 2, i / 16 + corner / 2)) > 0;
@@ -71,8 +69,8 @@ TEST_CASE("furnace sphere: the reflectivity in every pixel, the sky around it") 
 
 namespace {
 
-// Where nothing follows the lobe, one sample in (n + 2) / 2 finds it: too few for a normal mean at large n,
-// and as many proposals for the strategy that rejects.
+// Strategies that ignore the lobe hit it once in (n + 2) / 2 samples: too rarely for a normal mean at large
+// n, and `rejection` needs as many proposals.
 double largest_exponent(const std::string& strategy) {
   for (const char* plain : {"uniform", "theta-phi", "cosine", "disk", "rejection"})
     if (strategy == plain) return 50;
@@ -88,7 +86,7 @@ void check_sphere(double exponent, const std::string& strategy, Connect connect)
   with.connect = connect;
   const Estimate image = estimate_of(render_of(scene, with).film),
                  reference = sphere_reference(scene, material);
-  // CW 197's estimate as printed loses energy (MATH.md 2.4), most of it where the lobe is widest.
+  // The estimate as printed in CW 197 loses energy (MATH.md 2.4), most for the widest lobes.
   if (strategy != "lobe-estimate-printed")
     check_agreement(image, reference);
   else if (exponent < 1)
@@ -97,7 +95,7 @@ void check_sphere(double exponent, const std::string& strategy, Connect connect)
 
 } // namespace
 
-// Weights, densities and the light's densities all enter with `mis`.
+// `mis` uses weights, densities, and the densities of light samples.
 TEST_CASE("furnace sphere: every strategy, for exponents from 0 to 100,000") {
   for (const std::string& strategy : render::strategy_names())
     for (const double exponent : {0.0, 10.0, 50.0, 1000.0, 1e5})
@@ -114,7 +112,7 @@ TEST_CASE("furnace sphere: hits alone and light samples alone") {
 
 TEST_CASE("a million samples a pixel: the mean does not stall") {
   SECTION("without noise") {
-    // 0.505 added a million times in float32 would count as 0.5.
+    // A float32 sum of a million times 0.505 would give a mean of 0.5.
     const scene::Scene scene = sphere_furnace(18, 2, diffuse({0.505, 0.3, 0.7}));
     render::Settings with = settings_for(1'000'000);
     with.connect = Connect::none;

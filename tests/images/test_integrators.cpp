@@ -1,4 +1,4 @@
-// Light tracing and bidirectional path tracing give the image that path tracing gives.
+// Light tracing and bidirectional path tracing agree with path tracing.
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
 
@@ -15,13 +15,13 @@ namespace {
 const std::vector<Method> all_methods = {light, bidir, bidir_power, bidir_uniform};
 const std::vector<Method> weighted = {light, bidir};
 
-// Pixels on a side, of which light tracing has enough hits for a normal mean; a pixel by itself may have ten,
-// where the sky is one of six lights.
+// Side of the tiles in pixels: light tracing has enough hits in a tile for a normal mean, but maybe only ten
+// in a pixel, if the sky is one of six lights.
 constexpr int tile = 4;
 
 } // namespace
 
-// In one room, so that one kernel serves all of them; shipped scenes have the kernels of single kinds.
+// All in one room, so that they share a kernel; the shipped scenes test the kernels of single kinds.
 TEST_CASE("every kind of emitter by itself: light and bidir agree with path") {
   for (const std::string& kind : emitter_kinds()) {
     CAPTURE(kind);
@@ -53,7 +53,7 @@ TEST_CASE("roulette changes no expectation of light and bidir") {
   const scene::Scene scene = room({"rectangle", "constant"});
   render::Settings with = settings_for(32);
   with.rr_depth = -1;
-  with.max_depth = 30; // what is beyond that is less than what can be seen
+  with.max_depth = 30; // longer paths contribute less than the noise
   const Repeated reference = repeated(scene, path, with);
   with.max_depth = -1;
   for (const int rr_depth : {1, 3}) {
@@ -101,14 +101,14 @@ TEST_CASE("lights and spheres a thousand times smaller or larger than the rest")
   scene::Scene tiny = room({"sphere", "rectangle"});
   tiny.spheres[1].radius *= 1e-3;
   tiny.spheres[1].center = {-0.3, 3.6,
-                            1.2}; // out of view: what a path hits by chance once in a million is not normal
+                            1.2}; // out of view: a mean of hits with probability 1e-6 is not normal
   tiny.area_emitters[3].radiance *= 1e6;
   tiny.spheres[0].radius *= 1e-3;
   check_against_path(tiny, weighted, settings_for(64), tile);
   scene::Scene huge = room({"sphere", "rectangle"});
   huge.spheres[1] = {{0, 600, 100}, 300, false, huge.spheres[1].surface};
   huge.spheres[0] = {{0, -1000, 0}, 999, false, huge.spheres[0].surface};
-  // One in a hundred thousand of its light paths meets the room: too few for a normal mean by light tracing.
+  // One in 100,000 light paths from it enters the room: too few for a normal mean by light tracing.
   check_against_path(huge, {bidir}, settings_for(64), tile);
 }
 
@@ -120,9 +120,9 @@ TEST_CASE("every shipped scene: light and bidir agree with path") {
   }
 }
 
-// Path tracing finds the caustic once in tens of thousands of paths: its means are not normal. Light tracing
-// and bidirectional path tracing reach it by different ways; the reflector itself is out of view, as light
-// tracing's connections of its lobe to the eye are as rare.
+// One path in tens of thousands finds the caustic in path tracing: its means are not normal. Light tracing
+// and bidirectional path tracing find it by different techniques. The reflector is out of view, because light
+// tracing rarely connects its lobe to the eye.
 TEST_CASE("the caustic: light and bidir agree with each other") {
   scene::Scene scene = shipped("caustic", 16, 16);
   scene.camera = look_at({0, 1, 3.9}, {-0.45, 0.7, 0}, 20, 16, 16);
@@ -139,6 +139,6 @@ TEST_CASE("the mirror ball: bidir's heuristics agree with each other, and light 
   const Repeated reference = repeated(scene, bidir, with);
   with.seed = 1000;
   check_methods(repeated(scene, bidir_power, with), reference, tile);
-  scene.camera = look_at({0, 0, 3.6}, {-0.4, -1, 0.7}, 4, 16, 16); // the floor before the mirror
+  scene.camera = look_at({0, 0, 3.6}, {-0.4, -1, 0.7}, 4, 16, 16); // the floor in front of the mirror
   check_methods(repeated(scene, light, with), repeated(scene, bidir, settings_for(64)), tile);
 }

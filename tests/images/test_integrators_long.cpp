@@ -21,14 +21,14 @@ double mean_of(const Repeated& image) {
   const Channels& mean = image.mean.mean[0];
   return (mean[0] + mean[1] + mean[2]) / 3;
 }
-// Channels move together: of their mean at most the mean of their errors.
+// Channels are correlated: the error of their mean is at most the mean of their errors.
 double error_of(const Repeated& image) {
   const Channels& variance = image.mean.variance[0];
   return (std::sqrt(variance[0]) + std::sqrt(variance[1]) + std::sqrt(variance[2])) / 3;
 }
 
-// With as many samples as bring three standard errors of the mean below 0.14%, so that those of a difference
-// of two are below 0.2%; no more than `most`.
+// Takes as many samples as reduce three standard errors of the mean below 0.14%, so that those of a
+// difference of two are below 0.2%; at most `most`.
 Repeated precise(const scene::Scene& scene, const Method& method, std::uint64_t seed, int most) {
   render::Settings with = settings_for(32);
   with.seed = seed;
@@ -75,11 +75,11 @@ TEST_CASE("means of every kind of emitter agree within 0.2% at three standard er
 }
 
 TEST_CASE("means of every shipped scene agree within 0.2% at three standard errors", "[.long]") {
-  // Where surfaces meet, the weights that are all alike leave 1 / distance^2 without a bound.
+  // Where surfaces meet, uniform weights leave 1 / distance^2 unbounded.
   for (const std::string& name : shipped_names()) {
     std::vector<Method> methods = {light, bidir, bidir_power};
     if (name == "furnace-sphere") methods = all_methods;
-    if (name == "mirror-ball") methods = {bidir, bidir_power}; // light shows mirrors black
+    if (name == "mirror-ball") methods = {bidir, bidir_power}; // mirrors are black in light tracing
     compare(name, shipped(name, 16, 16), methods);
   }
 }

@@ -1,4 +1,4 @@
-// How often the 95% intervals that the film's variances tell hold the right value.
+// Coverage of the 95% intervals from the variances of the film.
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -10,7 +10,7 @@ using namespace phlux::test;
 
 namespace {
 
-// Part of the 95% intervals of all values that hold the mean of them. Images of other seeds have the same
+// Share of the 95% intervals of all values that contain their mean. Images with different seeds have the same
 // expectation.
 double coverage(const std::vector<Estimate>& images) {
   int inside = 0, all = 0;
@@ -34,8 +34,8 @@ double coverage_of_seeds(const char* name, const Method& method, int samples, in
   return coverage(images);
 }
 
-// Of 400 streams of random numbers: pixels that all see the same point, which is as good as seeds and takes
-// one render.
+// Coverage for 400 streams of random numbers: pixels that all see the same point, equivalent to seeds in a
+// single render.
 double coverage_of_streams(const char* name, const Method& method, int samples) {
   scene::Scene scene = stability(name, {{"width", "20"}, {"height", "20"}});
   scene.camera.tan_half_fov_x *= 1e-4;
@@ -53,8 +53,8 @@ void check_coverage(double coverage) {
 
 } // namespace
 
-// 400 intervals of a coverage of 95% leave these bounds with a chance of 7%, and 24 pixels of 60 seeds with
-// one of 1e-3: the seeds are fixed.
+// With a coverage of 95%, 400 intervals are outside these bounds with probability 7%, and 24 pixels of 60
+// seeds with probability 1e-3. The seeds are fixed.
 TEST_CASE("the 95% interval holds the right value 93% to 97% of the time") {
   check_coverage(coverage_of_streams("narrow-view", path, 512));
   check_coverage(coverage_of_streams("near-light", path, 512));

@@ -1,4 +1,4 @@
-// Paths side by side: how many a work-item carries, and how it finds what they meet, changes nothing.
+// The image does not depend on WIDTH or on the traversal.
 #include <algorithm>
 #include <cmath>
 
@@ -28,15 +28,15 @@ bool close(const Channels& a, const Channels& b) {
                             [](double x, double y) { return std::abs(x - y) <= 1e-4 * std::max(x, y); });
 }
 
-// Share of the pixels that differ by more than rounding. One path in thousands takes another turn because a
-// ray passes an edge on the other side.
+// Share of the pixels that differ by more than rounding. One path in thousands differs because a ray passes
+// an edge on the other side.
 double differing_share(const film::Film& a, const film::Film& b) {
   int differing = 0;
   for (std::size_t i = 0; i < a.pixels().size(); ++i) differing += !close(a.mean(i), b.mean(i));
   return differing / static_cast<double>(a.pixels().size());
 }
 
-// Pixels of few samples for the same seed, their means with another.
+// Compares pixels with few samples for the same seed, and means for different seeds.
 void check_same(const scene::Scene& scene, int lanes, Traversal traversal, const Render& reference,
                 const Render& few) {
   CAPTURE(lanes, static_cast<int>(traversal));

@@ -55,14 +55,14 @@ TEST_CASE("furnace box by light and bidir: every depth cuts the series where it 
 }
 
 TEST_CASE("furnace sphere by light and bidir, for exponents as far as each converges") {
-  // A light path's connection to the eye finds a lobe of exponent n one time in n.
+  // One in n connections to the eye falls into a lobe of exponent n.
   for (const double exponent : {0.0, 10.0, 50.0}) check_sphere(light, exponent, "exact", 8192);
   for (const double exponent : {0.0, 10.0, 50.0, 1000.0, 1e5}) check_sphere(bidir, exponent, "exact", 2048);
   for (const double exponent : {0.0, 10.0, 50.0}) check_sphere(bidir_power, exponent, "exact", 2048);
 }
 
-// Densities of both directions enter bidir's weights: those of the exact sampler differ, those of others may
-// not.
+// The weights of bidir use the densities of both directions, which differ for the exact sampler, and maybe
+// not for others.
 TEST_CASE("furnace sphere by bidir: strategies of every family") {
   for (const char* strategy : {"cosine", "lobe-ks", "lobe-estimate", "mixture", "fold"})
     check_sphere(bidir, 20, strategy, 2048);

@@ -1,5 +1,5 @@
-// Where light tracing and bidirectional path tracing go wrong easily (MATH.md 6): borders, corners, sides,
-// what the eye sees directly, what cannot be hit, what is not there.
+// Common mistakes in light tracing and bidirectional path tracing (MATH.md 6): borders of the film, corners,
+// sides of surfaces, visible lights, lights that cannot be hit, missing lights.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -42,8 +42,8 @@ scene::Scene plane_under(const scene::Material& material, int width, int height)
 
 } // namespace
 
-// The emitter reaches beyond the film on every side: light from just outside must not be drawn into the
-// borders.
+// The emitter extends beyond the film on every side: light from just outside must not be added to pixels at
+// the border.
 TEST_CASE("an emitter that fills the film shows its radiance in every pixel, the borders' as well") {
   scene::Scene scene = plane_under(diffuse(Rgb(0.0)), 9, 6);
   scene.area_emitters = {{Rgb(3, 2, 1)}};
@@ -82,7 +82,8 @@ TEST_CASE("a lamp in view, at the film's edge and partly beyond it") {
   check_against_path(scene, splatting, settings_for(128), 2);
 }
 
-// 1 / distance^2 has no bound where walls meet: balance and power keep its variance finite, uniform does not.
+// 1 / distance^2 is unbounded where walls meet: the variance is finite with balance and power, infinite with
+// uniform.
 TEST_CASE("a corner in the middle of the film") {
   scene::Scene scene = plane_under(diffuse({0.8, 0.7, 0.6}), 8, 8);
   scene.patches.push_back(square({0, 3, 3}, {1, 0, 0}, {0, 0, 1}, 3, {})); // faces -y
@@ -92,10 +93,10 @@ TEST_CASE("a corner in the middle of the film") {
   check_against_path(scene, {light, bidir, bidir_power}, settings_for(256), 2);
 }
 
-// Connecting a point of the back with one of the front goes along the surface, up to rounding, whose square
-// is what comes through.
+// A connection of a point on the back with one on the front runs along the surface, up to rounding. The light
+// that leaks is in proportion to the square of the rounding.
 TEST_CASE("a surface seen from behind is black, though light falls on its front") {
-  constexpr double rounding_squared = 1e-10; // of the radiance of the side that is lit, about 0.5
+  constexpr double rounding_squared = 1e-10; // relative to the radiance of the lit side, about 0.5
   for (const bool two_sided : {false, true}) {
     scene::Scene scene = plane_under(diffuse({0.8, 0.5, 0.2}), 8, 8);
     scene.materials[0].two_sided = two_sided;
@@ -104,7 +105,7 @@ TEST_CASE("a surface seen from behind is black, though light falls on its front"
       CAPTURE(two_sided, name_of(method));
       scene.point_lights = {{{0.3, -0.2, 1.5}, {3, 2, 1}}};
       CHECK(brightest(image_of(scene, settings_for(method, 64))) <= (two_sided ? rounding_squared : 0));
-      scene.point_lights[0].position.z = -1.5; // on the camera's side: the back reflects if it may
+      scene.point_lights[0].position.z = -1.5; // on the camera's side: the back reflects if two-sided
       CHECK((brightest(image_of(scene, settings_for(method, 64))) > 0.1) == two_sided);
     }
   }
@@ -127,8 +128,8 @@ TEST_CASE("an emitter seen from behind is black, and lights what it faces alone"
   }
 }
 
-// Light is reflected by the adjoint of f cos where normals are interpolated (Veach 1997, 5.3). The lamp
-// lights the ball alone, and the ball the floor.
+// With interpolated normals light subpaths need the adjoint of f cos (Veach 1997, 5.3). The lamp lights only
+// the ball, and the ball lights the floor.
 TEST_CASE("a ball of eight triangles with a ball's normals, and the floor in its light") {
   scene::Scene scene = plane_under(diffuse({0.8, 0.7, 0.6}), 12, 12);
   scene::Mesh ball;
@@ -144,8 +145,9 @@ TEST_CASE("a ball of eight triangles with a ball's normals, and the floor in its
   check_against_path(scene, {light, bidir}, settings_for(256), 2);
 }
 
-// Light comes in flat and leaves upright: densities of the two directions, which enter the weights, differ.
-// The point light is so near that a technique which hit it, were there one, would have a large weight.
+// Light arrives at grazing angles and leaves near the normal, so the densities of the two directions, which
+// the weights use, differ. The point light is so near that hits of it, if they were counted as a technique,
+// would have a large weight.
 TEST_CASE("a low gap lit from its side: bidir agrees with path") {
   scene::Scene scene = plane_under(diffuse({0.9, 0.8, 0.7}), 8, 8);
   scene.patches.push_back(
@@ -177,7 +179,7 @@ TEST_CASE("a spot light in closed form: its beam, its fall-off, and dark beyond"
       64);
   for (const Method& method : splatting) {
     CAPTURE(name_of(method));
-    // In tiles: a pixel that the rim just touches is found by a path or two, whose mean is not normal.
+    // In tiles: a pixel that the edge only touches is reached by a path or two, so its mean is not normal.
     check_agreement(tiles(image_of(scene, settings_for(method, 4096)), 4), tiles(reference, 4), 2e-4);
   }
 }

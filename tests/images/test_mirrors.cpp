@@ -1,5 +1,5 @@
 // Delta events: a smooth mirror by path, light and bidirectional path tracing, against closed forms and each
-// other. Light tracing connects nothing to a mirror, so that mirrors are kept out of its view.
+// other. Light tracing cannot connect a mirror to the eye, so mirrors are out of its view.
 #include <cmath>
 #include <numbers>
 

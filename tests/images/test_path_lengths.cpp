@@ -1,4 +1,4 @@
-// When a path ends.
+// Termination of paths.
 #include <catch2/catch.hpp>
 
 #include "images/evidence.h"
@@ -41,7 +41,7 @@ TEST_CASE("a closed room that absorbs nothing ends all the same") {
   const Render image = render_of(scene, settings_for(16));
   CHECK(image.statistics.paths == 256);
   CHECK(image.statistics.nonfinite == 0);
-  // Roulette lets a path live with 0.999 at most: 1000 edges on average, 256 paths of them.
+  // The probability of survival is at most 0.999: 1000 edges per path on average, for 256 paths.
   CHECK(image.statistics.rays > 100'000);
   CHECK(image.statistics.rays < 1'000'000);
 }

@@ -1,4 +1,4 @@
-// --precision double: the same images, but for rounding.
+// --precision double: the same images except for rounding.
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -26,8 +26,8 @@ render::Settings in_double(render::Settings with) {
   return with;
 }
 
-// The same seed in either precision: samples are the same but for rounding, which now and then decides which
-// of two surfaces a ray meets, or whether roulette ends a path.
+// The same seed in either precision: samples are the same except for rounding, which sometimes decides which
+// of two surfaces a ray hits, or whether roulette ends a path.
 void check_same_samples(const scene::Scene& scene, const Method& method, int samples) {
   CAPTURE(name_of(method));
   render::Settings with = settings_for(samples);
@@ -47,7 +47,7 @@ void check_same_samples(const scene::Scene& scene, const Method& method, int sam
     }
   const std::size_t values = 3 * a.mean.size();
   CAPTURE(values, equal, apart, sum_b / sum_a);
-  CHECK(equal < values / 2); // doubles were computed with
+  CHECK(equal < values / 2); // the arithmetic was in double precision
   CHECK(apart < values / 5);
   CHECK(std::abs(sum_b / sum_a - 1) < 1e-4);
 }

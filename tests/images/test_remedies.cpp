@@ -1,4 +1,4 @@
-// What lessens variance leaves the mean as it is.
+// Techniques that reduce variance do not change the mean.
 #include <catch2/catch.hpp>
 
 #include "film/reliability.h"
@@ -20,7 +20,7 @@ render::Settings with(const Method& method, int samples, std::uint64_t seed) {
   return result;
 }
 
-// A floor under a row of lamps, of which each place has its own near ones.
+// A floor under a row of lamps, of which different ones are near each place.
 scene::Scene floor_under_lamps(int lamps) {
   scene::Scene scene;
   const double half = lamps / 2.0;

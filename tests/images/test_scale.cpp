@@ -1,5 +1,5 @@
-// What a scene looks like depends neither on its unit nor on its place, and nothing shines through what is
-// closed.
+// An image depends neither on the unit of length nor on the position of the scene, and closed boxes leak no
+// light.
 #include <numbers>
 
 #include <catch2/catch.hpp>
@@ -61,7 +61,7 @@ TEST_CASE("lights of any brightness give the same image, bit for bit, in their u
     with.integrator = integrator;
     with.ambient = ambient;
     const Render reference = render_of(scene, with);
-    for (const double factor : {0x1p-90, 0x1p90}) { // squares that float32 does not hold
+    for (const double factor : {0x1p-90, 0x1p90}) { // squares out of the range of float32
       CAPTURE(factor, integrator, ambient.has_value());
       scene::Scene lit = scene;
       for (scene::AreaEmitter& light : lit.area_emitters) light.radiance *= factor;
@@ -100,8 +100,8 @@ TEST_CASE("a closed dark box next to a bright light stays dark") {
   }
 }
 
-// A convex body under a sky of one colour shows its albedo; rays that met it again where they left it would
-// darken it.
+// The radiance of a convex body under a constant sky is its albedo times the sky; rays that hit it again at
+// their origin would darken it.
 TEST_CASE("a ground that is a sphere of radius 10,000 has no spots") {
   scene::Scene scene;
   scene.materials = {diffuse({0.8, 0.5, 0.2})};

@@ -14,7 +14,7 @@ namespace {
 
 const Rgb albedo(0.8, 0.5, 0.2);
 
-// A plane that faces +z under a sky, seen from one side.
+// A plane that faces +z under a sky, viewed from one side.
 scene::Scene plane_seen_from(double z, bool two_sided) {
   scene::Scene scene;
   scene.materials = {diffuse(albedo)};
@@ -25,7 +25,7 @@ scene::Scene plane_seen_from(double z, bool two_sided) {
   return scene;
 }
 
-// A light over, or in, what it may light, turned so that it does or does not.
+// A light over the surface or in it, facing towards it or away.
 scene::Scene over_plane() {
   scene::Scene scene;
   scene.materials = {diffuse(albedo), diffuse(Rgb(0.0))};

@@ -1,4 +1,4 @@
-// Interpolated normals: a mesh of a sphere looks like the sphere.
+// Interpolated normals: the image of a mesh of a sphere equals that of the sphere.
 #include <cmath>
 #include <numbers>
 
@@ -52,8 +52,8 @@ TEST_CASE("a sphere of triangles with vertex normals has the sphere's radiance")
     const Render truth = render_of(round, settings_for(4096)), image = render_of(faceted, settings_for(2048));
     CHECK(image.statistics.nonfinite == 0);
     CHECK(image.statistics.traversal == "bvh");
-    // Facets of 1/15 lose what leaves above the interpolated normal's horizon and below their own: up to a
-    // 60th of the cosine's circle, and a ray from the eye sees them up to 1e-3 further away.
+    // Triangles of size 1/15 lose directions above the horizon of the interpolated normal and below their
+    // own: up to a 60th of the projected hemisphere. A ray from the eye hits them up to 1e-3 further away.
     check_agreement(estimate_of(image.film), estimate_of(truth.film), 0.02);
   }
 }
@@ -66,7 +66,7 @@ TEST_CASE("under the sun a coarse mesh is shaded as smoothly as the sphere") {
   }
   round.spheres = {{{0, 0, 0}, 1, false, {}}};
   coarse.meshes = {sphere_mesh(24, 12)};
-  // Edges of 0.26 lie up to 0.01 below the sphere; one facet's normals differ by 15 degrees.
+  // Edges of length 0.26 lie up to 0.01 below the sphere; the normals of a triangle differ by 15 degrees.
   check_agreement(estimate_of(render_of(coarse, settings_for(64)).film),
                   estimate_of(render_of(round, settings_for(64)).film), 0.03);
 }

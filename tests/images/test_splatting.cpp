@@ -1,15 +1,13 @@
-// Splats repeat bit for bit, none is lost, and the film says how much they scatter.
+// Splats are reproducible bit for bit, none is lost, and the film estimates their variance.
 #include <algorithm>
 #include <cmath>
 
 #include <catch2/catch.hpp>
 
-#include "cli/program.h"
 #include "images/evidence.h"
 #include "images/integrators.h"
 #include "images/prepared_render.h"
 #include "images/room.h"
-#include "temporary_folder.h"
 
 using namespace phlux;
 using namespace phlux::test;
@@ -31,7 +29,7 @@ bool same_bits(const film::Film& a, const film::Film& b) {
   return a.pixels().size() == b.pixels().size();
 }
 
-// Closed, and shining everywhere: paths are as long as roulette lets them be.
+// Closed, and all walls emit: only roulette ends paths.
 scene::Scene bright_box(double albedo, int size) {
   scene::Scene scene = shipped("furnace-box", size, size);
   for (scene::Material& material : scene.materials) material = diffuse(Rgb(albedo));
@@ -44,7 +42,7 @@ TEST_CASE("light and bidir: the same seed gives the same bits, whatever the leng
   const scene::Scene scene = shipped("cornell-box", 33, 17);
   for (const Method& method : both) {
     CAPTURE(name_of(method));
-    // Whole blocks of samples and a part of one.
+    // Whole blocks of samples and a partial one.
     render::Settings settings = with(method, 100, 7);
     settings.launch_seconds = 0.001;
     const Render first = render_of(scene, settings);
@@ -67,25 +65,6 @@ TEST_CASE("a scene that is prepared once is rendered with each seed as it is by 
   }
 }
 
-TEST_CASE("light and bidir: the number of PoCL's threads does not change a bit") {
-  const TemporaryFolder folder;
-  for (const Method& method : both) {
-    CAPTURE(name_of(method));
-    const auto render = [&](const std::string& threads, const std::string& image) {
-      return run({{"render", PHLUX_SOURCE_DIR "/scenes/cornell-box.xml", "-i", method.integrator, "--size",
-                   "24x24", "-n", "20", "-q", "-o", image},
-                  folder.path(),
-                  {{"POCL_MAX_PTHREAD_COUNT", threads}},
-                  {}});
-    };
-    REQUIRE(render("1", "one.exr").exit_code == 0);
-    REQUIRE(render("3", "three.exr").exit_code == 0);
-    const Outcome compared = run({{"compare", "one.exr", "three.exr", "--json"}, folder.path(), {}, {}});
-    REQUIRE(compared.exit_code == 0);
-    CHECK_THAT(compared.out, Catch::Contains("\"rmse\": 0.0,"));
-  }
-}
-
 TEST_CASE("light and bidir: 1, 4, 8 and 16 lanes render the same image") {
   const scene::Scene scene = shipped("cornell-box", 16, 16);
   for (const Method& method : both) {
@@ -101,8 +80,8 @@ TEST_CASE("light and bidir: 1, 4, 8 and 16 lanes render the same image") {
   }
 }
 
-// Room for splats and vertices is guessed before the first launch, and grows when a launch has had too
-// little.
+// The space for splats and vertices is estimated before the first launch, and grows after a launch that
+// needed more.
 TEST_CASE("paths of a hundred edges and their splats all count") {
   constexpr double albedo = 0.98;
   const scene::Scene scene = bright_box(albedo, 6);
@@ -143,8 +122,8 @@ TEST_CASE("films of light and bidir scatter as their variances say") {
       ++pixels;
     }
     CHECK(pixels > 200);
-    // A normal pixel's ratio has the variance 2 / 23, 256 of them a mean with standard error 0.02; skewed
-    // ones somewhat more.
+    // The ratio of a normal pixel has the variance 2 / 23; the mean of 256 has a standard error of 0.02,
+    // somewhat more if skewed.
     CHECK(ratio / pixels == Approx(1).margin(0.12));
   }
 }

@@ -1,5 +1,5 @@
-// The scenes of scenes/stability, each of which one method or other cannot render: that it fails, what holds
-// instead and how well, and that nothing but noise goes wrong.
+// The scenes of scenes/stability: which methods fail and which work, their errors, and that working methods
+// differ only by noise.
 #include <algorithm>
 #include <filesystem>
 
@@ -131,11 +131,11 @@ TEST_CASE("a lamp of 1e-8 W is not starved by one of 1e8 W next door") {
   }
 }
 
-// No surface reflects more than it receives: under a sky of 1 nothing is brighter than 1.
+// No surface reflects more than it receives: under a sky of radiance 1 nothing is brighter than 1.
 TEST_CASE("no failure scene makes energy") {
   for (const auto& entry : std::filesystem::directory_iterator(stability_folder())) {
     const std::string name = entry.path().stem();
-    // Those of triangles would be two kernels more to build, and the floor of `grazing` is known exactly.
+    // Scenes of triangles would need two more kernels, and the floor of `grazing` is known exactly.
     if (entry.path().extension() != ".xml" || name == "million-lights" || name == "slivers" ||
         name == "grazing")
       continue;
@@ -144,7 +144,7 @@ TEST_CASE("no failure scene makes energy") {
     scene.area_emitters.clear();
     for (scene::Patch& patch : scene.patches) patch.surface.area_emitter = -1;
     scene.constant_radiance = Rgb(1);
-    // Sampled exactly, no path is worth more than the sky, so that no noise excuses a bright pixel.
+    // With exact sampling no path contributes more than the sky, so noise cannot cause a bright pixel.
     const Estimate hits = image_by(path_hits, scene, 16, 1), all = image_by(bidir, scene, 32, 2);
     for (std::size_t i = 0; i < hits.mean.size(); ++i)
       for (std::size_t c = 0; c < 3; ++c)

@@ -1,4 +1,4 @@
-// What each way of making a path brings by itself.
+// The unweighted contribution of each technique.
 #include <cmath>
 #include <map>
 #include <set>
@@ -75,8 +75,9 @@ TEST_CASE("bidir makes every path in every way") {
   CHECK(image.film.techniques()->left_out() == 0);
 }
 
-// The room keeps surfaces apart, so that a connection's 1 / distance^2 is bounded and every technique has a
-// finite variance. All comparisons together raise a false alarm with false_alarm_rate (Bonferroni).
+// Surfaces of the room are apart, so 1 / distance^2 of a connection is bounded and every technique has a
+// finite variance. All comparisons together raise a false alarm with probability false_alarm_rate
+// (Bonferroni).
 TEST_CASE("techniques that make paths of one length agree without their weights") {
   std::map<Technique, std::vector<double>> means;
   for (int seed = 0; seed < renders; ++seed) {

@@ -1,4 +1,4 @@
-// Whether two means of a few values each differ.
+// Comparison of two means of a few values each.
 #pragma once
 
 namespace phlux::test {

@@ -1,6 +1,6 @@
 #include "transport/batch.cl"
 
-// Each work-item takes the paths of batch `first_batch` + its number with lanes that fall idle as `words` say.
+// Each work-item takes the paths of batch `first_batch` + its number, in lanes that become idle as given by `words`.
 __kernel void take_batches(int pixel_count, int first_pixel, int job_count, int first_sample, int block_samples,
                            int batch_jobs, __global const Uint* words, int word_count, __global int* pixels,
                            __global int* samples, __global int* times) {
@@ -20,7 +20,7 @@ __kernel void take_batches(int pixel_count, int first_pixel, int job_count, int 
     scatter_int(samples, first_path + path, uint_to_int(sequence.sample), taken);
     const Int so_far = gather_int(times, taken ? first_path + path : (Int)(first_path));
     scatter_int(times, first_path + path, so_far + 1, taken);
-    // Lanes that took none keep theirs.
+    // Lanes that took no path keep theirs.
     const Mask lost = (!taken) & (path != before);
     if (any_lane(lost)) times[first_path] = -1000;
   }

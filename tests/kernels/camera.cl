@@ -1,6 +1,6 @@
 #include "scene/camera.cl"
 
-// What the camera sees of its own rays.
+// The camera's pixel and density for its own rays.
 __kernel void see_rays(SCENE_PARAMETERS, __global const Uint* pixel, __global const Real* u, __global const Real* v,
                        __global Vec3* direction, __global Int* seen, __global Int* seen_pixel, __global Real* density,
                        __global Real* density_alone) {

@@ -1,8 +1,8 @@
 // Runs a test's kernels on the device under test (PHLUX_DEVICE, else the first CPU), at every width.
-//
-// A test's kernel works on one item of lanes at a time: an argument of lanes is `__global const T* x` and the
-// kernel's item is x[get_global_id(0)], where T is Real, Int, Uint or a struct of them such as Vec3. On the
-// host it is a vector with one element per lane: a number, or a struct of as many 4-byte members as T has.
+// A test's kernel processes one item of lanes at a time: an argument of lanes is `__global const T* x` and
+// the kernel's item is x[get_global_id(0)], where T is Real, Int, Uint or a struct of them such as Vec3. On
+// the host it is a vector with one element per lane: a number, or a struct of as many 4-byte members as T
+// has.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@
 
 namespace device_test {
 
-/// How the lanes are built. `portable` leaves out what lanes.h knows of particular processors.
+/// Build of the lanes. `portable` excludes the code of lanes.h for particular processors.
 struct Variant {
   int width = 1;
   bool portable = false;
@@ -38,7 +38,7 @@ using phlux::test::kernel_files;
 using phlux::test::test_device;
 using phlux::test::thinned;
 
-/// The text of a file of tests/kernels.
+/// Source of a file of tests/kernels.
 inline std::string read_file(const std::string& name) {
   std::ifstream file(std::string(PHLUX_SOURCE_DIR) + "/tests/kernels/" + name);
   if (!file) throw std::runtime_error("tests/kernels/" + name + " cannot be read");
@@ -52,7 +52,7 @@ template<typename T>
 struct Out {
   std::vector<T>& values;
 };
-/// An argument that is laid out as on the host, read and written.
+/// An argument in the layout of the host, read and written.
 template<typename T>
 struct Table {
   std::vector<T>& values;
@@ -66,7 +66,7 @@ Table<T> table(std::vector<T>& values) {
   return {values};
 }
 
-/// Where word `word` of element `element` is when `width` elements of `words` words travel as one item.
+/// Index of word `word` of element `element` if items have `width` elements of `words` words.
 inline std::size_t lane_word(std::size_t element, std::size_t word, std::size_t words, std::size_t width) {
   return (element / width * words + word) * width + element % width;
 }
@@ -95,12 +95,12 @@ public:
     run_bound(kernel(name), count, arguments...);
   }
 
-  /// The same for a kernel whose first arguments are set already.
+  /// run() for a kernel whose first arguments are already set.
   template<typename... Arguments>
   void run_bound(phlux::device::Kernel kernel, std::size_t count, const Arguments&... arguments) const {
     const std::size_t items = (count + width_ - 1) / width_;
     cl_uint first = kernel.first_unset();
-    Fetches fetches; // which also keep the buffers alive: a kernel does not
+    Fetches fetches; // also keep the buffers alive, which a kernel does not
     (set(kernel, first++, items, fetches, arguments), ...);
     test_device().queue.enqueueNDRangeKernel(kernel.ready(), cl::NullRange, cl::NDRange(items),
                                              cl::NDRange(1));
@@ -123,7 +123,7 @@ private:
     Words lanes(items * width_ * words);
     for (std::size_t i = 0; i < items * width_; ++i)
       for (std::size_t k = 0; k < words; ++k) {
-        const T& value = values.at(std::min(i, values.size() - 1)); // lanes beyond the last repeat it
+        const T& value = values.at(std::min(i, values.size() - 1)); // lanes beyond the last element repeat it
         std::memcpy(&lanes[lane_word(i, k, words, width_)], reinterpret_cast<const char*>(&value) + 4 * k, 4);
       }
     const cl::Buffer memory = buffer(lanes.data(), lanes.size() * 4);
@@ -166,7 +166,7 @@ private:
   phlux::device::BuiltProgram program_;
 };
 
-/// A program of tests/kernels/NAME, built when it is first asked for and never released.
+/// A program of tests/kernels/NAME, built at its first use and never released.
 inline const Program& program_with(const std::string& name, Variant variant,
                                    const phlux::device::ProgramSource& source) {
   static auto& programs = *new std::map<std::string, Program>;

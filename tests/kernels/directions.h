@@ -1,4 +1,4 @@
-// Vectors that tests hand to kernels, and where they point.
+// Vectors for kernels, and their angles.
 #pragma once
 
 #include <cmath>
@@ -26,7 +26,7 @@ inline glm::dvec3 to_double(const Float3& v) {
   return {v.x, v.y, v.z};
 }
 
-/// The direction at an angle with z, at a longitude from x; both in radians.
+/// The direction at this angle to z and this longitude from x; both in radians.
 inline glm::dvec3 polar(double angle, double longitude) {
   return {std::sin(angle) * std::cos(longitude), std::sin(angle) * std::sin(longitude), std::cos(angle)};
 }

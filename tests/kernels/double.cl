@@ -7,7 +7,7 @@ __kernel void signs_and_ints(__global const Real* x, __global const Real* sign, 
   carried[i] = pack_int_lanes(ALL_LANES, whole[i]);
 }
 
-// How far the frame's axes are from the directions that they were when a vector comes back from the frame.
+// Error of transforming a vector into a frame and back.
 __kernel void there_and_back(__global const Vec3* direction, __global const Vec3* vector, __global Real* error) {
   const size_t i = get_global_id(0);
   const Frame frame = frame_about(vec_normalize(direction[i]));

@@ -3,7 +3,7 @@
 typedef struct {
   Vec3 origin, direction, radiance, position, normal;
   Real density, cosine;
-  Real found; // density per area with which a light sample at `lit` finds the point of a surface; 0: behind it
+  Real found; // density per area with which a light sample at `lit` chooses the point of a surface; 0: behind it
   Int light, surface, sky;
 } Emitted;
 

@@ -21,7 +21,7 @@ __kernel void scatter(__global float* base, __global const Int* index, __global 
   scatter_real(base, index[i], value[i], chosen[i] != 0);
 }
 
-// Two appends in a row: what they leave, and how many.
+// Two appends in succession: the entries and their number.
 __kernel void append(__global const Int* first, __global const Int* second, __global const Real* key,
                      __global const Int* value, __global float* keys, __global int* values, __global int* counts) {
   const size_t i = get_global_id(0);

@@ -3,8 +3,8 @@
 typedef struct {
   Vec3 origin, direction, radiance;
   Real distance, density;
-  Int hittable, valid, blocked, light; // light: which the ray finds, -1 for none
-  Real hit_density;                    // of the same ray, from what it finds
+  Int hittable, valid, blocked, light; // light: index of the light that the ray hits, -1 for none
+  Real hit_density;                    // density of the same ray, from its hit
   Int chosen;
   Real choice; // its probability
 } Sampled;
@@ -50,7 +50,7 @@ __kernel void sample_lights(SCENE_PARAMETERS, __global const Vec3* position, __g
   sampled[i] = to;
 }
 
-// With which light_sample would choose one light.
+// Probability with which light_sample() chooses the light.
 __kernel void light_choices(SCENE_PARAMETERS, __global const Vec3* position, __global const Vec3* normal,
                             int light, __global Real* probability) {
   SCENE_FROM_PARAMETERS

@@ -5,7 +5,7 @@ __kernel void words(__global const RandomWords* counter, uint2 key, __global Ran
   answer[i] = philox(counter[i], key);
 }
 
-// What random_words makes of a path's place in the sequence; the counter's members in the order of RandomWords.
+// The result of random_words for the position of a path in the sequence; the counter's members in the order of RandomWords.
 __kernel void sequence_words(__global const RandomWords* place, uint2 seed, uint draw, __global RandomWords* answer) {
   const size_t i = get_global_id(0);
   RandomSequence sequence;

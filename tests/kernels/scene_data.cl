@@ -7,7 +7,7 @@ __kernel void sizes(__global int* size) {
   SHARED_STRUCTS(SIZE)
 }
 
-// The members' offsets and sizes in a table's first record.
+// Offsets and sizes of the members in the first record of a table.
 __kernel void offsets(__global char* memory, __global int* offset, __global int* size) {
   int k = 0;
 #define OFFSET(type, member)                                                                                           \

@@ -1,4 +1,4 @@
-// Every member of every struct that host and kernels share, for both compilers to say where they put it.
+// Every member of every struct shared by host and kernels, to compare its offset in both compilers.
 #define SHARED_STRUCTS(STRUCT)                                                                               \
   STRUCT(PrimitiveRecord)                                                                                    \
   STRUCT(LightRecord) STRUCT(LightNodeRecord) STRUCT(CameraRecord)

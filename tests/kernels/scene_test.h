@@ -1,4 +1,4 @@
-// Kernels that take a scene: SCENE_PARAMETERS, then a test's own arguments.
+// Runs kernels with the arguments SCENE_PARAMETERS, then those of the test.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ namespace device_test {
 
 class SceneProgram {
 public:
-  /// The kernels of tests/kernels/FILE with what this scene needs.
+  /// The kernels of tests/kernels/FILE with the parts of this scene.
   SceneProgram(Variant variant, const std::string& file, const phlux::scene::Scene& scene,
                const std::string& strategy = "exact",
                phlux::render::Traversal traversal = phlux::render::Traversal::brute_force)
@@ -33,7 +33,7 @@ public:
   [[nodiscard]] const phlux::render::HostScene& host() const { return host_; }
 
 private:
-  // A tree of lights also for fewer than the renderer makes one for.
+  // A light tree also for fewer lights than in renders.
   static phlux::render::Parts parts_of(const phlux::scene::Scene& scene, const phlux::render::HostScene& host,
                                        const phlux::render::Settings& settings, int lanes) {
     phlux::render::Parts parts =

@@ -1,4 +1,4 @@
-// The anisotropic model of Ashikhmin and Shirley against its formulas and its own sampler.
+// The anisotropic model of Ashikhmin and Shirley compared with its formulas and its sampler.
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -41,7 +41,7 @@ glm::dvec3 formula(const phlux::scene::Material& m, const glm::dvec3& k1, const 
 }
 
 SphereGrid grid_of(const phlux::scene::Material& m, const glm::dvec3& fixed) {
-  // A lobe of half vectors is about four times as wide, in solid angle, as seen in mirrored directions.
+  // A lobe of half vectors is about four times as wide, in solid angle, in the mirrored directions.
   auto cuts = lobe_cuts(phlux::test::exponent_of(m) / 4);
   for (const double cut : lobe_cuts(phlux::test::exponent_v_of(m) / 4)) cuts.push_back(cut);
   return {glm::normalize(glm::dvec3(-fixed.x, -fixed.y, fixed.z)), cuts};
@@ -72,9 +72,10 @@ TEST_CASE("anisotropic: the value is the formula's, the same both ways, and 0 be
         const auto right = formula(material, from, to);
         const auto &got = values[i].value, &other = values[i].reversed;
         CAPTURE(i, from.x, from.y, from.z, to.x, to.y, to.z);
-        // h is right to a few 2^-24 over |k1 + k2| / 2 = h.k; (N.h)^n multiplies that by n tan(h), its
-        // logarithm's rounding by n / (N.h)^2. The diffuse part, 1 - (1 - c/2)^5, cancels at grazing angles.
-        // k1 and k2 are unit to 2^-24, which k1.h of opposite directions magnifies.
+        // The error of h is a few 2^-24 / (h.k), where h.k = |k1 + k2| / 2; (N.h)^n multiplies it by n
+        // tan(h), and the rounding of its logarithm by n / (N.h)^2. The diffuse part, 1 - (1 - c/2)^5,
+        // cancels at grazing angles. The lengths of k1 and k2 have errors of 2^-24, which k1.h magnifies if
+        // they are nearly opposite.
         const double hk = glm::length(from + to) / 2;
         const glm::dvec3 h = glm::normalize(from + to);
         const double steep =

@@ -1,4 +1,4 @@
-// Batches of paths: each pixel's every sample is made once, whatever the sizes.
+// Batches of paths: every sample of every pixel is taken exactly once, whatever the sizes.
 #include <map>
 #include <utility>
 #include <vector>
@@ -14,7 +14,7 @@ struct Sizes {
   int pixels, samples, block_samples, batch_jobs, launch_jobs;
 };
 
-// All of an image's samples, in launches of whole batches as the host makes them.
+// All samples of an image, in launches of whole batches as on the host.
 std::map<std::pair<int, int>, int> take_all(const Program& program, Variant v, const Sizes& sizes) {
   Random random(91);
   std::vector<std::uint32_t> words;
@@ -43,7 +43,7 @@ std::map<std::pair<int, int>, int> take_all(const Program& program, Variant v, c
 
 } // namespace
 
-// 41 x (1 / 41) is below 1 in float: what a quotient must not be.
+// 41 x (1 / 41) is below 1 in float32: division must not use the reciprocal.
 TEST_CASE("batches: every sample of every pixel is taken once") {
   for (const Variant v : variants) {
     CAPTURE(v);

@@ -1,4 +1,4 @@
-// The camera: its rays, and which pixel sees a direction and how densely.
+// The camera: its rays, and the pixel and density of a direction.
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -42,14 +42,14 @@ Scene scene_of(const Film& film) {
 
 SceneProgram program_for(Variant v, const Scene& scene) {
   phlux::render::Settings settings;
-  settings.integrator = "bidir"; // which knows the film's density alone
+  settings.integrator = "bidir"; // the only one that uses the density of the film
   settings.traversal = phlux::render::Traversal::brute_force;
   Scene lit = scene;
   lit.constant_radiance = dvec3(1);
   return {v, "camera.cl", lit, settings};
 }
 
-// The direction through a place on the film, in [0, 1]^2 where it is on it.
+// The direction through a point of the image plane; [0, 1]^2 is the film.
 dvec3 through(const Camera& camera, double x, double y) {
   const double across = camera.tan_half_fov_x, aspect = static_cast<double>(camera.height) / camera.width;
   return glm::normalize(camera.forward + (1 - 2 * (x + camera.principal_x)) * across * camera.left +
@@ -87,7 +87,7 @@ TEST_CASE("camera: each pixel sees its own rays, up to its borders") {
       Random random(81);
       std::vector<std::uint32_t> pixel;
       std::vector<float> us, vs;
-      // A place on the film is known to some units of float's last place: less than this part of a pixel.
+      // Positions on the film have errors of a few units in the last place: less than this part of a pixel.
       const float margin = 4e-6f * static_cast<float>(std::max(film.width, film.height));
       for (std::size_t i = 0; i<pixels; i += pixels> 5000 || thinned(pixels) < pixels ? 61 : 1)
         for (int place = 0; place < 5; ++place) {
@@ -128,7 +128,7 @@ TEST_CASE("camera: what is beyond the film's borders, or behind, is not seen") {
       CAPTURE(v, film.width, film.height);
       const Scene scene = scene_of(film);
       const SceneProgram program = program_for(v, scene);
-      // Half a pixel beyond: a cast to whole numbers would count it to the first column or row.
+      // Half a pixel outside: truncation to integers would assign it to the first column or row.
       const double beyond_x = 0.5 / film.width, beyond_y = 0.5 / film.height;
       std::vector<dvec3> directions;
       for (const double along : {0.01, 0.3, 0.99}) {
@@ -136,13 +136,14 @@ TEST_CASE("camera: what is beyond the film's borders, or behind, is not seen") {
           directions.push_back(through(scene.camera, x, along));
         for (const double y : {-beyond_y, 1 + beyond_y})
           directions.push_back(through(scene.camera, along, y));
-        directions.push_back(-through(scene.camera, along, 0.4)); // which the film's plane maps to itself
+        directions.push_back(
+            -through(scene.camera, along, 0.4)); // whose projection onto the image plane is the same point
       }
       directions.push_back(-scene.camera.forward);
       const Seen s = see(program, directions);
       CHECK(s.seen == std::vector<int>(directions.size(), 0));
       for (const int pixel : s.pixel)
-        CHECK((pixel >= 0 && pixel < film.width * film.height)); // to be read from
+        CHECK((pixel >= 0 && pixel < film.width * film.height)); // an index that may be read
     }
 }
 
@@ -151,7 +152,7 @@ TEST_CASE("camera: over all directions the density is 1, and as much for every p
     CAPTURE(film.width, film.height);
     const Scene scene = scene_of(film);
     const SceneProgram program = program_for(variants[3], scene);
-    // Midpoints of a lattice on a plane before the eye, wider than the film, whose solid angles are known.
+    // Midpoints of the cells of a lattice in the image plane, wider than the film, with known solid angles.
     const int columns = 12 * film.width, rows = 12 * film.height;
     std::vector<dvec3> directions;
     std::vector<double> solid_angles;

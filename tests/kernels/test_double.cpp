@@ -1,4 +1,4 @@
-// lanes.h with PHLUX_DOUBLE: what it does by itself is right to a double's precision.
+// lanes.h with PHLUX_DOUBLE: its own functions are accurate to double precision.
 #include <cmath>
 #include <numbers>
 

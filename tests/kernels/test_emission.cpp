@@ -1,4 +1,4 @@
-// Light that sets out: where, whereto, how much of it, and how dense that is.
+// Emission: origin, direction, weight and density.
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -23,7 +23,7 @@ struct Emitted {
   int light, surface, sky;
 };
 
-// A floor that emits nothing holds the scene together: lights without a surface need a scene's size.
+// A floor without emission gives the scene a size, which lights without a surface need.
 Scene floor_alone() {
   Scene scene;
   scene.materials.push_back(phlux::lobes::diffuse(phlux::scene::Rgb(0.5)));
@@ -54,8 +54,8 @@ double triangle_area(const std::vector<dvec3>& points, int a, int b, int c) {
   return glm::length(glm::cross(at(b) - at(a), at(c) - at(a))) / 2;
 }
 
-// Solid angle that an intensity which falls off linearly in the angle is worth: the mean of those within each
-// angle from the beam to the cutoff.
+// Integral of a falloff that is linear in the angle: the mean of the solid angles within each angle from beam
+// to cutoff.
 double spot_solid_angle() {
   return 2 * pi * (1 - (std::sin(cutoff) - std::sin(beam)) / (cutoff - beam));
 }
@@ -139,7 +139,7 @@ std::vector<Emitted> emit(const SceneProgram& program, std::size_t count, Random
   return emitted;
 }
 
-// That numbers are uniform in (0, 1).
+// Tests that numbers are uniform in (0, 1).
 void check_uniform(const std::vector<double>& numbers, std::size_t questions) {
   constexpr std::size_t cells = 32;
   std::vector<double> observed(cells, 0.0);
@@ -155,7 +155,7 @@ double turns(double x, double y) {
   return std::atan2(y, x) / (2 * pi) + 0.5;
 }
 
-// An orthonormal pair across an axis.
+// Two unit vectors perpendicular to an axis and to each other.
 std::pair<dvec3, dvec3> across(const dvec3& z) {
   const dvec3 x = glm::normalize(glm::cross(std::abs(z.x) < 0.5 ? dvec3(1, 0, 0) : dvec3(0, 1, 0), z));
   return {x, glm::cross(z, x)};
@@ -163,7 +163,7 @@ std::pair<dvec3, dvec3> across(const dvec3& z) {
 
 using Pair = std::pair<double, double>;
 
-// Where on its light a path set out, as two numbers that are uniform in (0, 1).
+// Origin of a path on its light as two numbers that must be uniform in (0, 1).
 Pair place_of(const std::string& kind, const Emitted& e, const dvec3& origin, double disk_radius) {
   const dvec3 point = to_double(e.position) + origin - center;
   if (kind == "rectangle" || kind == "disk") {
@@ -182,7 +182,7 @@ Pair place_of(const std::string& kind, const Emitted& e, const dvec3& origin, do
   return {a * a + b * b, turns(a, b)};
 }
 
-// The same of its direction.
+// Direction of a path as two numbers that must be uniform in (0, 1).
 Pair direction_of(const std::string& kind, const Emitted& e) {
   const dvec3 direction = to_double(e.direction);
   if (kind == "point" || kind == "constant") return {(direction.z + 1) / 2, turns(direction.x, direction.y)};
@@ -235,7 +235,7 @@ void check_kind(const Kind& kind, const SceneProgram& program, const std::vector
     } else if (name == "point" || name == "spot") {
       REQUIRE(glm::length(to_double(e.origin) + origin - center) < 1e-5);
     } else {
-      // Outside of the scene, which it goes through.
+      // Outside of the scene, and towards it.
       REQUIRE(glm::length(to_double(e.origin)) >= disk_radius * (1 - 1e-5));
       REQUIRE(glm::dot(to_double(e.origin), to_double(e.direction)) < 0);
     }
@@ -248,7 +248,7 @@ void check_kind(const Kind& kind, const SceneProgram& program, const std::vector
   if (!places.empty()) check_pairs(places, questions);
   if (!directions.empty()) check_pairs(directions, questions);
   if (name == "sphere") {
-    // All of the cone's density lies on the part of the sphere that it sees.
+    // The density of the cone integrates to 1 over the visible part of the sphere.
     const double expected = found / n, spread = std::sqrt((found_squares / n - expected * expected) / n);
     CHECK(mean_p(expected, spread, 1) > one_of(questions));
   }
@@ -263,7 +263,7 @@ TEST_CASE("emission: each kind of light sends its power, from and to where it sh
       Random random(101);
       Scene scene = floor_alone();
       kind.add(scene);
-      // The floor's disk was measured without the light: lights without a surface do not change it.
+      // The disk of the floor was computed without the light: lights without a surface do not change it.
       const SceneProgram program(v, "emission.cl", scene);
       check_kind(kind, program, emit(program, thinned(20000), random));
     }
@@ -273,7 +273,7 @@ TEST_CASE("emission: of many lights, each sends its power, chosen with its proba
   Scene scene = floor_alone();
   double power = 0;
   for (const Kind& kind : kinds()) kind.add(scene);
-  scene.point_lights.push_back({center, dvec3(0)}); // without power: never
+  scene.point_lights.push_back({center, dvec3(0)}); // without power: never chosen
   const double disk = disk_across(scene), disk_before = disk_across(floor_alone());
   for (const Kind& kind : kinds()) {
     const std::string name = kind.name;

@@ -15,7 +15,7 @@ struct Frame {
   Float3 x, y, z;
 };
 
-// Directions everywhere, at the poles, and next to them: z = -1 + eps is where older constructions break.
+// Directions everywhere, at the poles, and next to them: older constructions fail at z = -1 + eps.
 std::vector<Float3> unit_vectors() {
   Random random(21);
   std::vector<Float3> list{{0, 0, 1}, {0, 0, -1}, {1, 0, 0},     {-1, 0, 0},
@@ -32,7 +32,7 @@ std::vector<Float3> unit_vectors() {
   return list;
 }
 
-// How far from orthonormal and right-handed.
+// Deviation from an orthonormal right-handed frame.
 double fault_of(const Frame& frame) {
   const auto x = to_double(frame.x), y = to_double(frame.y), z = to_double(frame.z);
   const auto handed = glm::cross(x, y) - z;
@@ -92,7 +92,8 @@ TEST_CASE("frames: frame_along has its x along the tangent; a useless tangent do
       const auto normal = to_double(z[i]), tangent = to_double(tangents[i]);
       const double length = glm::length(tangent);
       const double sine = length > 0 ? glm::length(glm::cross(normal, tangent)) / length : 0;
-      // Taking the normal's part out of a tangent at an angle cancels digits in proportion to 1 / sine.
+      // Removing the component along the normal from a tangent multiplies rounding errors by 1 / sine of
+      // their angle.
       const double bound = sine > 1e-4 ? 4 + 4 / sine : 4;
       REQUIRE(fault_of(frames[i]) <= bound * ulp);
       if (sine > 1e-2) {

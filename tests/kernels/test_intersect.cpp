@@ -1,4 +1,4 @@
-// Single intersections against float64 of the same float32 numbers.
+// Single intersections compared with float64 for the same float32 inputs.
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -89,7 +89,8 @@ TEST_CASE("intersect: planes, and what lies inside triangle, parallelogram and e
       const double w = sign * glm::dot(moment, to_double(p.minus_u));
       const double distance = sign * glm::dot(to_double(p.normal), from);
       const Crossing& got = crossings[i];
-      // Coordinates about the primitive's origin are right to a few units of the ray's reach.
+      // Coordinates relative to the origin of the primitive have errors of a few units of the length of the
+      // ray.
       const double of_origin = std::max({std::abs(origin.x), std::abs(origin.y), std::abs(origin.z)});
       const double slack = 6 * unit * std::max(reach, of_origin * 0.5);
       const double slack_u = slack * glm::length(to_double(p.edge_v)),
@@ -100,7 +101,7 @@ TEST_CASE("intersect: planes, and what lies inside triangle, parallelogram and e
         REQUIRE(std::abs(got.v - w) <= slack_v);
         REQUIRE(std::abs(got.distance - distance) <= slack);
       }
-      // Where float64 is further from an edge than float's error, both decide alike.
+      // If float64 is further from an edge than the error of float32, both must agree.
       const double margin = 2 * (slack_u + slack_v) + 8 * unit * facing;
       const double triangle = std::min({u, w, facing - u - w});
       const double square = facing - std::max(std::abs(u), std::abs(w));
@@ -112,7 +113,7 @@ TEST_CASE("intersect: planes, and what lies inside triangle, parallelogram and e
       inside += triangle > margin;
     }
     CHECK(inside > crossings.size() / 80);
-    CHECK(undecided < crossings.size() / 2); // those aimed at edges
+    CHECK(undecided < crossings.size() / 2); // the rays aimed at edges
   }
 }
 
@@ -148,7 +149,8 @@ TEST_CASE("intersect: spheres from outside and inside, grazing, huge and tiny") 
     const dvec3 axis = random.direction();
     dvec3 across = random.direction();
     across = glm::normalize(across - glm::dot(across, axis) * axis);
-    // The ray passes the centre at `miss` radii, from `away` radii back; some of those are inside.
+    // The ray starts `away` radii back and passes the centre at a distance of `miss` radii; some origins are
+    // inside.
     const double miss = i % 3 == 0 ? 1 + random.uniform(-1e-4, 1e-4) : random.uniform(0, 1.3);
     const double away = i % 5 == 0 ? random.uniform(-1, 1) : std::exp2(random.uniform(0, 8));
     spheres.push_back({to_float(center), static_cast<float>(radius)});
@@ -167,7 +169,7 @@ TEST_CASE("intersect: spheres from outside and inside, grazing, huge and tiny") 
       const double b = -glm::dot(from, direction);
       const dvec3 closest = from + b * direction;
       const double discriminant = radius * radius - glm::dot(closest, closest);
-      // Units of the numbers that enter: the point of closest approach is right to a few units of |from|.
+      // Errors in units of the inputs: that of the point of closest approach is a few units of |from|.
       const double error =
           8 * unit *
           (glm::length(from) * (glm::length(closest) + glm::length(from) * unit) + radius * radius);

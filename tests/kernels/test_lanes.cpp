@@ -19,7 +19,7 @@ std::size_t lanes_of(Variant v) {
   return items * static_cast<std::size_t>(v.width);
 }
 
-// 0 or 1 in each lane: items of no lanes, of all, of one, and of random ones.
+// 0 or 1 in each lane: items with no lanes set, with all, with one, and with random ones.
 std::vector<int> random_masks(Variant v, Random& random) {
   std::vector<int> mask(lanes_of(v));
   const auto width = static_cast<std::size_t>(v.width);
@@ -75,7 +75,7 @@ TEST_CASE("lanes: gather reads one word in each lane") {
   }
 }
 
-// Else the tests at WIDTH 16 would be of the portable lanes twice. Elsewhere a compiler may refuse its
+// Otherwise the tests at WIDTH 16 would test the portable lanes twice. Other compilers may refuse the
 // builtins.
 TEST_CASE("lanes: where warnings are errors, the compiler takes the processor's own instructions") {
   const char* options = std::getenv("PHLUX_KERNEL_OPTIONS");
@@ -88,7 +88,7 @@ TEST_CASE("lanes: scatter writes in lane order, and only the lanes of the mask")
   Random random(2);
   for (const Variant v : variants) {
     CAPTURE(v);
-    constexpr int places = 5; // fewer than lanes: the last of the mask wins
+    constexpr int places = 5; // fewer than lanes: the last lane of the mask wins
     const auto width = static_cast<std::size_t>(v.width);
     std::vector<int> index(lanes_of(v));
     for (std::size_t i = 0; i < index.size(); ++i)
@@ -172,7 +172,7 @@ TEST_CASE("lanes: counting, ranking, packing and unpacking the lanes of a mask")
     const auto chosen = random_masks(v, random);
     const auto real = random_reals(chosen.size(), random), old = random_reals(chosen.size(), random);
     std::vector<int> whole(chosen.size()), count(items), rank(whole.size()), packed_int(whole.size());
-    for (int& each : whole) each = static_cast<int>(random.word()) >> 8; // a float holds them
+    for (int& each : whole) each = static_cast<int>(random.word()) >> 8; // exact in float32
     std::vector<float> packed(whole.size()), unpacked(whole.size());
     std::vector<Float3> packed_vec(whole.size());
     std::vector<int> unpacked_int(whole.size());
@@ -209,7 +209,7 @@ TEST_CASE("lanes: scatter_int and add_vec take one lane after another") {
   Random random(10);
   for (const Variant v : variants) {
     CAPTURE(v);
-    constexpr int places = 5; // fewer than lanes: several of them meet
+    constexpr int places = 5; // fewer than lanes, so that lanes share places
     const auto width = static_cast<std::size_t>(v.width);
     const auto chosen = random_masks(v, random);
     const auto real = random_reals(chosen.size(), random);
@@ -372,8 +372,8 @@ TEST_CASE("lanes: cos_sin_turns is right to 2 ulp of the larger of the two, and 
     program_of("turns.cl", v).run("turns", turns.size(), turns, out(cosine), out(sine));
     double of_larger = 0, of_own = 0;
     for (std::size_t i = 0; i < turns.size(); ++i) {
-      // Reduced exactly to an eighth of a turn, where the host's functions are right to a fraction of float's
-      // ulp.
+      // Reduced exactly to an eighth of a turn, where the error of the host's functions is a fraction of an
+      // ulp of float32.
       const double quarters = std::nearbyint(4.0 * turns[i]);
       const double rest = (turns[i] - quarters / 4) * 2 * std::numbers::pi;
       const int quadrant = static_cast<int>(quarters) & 3;

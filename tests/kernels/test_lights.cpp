@@ -1,4 +1,4 @@
-// light_sample against light_density_of_hit, and both against float64.
+// light_sample and light_density_of_hit compared with each other and with float64.
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -33,7 +33,7 @@ constexpr Shape shapes[] = {Shape::rectangle, Shape::triangle, Shape::disk, Shap
 constexpr double size = 1.5;
 const dvec3 edge_u(size, 0, 0), edge_v(0.2 * size, 0.8 * size, 0); // all flat lights face z
 
-// Adds a light of its own radiance.
+// Adds a light with distinct radiance.
 void add_light(Scene& scene, Shape shape, const dvec3& at) {
   const auto index = static_cast<int>(scene.area_emitters.size());
   scene.area_emitters.push_back({dvec3(1, 2, 3) * (1.0 + index)});
@@ -71,7 +71,7 @@ std::vector<dvec3> lit_points(Shape shape, std::size_t count, Random& random) {
   return points;
 }
 
-// With the one normal, or with any.
+// With this normal, or with any.
 std::vector<Sampled> sample(const SceneProgram& program, const std::vector<dvec3>& points,
                             std::optional<dvec3> normal, Random& random) {
   std::vector<Float3> positions, normals;
@@ -87,7 +87,7 @@ std::vector<Sampled> sample(const SceneProgram& program, const std::vector<dvec3
   return sampled;
 }
 
-// Where a flat light was met, as two numbers that are uniform in (0, 1) if points are uniform over its area.
+// Point on a flat light as two numbers that are uniform in (0, 1) if points are uniform over its area.
 glm::dvec2 square_of(Shape shape, const dvec3& point) {
   const double v = point.y / edge_v.y, u = (point.x - v * edge_v.x) / edge_u.x;
   if (shape == Shape::rectangle) return {(u + 1) / 2, (v + 1) / 2};
@@ -95,8 +95,8 @@ glm::dvec2 square_of(Shape shape, const dvec3& point) {
   return {u * u + v * v, std::atan2(v, u) / (2 * pi) + 0.5};
 }
 
-// What a density of distance^2 / (cosine area) may be off by: rays end some 1e-6 of the light's largest
-// coordinate and of their own length above the light.
+// Error of a density distance^2 / (cosine area): rays end above the light by about 1e-6 of its largest
+// coordinate and of their length.
 double density_slack(double distance, double cosine, double extent = 2 * size) {
   return 1e-5 + 6e-6 * (distance + extent) / (cosine * distance);
 }
@@ -135,7 +135,7 @@ void check_sphere(const std::vector<dvec3>& points, const std::vector<Sampled>& 
     REQUIRE(s.valid == 1);
     const double sine = size / glm::length(points[i]);
     const double cone = sine * sine / (1 + std::sqrt(1 - sine * sine)); // 1 - cosine
-    // sqrt(1 - sine^2) has few digits next to the surface.
+    // sqrt(1 - sine^2) is inaccurate next to the surface.
     REQUIRE(std::abs(s.density * 2 * pi * cone - 1) <= 1e-6 + 1e-6 / std::sqrt(1 - sine * sine));
     const dvec3 to_center = -glm::normalize(points[i]);
     const double across = glm::length(glm::cross(to_center, to_double(s.direction)));
@@ -169,7 +169,7 @@ TEST_CASE("lights: a sample's density is that of the hit of the same ray, and of
         REQUIRE(s.hittable == 1);
         REQUIRE(s.blocked == 0); // by the light itself
         REQUIRE(std::abs(glm::length(to_double(s.direction)) - 1) < 3e-7);
-        if (s.light != 0) { // past the light's edge by rounding
+        if (s.light != 0) { // misses the edge of the light by rounding
           ++lost;
           continue;
         }
@@ -184,13 +184,13 @@ TEST_CASE("lights: a sample's density is that of the hit of the same ray, and of
 
 namespace {
 
-// Five with a surface, lamps, and light from far away.
+// Five area lights, point and spot lights, and distant ones.
 Scene scene_of_many() {
   Scene scene;
   scene.materials.push_back(phlux::lobes::diffuse(phlux::scene::Rgb(0.5)));
   for (int i = 0; i < 5; ++i) add_light(scene, shapes[i], dvec3(8 * i, 0, 0));
   scene.point_lights.push_back({dvec3(3, 3, 5), dvec3(60)});
-  scene.point_lights.push_back({dvec3(5, -3, 5), dvec3(0)}); // without power: never
+  scene.point_lights.push_back({dvec3(5, -3, 5), dvec3(0)}); // without power: never chosen
   scene.spot_lights.push_back({dvec3(9, 3, 6), glm::normalize(dvec3(1, 2, -3)), dvec3(90), 0.5, 0.3});
   scene.directional_lights.push_back({dvec3(0, 0, -1), dvec3(0.5)});
   scene.constant_radiance = dvec3(0.25);
@@ -204,7 +204,7 @@ phlux::render::Settings choosing_by(phlux::render::LightSelection selection) {
   return settings;
 }
 
-// Points and normals, the probability of each light there (by light, then by point).
+// Points, normals, and the probability of each light (by light, then by point).
 struct Choices {
   std::vector<dvec3> points, normals;
   std::vector<std::vector<float>> of_light;
@@ -232,7 +232,7 @@ Choices choices_at_random(const SceneProgram& program, std::size_t count, double
   return choices_at(program, points, normals);
 }
 
-// The part of a probability that is the tree's: a quarter of the choices is by power.
+// The part of a probability that comes from the tree: a quarter of the choices is by power.
 double by_tree(const SceneProgram& program, const Choices& choices, std::size_t light, std::size_t point) {
   return (choices.of_light[light][point] - 0.25 * program.host().lights.records[light].probability) / 0.75;
 }
@@ -296,7 +296,7 @@ TEST_CASE("lights: a light of another side, or that faces away, is hardly ever c
   const SceneProgram program(
       variants[0], "lights.cl",
       [] {
-        Scene scene; // two that face up, one below the other, and one above that faces them
+        Scene scene; // two facing up, one below the other, and one above facing them
         scene.materials.push_back(phlux::lobes::diffuse(phlux::scene::Rgb(0.5)));
         add_light(scene, Shape::disk, dvec3(0, 0, 0));
         add_light(scene, Shape::triangle, dvec3(0, 0, -3));
@@ -305,7 +305,8 @@ TEST_CASE("lights: a light of another side, or that faces away, is hardly ever c
         return scene;
       }(),
       choosing_by(phlux::render::LightSelection::contribution));
-  const auto of = [&](const Choices& choices, std::size_t shape) { // lights stand in the primitives' order
+  const auto of = [&](const Choices& choices,
+                      std::size_t shape) { // lights are in the order of the primitives
     const auto& records = program.host().lights.records;
     for (std::size_t light = 0; light < records.size(); ++light)
       if (records[light].radiance[0] == static_cast<float>(1 + shape))
@@ -318,7 +319,7 @@ TEST_CASE("lights: a light of another side, or that faces away, is hardly ever c
   CHECK(of(down, 2) < 0.01);
   CHECK(of(down, 0) > of(down, 1));
   const Choices below = choices_at(program, {dvec3(0, 0, -5)}, {dvec3(0, 0, 1)});
-  CHECK(of(below, 2) > 0.9); // the others turn their backs
+  CHECK(of(below, 2) > 0.9); // the others face away
 }
 
 TEST_CASE("lights: of many, each is chosen with its probability; densities include it") {
@@ -331,7 +332,7 @@ TEST_CASE("lights: of many, each is chosen with its probability; densities inclu
       Random random(72);
       const SceneProgram program(v, "lights.cl", scene, choosing_by(selection));
       const auto& records = program.host().lights.records;
-      // A few places, many times each: where a light is likely depends on them.
+      // Many samples at a few places, because the probability of a light depends on the place.
       const Choices choices = choices_at_random(program, 4, 20, random);
       for (std::size_t place = 0; place < choices.points.size(); ++place) {
         const std::size_t count = thinned(10000);

@@ -9,8 +9,8 @@ using namespace device_test;
 
 namespace {
 
-// Diffuse, with more parameters than the modified Phong model has words: one of them stands where that has
-// its index.
+// Diffuse, with more parameters than the modified Phong model has words: one of them is in the place of its
+// table index.
 constexpr const char* many_text = R"(#include "lobes/lobe.h"
 #define MANY_PARAMETERS(COLOUR, NUMBER) \
   COLOUR(a, 0.5, 0, 1, "") COLOUR(b, 0.5, 0, 1, "") COLOUR(c, 0.5, 0, 1, "") COLOUR(d, 0.5, 0, 1, "") \
@@ -51,7 +51,7 @@ TEST_CASE("materials: a model with more parameters than the Phong model stands b
     const auto alone = device_model(v, {glossy}, "exact"), both = device_model(v, {glossy, many()}, "exact");
     CHECK(both.evaluate(0, {{fixed, generated}})[0].density ==
           alone.evaluate(0, {{fixed, generated}})[0].density);
-    // Where the model has no table, the Phong model's is read in its lanes too, and must be read inside.
+    // Lanes of a model without a table also read the table of the Phong model, and must stay within it.
     CHECK(both.evaluate(1, {{fixed, generated}})[0].density == Approx(0.64 / std::numbers::pi).epsilon(1e-6));
     CHECK(both.evaluate(1, {{fixed, generated}})[0].value.y == Approx(0.5 / std::numbers::pi).epsilon(1e-6));
   }

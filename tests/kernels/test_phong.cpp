@@ -1,4 +1,4 @@
-// The modified Phong model: what it is, and that host and device agree about what it reflects.
+// The modified Phong model: evaluation, and reflectivity on host and device.
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -69,8 +69,8 @@ TEST_CASE("phong: the value is the formula's, the same both ways, and 0 below th
         const auto& [a, b] = pairs[i];
         const auto right = phong_formula(material, a, b);
         const auto &got = values[i].value, &other = values[i].reversed;
-        // Components of directions are right to 2^-25, so cos(alpha) and its power to n |sin alpha| 2^-24 or
-        // so.
+        // Components of directions have errors of 2^-25, so the relative error of the power of cos(alpha) is
+        // about n |sin alpha| 2^-24.
         const glm::dvec3 mirrored(-a.x, -a.y, a.z);
         const double sine = glm::length(mirrored - b);
         const double tolerance = 3e-6 + 2e-7 * phlux::test::exponent_of(material) * sine;

@@ -1,4 +1,4 @@
-// Every strategy of phong.cl against its own density, the model and the closed form of the reflectivity.
+// Every strategy compared with its density, the model and the closed form of the reflectivity.
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -15,11 +15,11 @@ namespace {
 
 enum Traits : unsigned {
   none = 0,
-  whole = 1,        // the weight is eval cos / density (else it is that of the part that was drawn)
-  smooth = 2,       // the density knows nothing of the lobe
-  mean_density = 4, // the stated density is not that of the directions, but serves for weighting
+  whole = 1,        // the weight is eval cos / density (else that of the sampled part)
+  smooth = 2,       // the density ignores the lobe
+  mean_density = 4, // the stated density is not that of the directions, but valid for MIS weights
   loses_energy = 8, // biased as printed, MATH.md 2.4
-  no_peaks = 16     // takes n times as many draws or samples: no large exponents
+  no_peaks = 16     // needs n times as many draws or samples: no large exponents
 };
 struct Strategy {
   std::string name;
@@ -56,7 +56,7 @@ std::vector<Case> cases_of(const Strategy& strategy) {
   for (std::size_t m = 0; m < materials.size(); ++m)
     for (const double angle : angles) {
       if ((strategy.traits & no_peaks) != 0 && phlux::test::exponent_of(materials[m]) > 100) continue;
-      // At an odd longitude, so that x and y are not mistaken for one another.
+      // At an arbitrary longitude, to detect exchanges of x and y.
       const glm::dvec3 fixed = as_float(polar(angle * std::numbers::pi / 180, 1.1));
       const double lobe = phlux::phong::lobe_reflectivity(phlux::test::exponent_of(materials[m]), fixed.z);
       cases.push_back(
@@ -73,8 +73,8 @@ SphereGrid grid_of(const Strategy& strategy, const Case& one) {
           lobe_cuts(phlux::test::exponent_of(materials[static_cast<std::size_t>(one.material)]))};
 }
 
-// Statistical questions of the whole test: each case asks for directions and three channels of weights, with
-// and without roulette.
+// Number of statistical tests: directions and three channels of weights in each case, with and without
+// roulette.
 std::size_t questions() {
   std::size_t count = 0;
   for (const Strategy& strategy : strategies) count += 8 * cases_of(strategy).size() * std::size(variants);
@@ -90,7 +90,7 @@ void check(const Strategy& strategy, Variant v, std::size_t count) {
     const auto cells = density_in_cells(model, one.material, one.fixed, grid);
     double integral = 0;
     for (const double cell : cells) integral += cell;
-    CHECK(integral == Approx(1).margin(1e-4)); // the table of reflectivities errs by 7e-5
+    CHECK(integral == Approx(1).margin(1e-4)); // the table of reflectivities has an error of 7e-5
     for (const bool roulette : {false, true}) {
       CAPTURE(roulette);
       const auto samples = model.sample(one.material, one.fixed, count, ++seed, roulette);
@@ -123,7 +123,7 @@ TEST_CASE("phong: each strategy draws by its density, carries the reflectivity, 
     }
 }
 
-TEST_CASE("phong: the printed estimate loses as much energy as it must") {
+TEST_CASE("phong: the energy loss of the printed estimate is as derived") {
   // MATH.md 2.4: a black diffuse part, n = 50 at 80 degrees: 10.7 percent.
   const DeviceModel model =
       device_model({1}, {phong(glm::dvec3(0), glm::dvec3(1), 50)}, "lobe-estimate-printed");
@@ -136,7 +136,7 @@ TEST_CASE("phong: the printed estimate loses as much energy as it must") {
         Approx(1 - 0.107).margin(5 / std::sqrt(static_cast<double>(count))));
 }
 
-TEST_CASE("phong: every strategy's functions run") { // few samples: for interpreters that check each access
+TEST_CASE("phong: every strategy's functions run") { // few samples, for oclgrind
   for (const Strategy& strategy : strategies) {
     CAPTURE(strategy.name);
     const DeviceModel model = device_model({4}, materials, strategy.name);

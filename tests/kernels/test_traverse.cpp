@@ -1,4 +1,4 @@
-// Both traversals find the same, and rays that leave a surface do not find it again.
+// Both traversals find the same hits, and rays that leave a surface do not hit it again.
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -26,7 +26,7 @@ struct Left {
   Float3 position, normal;
 };
 
-// Adds shapes; each has a material of its own, by which the tests know it.
+// Adds shapes with distinct materials, by which the tests identify them.
 class Shapes {
 public:
   void triangle(const dvec3& a, const dvec3& b, const dvec3& c) {
@@ -68,7 +68,7 @@ struct Rays {
   std::vector<int> asking;
 };
 
-// From everywhere in the scene to everywhere, some along the axes; limits before and behind what they meet.
+// Rays between random points of the scene, some along the axes, with limits before and behind their hits.
 Rays random_rays(std::size_t count) {
   Random random(62);
   Rays r;
@@ -104,7 +104,7 @@ void compare(Variant v, const Scene& scene) {
       continue;
     }
     const Traced &a = brute[i], &b = hierarchy[i];
-    // Rounding may differ between the two programs, so a ray through an edge may pass it in one.
+    // Rounding may differ between the two programs, so a ray through an edge may miss it in one.
     const bool same = a.material == b.material &&
                       (a.material < 0 || std::abs(a.distance - b.distance) <= 1e-5f * a.distance);
     const bool tie =
@@ -127,7 +127,7 @@ void compare(Variant v, const Scene& scene) {
   CHECK(blocked >= r.rays.size() / 60);
 }
 
-// One shape of interest and, off to the side, small ones that move the middle of the scene away from it.
+// One shape under test and, to the side, small ones that move the centre of the scene away from it.
 Scene alone(double size, int kind, double aside) {
   Shapes shapes;
   const dvec3 u(size, 0, 0), v(0.3 * size, 0.6 * size, 0.7 * size), there = aside * size * dvec3(1, 0.5, 0.3);
@@ -171,7 +171,8 @@ void check_leaving(Variant v, double size, int kind, double aside) {
     const bool round = kind >= 3;
     const dvec3 position = to_double(l.position) + origin, normal = to_double(l.normal);
     if (round) {
-      // The position is on the sphere to a part of what the step allows for, and the normal its own.
+      // The distance of the position from the sphere is a fraction of the offset, and the normal is that of
+      // the sphere.
       REQUIRE(std::abs(glm::length(position) - size) <= 0.5 * l.error);
       const double side = glm::dot(normal, position) / size; // 1: arrived from outside
       REQUIRE(std::abs(std::abs(side) - 1) <= 1e-3);
@@ -182,7 +183,8 @@ void check_leaving(Variant v, double size, int kind, double aside) {
       } else if (l.next_material <= 0) { // the small shapes may be in between
         const double chord = 2 * size * std::abs(given[i].z);
         REQUIRE(l.next_material == 0);
-        // What the step and the position's error do to a chord grows as it gets shorter.
+        // The effect of the offset and of the error of the position on a chord grows as the chord gets
+        // shorter.
         REQUIRE(std::abs(l.next_distance - chord) <= 4 * l.error / std::abs(given[i].z));
       }
     } else {
@@ -202,7 +204,7 @@ TEST_CASE("traverse: brute force and hierarchy find the same primitives at the s
     }
 }
 
-TEST_CASE("surface: a ray that leaves a surface does not find it again, and crosses a sphere from inside") {
+TEST_CASE("surface: a ray that leaves a surface does not hit it again, and crosses a sphere from inside") {
   for (const Variant v : variants)
     for (int kind = 0; kind < 5; ++kind)
       for (const double size : {1.0, 1e4, 1e-4})

@@ -1,4 +1,5 @@
-// Weights of bidirectional paths: they sum to 1 over the ways to make a path, and are what its densities say.
+// MIS weights of bidirectional path tracing: they sum to 1 over the techniques, and follow from the
+// densities.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -49,15 +50,15 @@ GivenPath random_path(Random& random, double octaves, bool hittable, double delt
   return path;
 }
 
-// The density, per area of every vertex but the eye, with which the technique of s light vertices makes a
-// path: the product of what each of its vertices is drawn with (Veach 1997, 10.2.1). Logarithms, as products
-// leave double.
+// Density of a path, per area of every vertex except the eye, by the technique with s light vertices: the
+// product of the densities of its vertices (Veach 1997, 10.2.1). Logarithms, as products exceed the range of
+// double.
 double log_density(const GivenPath& p, std::size_t edges, std::size_t s) {
   double sum = 0;
   const auto times = [&](double factor) { sum += std::log(factor); };
   const auto scattered = [&](double density, std::size_t i) { return p.delta[i] != 0 ? 1.0 : density; };
   const auto to_area = [&](double cosine, std::size_t edge) { return cosine / p.distance2[edge]; };
-  for (std::size_t i = s; i < edges; ++i) { // drawn from the eye's side, where the last edge's is the film's
+  for (std::size_t i = s; i < edges; ++i) { // sampled from the eye; the last edge by the film
     const double density = i + 1 == edges ? p.film : scattered(p.backward[i + 1], i + 1);
     times(density * to_area(p.cosine_after[i], i));
   }
@@ -78,7 +79,7 @@ bool is_possible(const GivenPath& path, std::size_t edges, std::size_t s) {
   return path.delta[s - 1] == 0 && (s == edges || path.delta[s] == 0);
 }
 
-// Of every technique, from scratch; empty if there is none.
+// Weights of all techniques, from their definition; empty if there is no technique.
 std::vector<double> weights_of(const GivenPath& path, std::size_t edges, std::size_t heuristic) {
   std::vector<double> logs;
   for (std::size_t s = 0; s <= edges; ++s)
@@ -135,8 +136,8 @@ TEST_CASE("weights: over all techniques they sum to 1, and each is what the dens
       }
 }
 
-// Lobes of a million, edges of millimetres in a scene of kilometres: ratios leave float, weights do not.
-// (Densities of 1e12 would, where their ratios are squared.)
+// Exponents of 1e6 and edges of millimetres in a scene of kilometres: ratios exceed the range of float32,
+// weights do not. (With densities of 1e12 they would, where ratios are squared.)
 TEST_CASE("weights: extreme densities give weights from 0 to 1, and none that is not a number") {
   for (const Variant v : variants)
     for (std::size_t heuristic = 0; heuristic < 3; ++heuristic) {

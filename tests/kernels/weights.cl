@@ -1,6 +1,6 @@
 #include "transport/mis_weights.cl"
 
-// A path of x_0 (on a light) to x_edges (the eye), by the densities and cosines at its vertices (per solid angle):
+// A path from x_0 (on a light) to x_edges (the eye), given by densities (per solid angle) and cosines at its vertices:
 // `forward` is that of the direction to the next vertex for a path that comes from the light, `backward` that of the
 // direction to the one before for a path that comes from the eye. Cosines are of the edge before and the one after.
 #define MOST_EDGES 8

@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
-# What ./phlux asks of apt-get on machines that are not here: a copy of it runs with stand-ins for dpkg, apt, sudo, cmake
-# and ctest. INSTALLED and RELEASE list packages: those that are there, and those that the release has. Of two versions of
-# libclc one removes the other.
+# Checks the apt-get commands of ./phlux on simulated machines: a copy of it runs with stand-ins for dpkg, apt, sudo, cmake and
+# ctest. INSTALLED lists the installed packages, RELEASE those of the release. Installing one version of libclc removes another.
 #   check.sh PHLUX
 # shellcheck disable=SC2317 # functions that only expect() calls
 set -euo pipefail

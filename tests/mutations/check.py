@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Sees that every mistake of mutants.py still applies: that its name is its own, that the text that it replaces stands once
-in its file, and that each test that is to see it exists. Builds and runs nothing.
+"""Checks that every mistake of mutants.py still applies: that its name is unique, that the text that it replaces occurs once
+in its file, and that each test that must detect it exists. Builds and runs nothing.
 
     tests/mutations/check.py
 
-Prints what does not apply; exits with 1 when there is any.
+Prints the mistakes that do not apply; the exit code is 1 if there are any.
 """
 import fnmatch
 import pathlib
@@ -21,7 +21,7 @@ TEST_CASE = re.compile(r'TEST_CASE\(\s*"((?:[^"\\]|\\.)*)"(?:\s*,\s*"([^"]*)")?'
 
 
 def faults_of_text(name, file, old, new):
-    """What is wrong with replacing `old` by `new` in `file`, a line each."""
+    """Reasons why `old` cannot be replaced by `new` in `file`, one line each."""
     path = KERNELS / file
     if not path.is_file():
         return [f"{name}: kernels/{file} is not there"]
@@ -31,7 +31,7 @@ def faults_of_text(name, file, old, new):
 
 
 def faults_of_tests(name, program, cases):
-    """Patterns of test cases, separated by commas, that no test case of the program's folder has."""
+    """Those of the comma-separated patterns that match no test case in the program's folder."""
     folder = TESTS / program.removeprefix("test_")
     found = [case for file in sorted(folder.glob("*.cpp")) for case in TEST_CASE.findall(file.read_text())]
     return [f"{name}: {program} has no test case {pattern}" for pattern in cases.split(",")

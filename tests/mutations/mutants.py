@@ -1,5 +1,5 @@
-"""Plausible mistakes in kernels/: (name, file, what stands there once, what a mistake puts there). check.py sees that each
-still applies."""
+"""Plausible mistakes in kernels/: (name, file, text that occurs once, its replacement). check.py checks that each still
+applies."""
 
 REDRAWS_PART = """again = uniform_real(words.w);
     if (any_lane(drawing & (again < share_b))) {
@@ -93,7 +93,7 @@ MUTANTS = [
      "fma(f.cosine, v.z, f.sine * v.x));"),
 ]
 
-# Mistakes of light tracing and bidirectional path tracing, with the program and the test cases that are to see them.
+# Mistakes of light tracing and bidirectional path tracing, with the program and the test cases that must detect them.
 INTEGRATORS = ("test_images", "[mutations]")
 SMOOTH, FLAT = ("test_images", "a ball of eight*"), ("test_images", "a low gap*")
 CAMERA, EMISSION, LIGHTS, WEIGHTS, BATCHES = (

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Puts each mistake of mutants.py into a copy of kernels/ and sees whether `phlux verify --quick` catches it, or, for
-light tracing and bidirectional path tracing, the tests that are named with it.
+"""Puts each mistake of mutants.py into a copy of kernels/ and checks that `phlux verify --quick` detects it, or, for
+light tracing and bidirectional path tracing, that the tests named with it do.
 
     tests/mutations/run.py PHLUX [--tests FOLDER] [--device SPEC] [--only TEXT]
 
-Prints what caught each; exits with 1 when one survives. Takes some minutes: every mutant is compiled anew.
+Prints what detected each; the exit code is 1 if one survives. Takes some minutes, since every mutant must be compiled.
 """
 import argparse
 import json
@@ -30,14 +30,14 @@ def mutate(folder, file, old, new):
 
 
 def strategies_of(name):
-    """The strategies whose code holds the mistake, or some of them: each is compiled anew."""
+    """The strategies whose code contains the mistake, or some of them: each must be compiled."""
     named = {"exact": ["exact"], "rejection": ["rejection"], "fold": ["fold"], "disk": ["disk"], "theta": ["theta-phi"],
              "uniform": ["cosine"], "guard": ["lobe-estimate"], "estimate": ["lobe-estimate-printed"]}
     return named.get(name.split()[0].split(":")[0].split("'")[0], ["lobe-ks", "mixture", "exact"])
 
 
 def caught_by(phlux, options, folder):
-    """Texts that say what failed; none where the mutant survived."""
+    """Names of the failures; none if the mutant survived."""
     result = subprocess.run(
         [phlux, "verify", "--quick", "--kernel-dir", folder / "kernels", "--json", folder / "v.json", *options],
         cwd=folder, capture_output=True, text=True)
@@ -52,7 +52,7 @@ def caught_by(phlux, options, folder):
 
 
 def failed_tests(program, cases, device, folder):
-    """Names of the test cases that fail; that of the program where it ends before it can say."""
+    """Names of the failing test cases, or that of the program if it ends before it reports any."""
     environment = dict(os.environ, PHLUX_TEST_KERNELS=str(folder / "kernels"))
     if device:
         environment["PHLUX_DEVICE"] = device

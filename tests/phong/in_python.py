@@ -1,4 +1,4 @@
-"""Runs kernels/phong/example.py, or says which module it lacks and exits with 77."""
+"""Runs kernels/phong/example.py; if a module is missing, names it and exits with 77."""
 import importlib.util
 import pathlib
 import runpy

@@ -1,4 +1,4 @@
-// The Phong module by itself: kernels/phong/example.cl and its reflectivity without a table, without a scene.
+// The Phong module used alone: kernels/phong/example.cl, and the reflectivity without a table.
 #include <cmath>
 #include <numbers>
 #include <regex>
@@ -58,8 +58,8 @@ std::vector<float> mean_weights(const device::BuiltProgram& program, int width, 
   return means;
 }
 
-// Two-sided p of the mean of independent values. Of a constant: 1 where it is right but for the rounding and
-// the table, 0 elsewhere.
+// Two-sided p-value of the mean of independent values. For a constant: 1 if it is correct up to rounding and
+// the error of the table, else 0.
 double mean_p(const std::vector<float>& values, double expected) {
   constexpr double table_error = 1e-4; // relative
   const auto count = static_cast<double>(values.size());
@@ -75,7 +75,7 @@ double mean_p(const std::vector<float>& values, double expected) {
 
 } // namespace
 
-TEST_CASE("example.cl compiles of lanes, math, lobes/lobe.h and phong alone") {
+TEST_CASE("example.cl compiles with only lanes, math, lobes/lobe.h and phong") {
   const std::string text = device::expand(kernel_files(), source("phong/example.cl", "exact", 1));
   const std::regex line("#line [0-9]+ \"([^\"]+)\"");
   const std::regex allowed("(lanes|math|phong)/.*|lobes/lobe\\.h");
@@ -90,7 +90,7 @@ TEST_CASE("example.cl compiles of lanes, math, lobes/lobe.h and phong alone") {
   }
 }
 
-// All of them together raise a false alarm with a chance of 1e-4.
+// Together they raise a false alarm with probability 1e-4.
 TEST_CASE("example.cl: the mean weight is the reflectivity") {
   const std::vector<Plain> models = {{.4f, .4f, 10, .5f}, {.4f, .05f, 50, .0872f}, {.1f, .8f, 90, .866f}};
   const std::vector<std::string> strategies = {"exact", "lobe-ks", "cosine", "fold"};

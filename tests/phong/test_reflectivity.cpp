@@ -1,4 +1,4 @@
-// The reflectivity of a lobe, on the host.
+// The reflectivity of a lobe on the host.
 #include <catch2/catch.hpp>
 
 #include <cmath>
@@ -13,11 +13,11 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// The lobe's integral over the hemisphere, from its definition: circles of equal alpha, of which the part
-// above the horizon is known, then quadrature over alpha.
+// Integral of the lobe over the hemisphere from its definition: a closed form for the part of a circle of
+// constant alpha above the horizon, then quadrature over alpha.
 double reflectivity_by_quadrature(double exponent, double cosine) {
   const double theta = std::acos(cosine), c = cosine, s = std::sin(theta);
-  const auto circle = [&](double alpha) { // integral of cos(theta_o) over longitude where it is positive
+  const auto circle = [&](double alpha) { // integral of max(cos(theta_o), 0) over longitude
     const double along = c * std::cos(alpha), across = s * std::sin(alpha);
     if (along >= across) return 2 * pi * along;
     const double horizon = std::acos(std::max(-1.0, along / across));
@@ -27,7 +27,7 @@ double reflectivity_by_quadrature(double exponent, double cosine) {
     const double half = std::sin(alpha / 2);
     return std::exp(exponent * std::log1p(-2 * half * half)) * std::sin(alpha) * circle(alpha);
   };
-  // Cut where circles begin to cross the horizon, and so that no interval is much wider than the lobe.
+  // Intervals end where circles begin to cross the horizon, and are not much wider than the lobe.
   boost::math::quadrature::tanh_sinh<double> rule;
   std::vector<double> cuts{0, pi / 2 - theta, pi / 2};
   for (double width = 1 / std::sqrt(exponent + 1); width < pi / 2; width *= 2) cuts.push_back(width);

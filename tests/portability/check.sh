@@ -1,9 +1,9 @@
 #!/bin/sh
-# Compiles every program in FOLDER for a kind of device that need not be here. A register spill fails, and so do more
-# registers than a device can give to enough threads, and a large stack frame in private memory.
+# Compiles every program in FOLDER for a kind of device that this machine need not have. Fails on register spills, on more
+# registers than allow enough threads, and on large stack frames in private memory.
 #   check.sh TARGET FOLDER       TARGET: nvptx64, amdgcn or spir64
-# CLANG and LIBCLC name the compiler and the folder of OpenCL's built-in functions; PTXAS, where set, makes the registers
-# of nvptx64 known; WARNINGS=-Werror makes a warning fail too.
+# CLANG and LIBCLC name the compiler and the folder of OpenCL's built-in functions; PTXAS, if set, determines the registers
+# of nvptx64; WARNINGS=-Werror makes a warning fail too.
 set -eu
 target=$1
 folder=$2
@@ -24,16 +24,16 @@ complain() {
   failed=1
 }
 
-# most NAME: the ceiling on registers; the program that has everything at once is allowed more than scenes have, and doubles,
-# which are there to be compared with and not for speed, all that a thread can have.
+# most NAME: the limit on registers. The program with every part may use more than scenes do, and double precision, which is
+# for comparison and not for speed, all that a thread can have.
 most() {
   case $1 in *-double.*) echo 255 ;; everything*) echo 232 ;; *) echo 192 ;; esac
 }
 
-# most_stack NAME: the ceiling on bytes of private memory. A traversal of the hierarchy keeps STACK_SIZE (66) distances and
-# children, 528 bytes in float: path and rays have one, light two (of subpaths and of shadow rays to the eye), bidir four.
-# Queues of starts and shadow rays and all else are allowed 1280, a fifth more than the largest when this was written.
-# Doubles are twice as large.
+# most_stack NAME: the limit on bytes of private memory. A traversal of the hierarchy needs STACK_SIZE (66) distances and
+# children, 528 bytes in float32: path and rays have one, light two (subpaths, and shadow rays to the eye), bidir four. Queues
+# of starts and shadow rays and the rest may use 1280, a fifth more than the largest when this was written. Double precision
+# needs twice as much.
 most_stack() {
   others=1280
   case $1 in
@@ -55,7 +55,7 @@ row() {
   [ "$4" -eq 0 ] || complain "$1: registers are spilled"
 }
 
-# largest PATTERN FILE: of all numbers that PATTERN's group matches, 0 where none is
+# largest PATTERN FILE: the largest number that the group of PATTERN matches, 0 if there is none
 largest() { { sed -n "s/$1/\\1/p" "$2"; echo 0; } | sort -n | tail -n 1; }
 
 check_nvptx64() {

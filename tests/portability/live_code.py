@@ -1,17 +1,18 @@
 #!/usr/bin/env python3
-"""Tells what of the kernels' sources an optimising compiler leaves in a scene's program.
+"""Determines which functions of the kernels remain in a scene's program after optimisation.
 
     live_code.py FOLDER        FOLDER: written by write_programs; the environment variable CLANG names the compiler
 
-A function is live when its code is in the optimised program, inlined or not: each is compiled with a call of a function
-of its own that is defined nowhere, and that call is looked for. Checked of each program of a scene (WIDTH 1):
+A function is live if its code is in the optimised program, inlined or not. To detect this, each function is compiled with a
+call of a distinct undefined function, which the optimised program still contains if the function is live. Checks of each
+program of a scene (WIDTH 1):
 
-- It holds no function that only a part needs which the scene lacks. What only a part needs is what is live in programs
-  that have every part and in none of those that have every part but this one.
-- What its other functions say, those that are not live, does not matter: with their bodies taken out, the compiled code
-  is the same. So a part that is added for other scenes leaves this one's code as it was.
+- It contains no function that only a part needs which the scene lacks. A function that only a part needs is live in programs
+  with every part, and in none of those with every part except this one.
+- With the bodies of the functions that are not live removed, the compiled code is the same. So a part that is added for
+  other scenes does not change the code of this one.
 
-A part may have no function that only it needs: the table says so.
+The table marks parts without a function that only they need.
 """
 import concurrent.futures
 import os
@@ -51,7 +52,7 @@ def compiled(text):
 
 
 def functions_of(text):
-    """All functions that a preprocessed text defines, in their order."""
+    """The functions that a preprocessed text defines, in order."""
     functions, depth, start, begin = [], 0, 0, 0
     for match in re.finditer(r"[{};]", text):
         at = match.start()
@@ -80,7 +81,7 @@ def marked(text, functions):
 
 
 def without_bodies(text, functions, names):
-    """Of these functions, what they return and write is undefined."""
+    """The program with these functions returning undefined values."""
     for function in reversed(functions):
         if function.name not in names:
             continue
@@ -113,7 +114,7 @@ def in_parallel(function, arguments):
 
 
 def needed_by_one_part(folder):
-    """By part, the functions that only it needs."""
+    """For each part, the functions that only it needs."""
     paths = sorted(folder.glob("*/*.cl"))
     live = dict(zip(paths, in_parallel(lambda path: read(path).live, paths)))
     files = {path.parent for path in paths}
@@ -127,7 +128,7 @@ def needed_by_one_part(folder):
 
 
 def check_scene(line, folder, parts):
-    """The program's line of the table, and what is wrong with it."""
+    """The program's line of the table, and its errors."""
     name, *present = line.split()
     program = read(folder / f"{name}.cl")
     wrong = [f"{name} lacks {part} and holds {', '.join(sorted(own & program.live))}"
@@ -163,7 +164,7 @@ __kernel void sum(__global float* a) { const Pair p = pair_of(a[0]); if (HAS_SPH
 
 
 def check_of_checks():
-    """That what should fail does: a part that is switched off is found dead, and one that leaks into a program is not."""
+    """Checks the check: a part that is switched off is found dead, and one that leaks into a program is found alive."""
     def sample(spheres, leaks):
         return Program(f"#define HAS_SPHERES {spheres}\n#define LEAKS {leaks}\n{SAMPLE}")
     with_spheres, without, leaking = sample(1, 0), sample(0, 0), sample(0, 1)

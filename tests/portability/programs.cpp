@@ -22,7 +22,7 @@ const std::vector<lobes::ModelPointer>& models() {
   return shipped.models();
 }
 
-// Reflectance models are parts like others.
+// Reflectance models count as parts.
 void set(Parts& parts, const std::string& name, bool on) {
   const auto model = std::ranges::find(models(), name, [](const auto& m) { return m->name; });
   if (model == models().end()) return parts.set(name, on);
@@ -39,7 +39,7 @@ Parts parts_of(const std::string& names, const std::string& strategy) {
   return parts;
 }
 
-// A part that cannot be without another.
+// A part that requires another.
 constexpr std::pair<const char*, const char*> needs[] = {
     {"triangles", "planars"},      {"parallelograms", "planars"}, {"ellipses", "planars"},
     {"light_planar", "planars"},   {"light_planar", "emission"},  {"light_sphere", "spheres"},
@@ -53,8 +53,8 @@ Parts without(Parts parts, const std::string& name) {
   return parts;
 }
 
-// A diffuse material is a phong without a lobe where there is a phong. No scene has both an ambient term and
-// an anisotropic lobe, whose reflectivity has no closed form.
+// With a phong in the scene, a diffuse material is a phong without a lobe. No scene has both an ambient term
+// and an anisotropic lobe, whose reflectivity has no closed form.
 Parts everything(Integrator integrator = Integrator::path) {
   Parts parts = parts_of(fmt::format("{}", fmt::join(all_parts(), " ")), "exact");
   parts.integrator = integrator;
@@ -106,7 +106,7 @@ constexpr char mirrors[] = "parallelograms spheres phong conductor light_planar"
 constexpr char triangles[] = "hierarchy triangles smooth_normals phong light_planar light_choice light_tree";
 constexpr char sky[] = "spheres phong light_constant";
 
-// A reflectance model alone.
+// A program for one reflectance model.
 Program of_model(const std::string& file, const std::string& model, const std::string& strategy, int width) {
   Parts parts = parts_of(model, strategy);
   parts.lanes = width;
@@ -141,7 +141,7 @@ const std::vector<SceneProgram>& scene_programs() {
       {"mesh-bidir",
        with_techniques(by(Integrator::bidir, parts_of(triangles, "lobe-ks"), Weights::uniform))},
       {"mirrors-bidir", by(Integrator::bidir, parts_of(mirrors, "exact"))},
-      // With every part, doubles do not fit into the registers that a thread can have.
+      // With every part, double precision needs more registers than a thread can have.
       {"brushed-double", in_double(parts_of("parallelograms anisotropicphong light_planar", "exact"))},
       {"mirrors-double", in_double(parts_of(mirrors, "exact"))},
       {"mesh-double", in_double(parts_of(triangles, "exact"))},
@@ -173,8 +173,7 @@ std::vector<Program> programs() {
     list.push_back(of_model("figures", "phong", "exact", width));
     list.back().name = fmt::format("phong-example.{}", width);
     list.back().source.root = "phong/example.cl";
-    list.back().source.extra =
-        "#include \"phong/reflectivity.h\"\n"; // which a lobe of the user's may include
+    list.back().source.extra = "#include \"phong/reflectivity.h\"\n"; // which a user's model may include
     list.push_back(of_model("arithmetic", "phong", "exact", width));
     list.push_back(of_model("arithmetic", "phong", "exact", width));
     list.back().name = fmt::format("arithmetic-native.{}", width);
@@ -188,7 +187,7 @@ std::vector<Program> programs() {
 std::vector<Ablation> ablations() {
   std::vector<Ablation> list;
   const auto add = [&](const std::string& base, Parts all) {
-    all.connections = 2; // a part that only some programs of bidir have
+    all.connections = 2; // a part of only some bidir programs
     list.push_back({base, "", all});
     for (const std::string& name : all.names()) list.push_back({base, name, without(all, name)});
   };

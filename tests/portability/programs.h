@@ -1,4 +1,4 @@
-// The programs that are compiled for devices that are not here.
+// The programs that are compiled for other devices.
 #pragma once
 
 #include <string>
@@ -14,10 +14,10 @@ struct Program {
   device::ProgramSource source;
 };
 
-/// Parts that Parts::set() knows, and reflectance models that ship.
+/// Names of parts for Parts::set(), and shipped reflectance models.
 [[nodiscard]] std::vector<std::string> all_parts();
 
-/// A program of a scene, whose parts are known by name.
+/// A program of a scene, and the names of its parts.
 struct SceneProgram {
   std::string name;
   render::Parts parts;
@@ -25,16 +25,16 @@ struct SceneProgram {
 
 [[nodiscard]] const std::vector<SceneProgram>& scene_programs();
 [[nodiscard]] Program program_of(const SceneProgram& scene, int width = 1);
-/// All programs in all their widths: those of scenes, and those that know none.
+/// All programs at every WIDTH: those of scenes, and those without a scene.
 [[nodiscard]] std::vector<Program> programs();
 
-/// A program that has every part, or the same without one part and what cannot be without it.
+/// A program with every part, or without one part and those that require it.
 struct Ablation {
   std::string base; ///< such as "path-exact": programs that differ in their parts alone
   std::string part; ///< the one that is left out; empty: none
   render::Parts parts;
 };
-/// Of all integrators, and of path tracing by a strategy that shares code with other reflectance models.
+/// For all integrators, and for path tracing with a strategy that shares code with other reflectance models.
 [[nodiscard]] std::vector<Ablation> ablations();
 
 } // namespace phlux::test

@@ -1,5 +1,4 @@
-// That the programs compiled for other devices hold everything that is in kernels/, so that no part is left
-// out.
+// Checks that the programs compiled for other devices cover all of kernels/.
 #include <algorithm>
 #include <filesystem>
 #include <regex>
@@ -20,7 +19,7 @@ using Names = std::set<std::string>;
 
 const std::filesystem::path kernels = PHLUX_SOURCE_DIR "/kernels";
 
-// All texts that `pattern`'s only group matches.
+// All matches of the only group of `pattern`.
 Names found_in(const std::string& text, const std::regex& pattern) {
   Names names;
   for (std::sregex_iterator match(text.begin(), text.end(), pattern), end; match != end; ++match)
@@ -34,7 +33,7 @@ Names without(const Names& all, const Names& some) {
   return rest;
 }
 
-// Kernel files by their path in kernels/.
+// Texts of the kernel files by their path in kernels/.
 Names kernel_files() {
   Names names;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(kernels))
@@ -80,8 +79,9 @@ TEST_CASE("portability: every switch of the kernels is on in one program and off
   CHECK(without(on, off) == Names{});
 }
 
-// What the host defines only where it is on is named PHLUX_...
-TEST_CASE("portability: every macro that the host may define for kernels is defined in some program") {
+// Macros that the host defines only if they are on are named PHLUX_...
+TEST_CASE(
+    "portability: every macro that the host may define for kernels is defined in at least one program") {
   std::string text;
   for (const std::string& file : kernel_files()) text += TemporaryFolder::read(kernels / file);
   const Names used = found_in(text, std::regex(R"(\b(PHLUX_[A-Z0-9_]+)\b)"));

@@ -1,4 +1,4 @@
-// Writes the text of programs as a device's compiler would get it, for check.sh and live_code.py:
+// Writes the programs as a device's compiler receives them, for check.sh and live_code.py:
 //   FOLDER/NAME.WIDTH.cl               all programs
 //   FOLDER/scenes.txt                  a line for each of a scene: name, the parts that are on
 //   on FOLDER/ablations/FILE/PART.cl     WIDTH 1, what an integrator's file is without a part; `all`: with

@@ -17,30 +17,30 @@ namespace phlux::test {
 namespace {
 
 constexpr int renders = 16;
-// What fails the first stage is only looked at more closely; of methods with doubts, much does.
+// A failure of the first stage only leads to the second; methods with doubts often fail it.
 constexpr std::array<double, 3> false_alarms = {0.05, 0.01, 1e-4};
 constexpr double false_alarms_of_tails = 1e-4;
-// Of the brightest light: what float's rounding may let through where surfaces cross or meet.
+// Relative to the brightest light: leaks by rounding where surfaces cross or meet.
 constexpr double negligible_radiance = 1e-9;
-constexpr int growth = 8; // of the samples from one stage to the next
+constexpr int growth = 8; // factor of the samples from one stage to the next
 
 struct Worst {
-  double p = 1; // corrected for how many there are
+  double p = 1; // corrected for the number of tests
   std::size_t quantity = 0;
 };
 
-// Of a quantity's mean over all renders. Samples none of which brought light say nothing of their variance:
-// what brings light is then as good as Poisson's events of the image's mean contribution, sum of squares over
-// sum, and of the light that is `expected` a mean has the variance expected x contribution / samples.
+// Variance of the mean of a quantity over all renders. If no sample was nonzero, nonzero samples are taken as
+// Poisson events with the mean contribution of the image, sum of squares / sum: the variance of the mean is
+// expected x contribution / samples.
 double variance_of_mean(const RepeatedMeans& means, std::size_t quantity, double expected) {
-  const std::size_t image = quantity % 3; // its channel
+  const std::size_t image = quantity % 3; // channel
   if (means.mean[quantity] > 0 || means.mean[image] <= 0) return means.variance[quantity] / means.renders;
   const double contribution_per_sample = means.variance[image] * means.pixels[image] / means.mean[image];
   return expected * contribution_per_sample / means.pixels[quantity] / means.renders;
 }
 
-// The least p of all tests of two methods, as it would be of one test of the scene. The few tests of the
-// image as a whole and the many of its tiles have each half of the false alarms.
+// The least p-value of all tests of two methods, corrected for the number of tests of the scene. The few
+// tests of the whole image and the many of its tiles each have half of the false-alarm rate.
 Worst worst_of(const RepeatedMeans& a, const RepeatedMeans& b, std::size_t pairs, double negligible) {
   constexpr std::size_t of_image = 3;
   Worst worst;
@@ -55,7 +55,7 @@ Worst worst_of(const RepeatedMeans& a, const RepeatedMeans& b, std::size_t pairs
   return worst;
 }
 
-// Means of the three channels, which move together.
+// Means of the three channels, which are correlated.
 struct Overall {
   double mean = 0, standard_error = 0;
 };

@@ -1,20 +1,20 @@
-// Whether methods agree about a scene, although some have heavy tails.
+// Tests that methods agree on a scene, although the samples of some have heavy tails.
 //
 // Each method renders the scene 16 times with few samples; two methods are compared by Welch's t-tests (1947)
-// of every channel of the image and of its tiles. What differs is rendered again, with other seeds and 8
-// times as many samples, and again: a bias stays and grows in standard errors, while the skewness that makes
-// a t-test of rare bright samples fail shrinks with their number. Where means are normal, all tests of a
-// scene together, corrected after Sidak, fail at the three stages by chance with probability 0.05, 0.01 and
-// 10^-4, and a false alarm, which takes all three, has that of 5 10^-8. Where a method has doubts() or
-// infinite variance it is 10^-4 at each stage.
+// of every channel of the image and of its tiles. If they differ, the scene is rendered again with other
+// seeds and 8 times as many samples, up to twice: in standard errors a bias grows, while the skewness of
+// means of rare bright samples, which invalidates a t-test, decreases. For normal means, all tests of a scene
+// together, with Sidak's correction, fail by chance with probability 0.05, 0.01 and 10^-4 at the three
+// stages; a false alarm requires all three and has probability 5 10^-8. If a method has doubts() or infinite
+// variance it is 10^-4 at each stage.
 //
-// A method with doubts() may miss what rare samples bring however many there are, which makes it too dark and
-// never too bright. Where it is darker than a method without, the two are not comparable. Where it is darker
-// than another with doubts, either may be wrong: the pair is undecided. A method without doubts() that is the
-// darker one is never excused.
+// A method with doubts() may lack rare large samples for any practical number of samples; it is then too
+// dark, never too bright. If it is darker than a method without doubts, the two are not comparable. If it is
+// darker than another with doubts, either may be wrong: the pair is undecided. A method without doubts() that
+// is the darker one always fails.
 //
-// A defect that only darkens methods in doubt would be excused always. Therefore a scene in doubt is rendered
-// again as its twin (twin.h), in which no method is: there, every pair must agree.
+// A defect that only darkens methods with doubts would never be found. Therefore such a scene is also
+// rendered as its twin (twin.h), in which no method has doubts and every pair must agree.
 #pragma once
 
 #include <string>
@@ -50,19 +50,19 @@ struct SceneAgreement {
   [[nodiscard]] std::string message() const; ///< what does not hold
 };
 
-/// Of one scene. Seeds begin with 10^6 x `seed`; `samples_per_pixel` are those of each of the first 16
-/// renders.
+/// Compares methods on one scene. Seeds begin with 10^6 x `seed`; `samples_per_pixel` is that of each of the
+/// first 16 renders.
 [[nodiscard]] SceneAgreement agreement_of_methods(const scene::Scene& scene,
                                                   const std::vector<render::Settings>& methods,
                                                   std::uint64_t seed, int samples_per_pixel);
 
-/// Of a random scene, by `methods` of methods_of_family(), and of its twin if it has one.
+/// Compares `methods` of methods_of_family() on a random scene, and on its twin if it has one.
 [[nodiscard]] std::vector<SceneAgreement> agreement_with_twin(const SceneNumber& number, int methods,
                                                               int samples_per_pixel);
 
-/// The part of pairs that may be excused in the scenes of so many families. It was 4.6% of 12,000 pairs of 50
-/// families when all twins agreed; shares of families scatter about it by 8.6%, of which three standard
-/// errors are allowed. Never more than an eighth, or little is compared.
+/// Largest share of pairs that may be excused in the scenes of this number of families. It was 4.6% of 12,000
+/// pairs of 50 families when all twins agreed. The standard deviation over families is 8.6%; three standard
+/// errors are allowed, but at most an eighth, so that most pairs are compared.
 [[nodiscard]] double most_excused(std::size_t families);
 
 } // namespace phlux::test

@@ -1,8 +1,8 @@
 // As many random scenes as PHLUX_RANDOM_SCENES says (2000), 40 of each family, by 4 methods each:
 //   PHLUX_RANDOM_TABLE=outcomes.csv test_random_scenes "[.long]"
-// The table has a line for each pair of methods. A run that was stopped goes on after the last whole scene.
-// PHLUX_RANDOM_ONLY="18-8 4-33" names the scenes instead. Of scenes chosen by their number, and not by what
-// came of them, few pairs may be excused: most_excused().
+// The table has a line for each pair of methods. An interrupted run continues after the last complete scene.
+// PHLUX_RANDOM_ONLY="18-8 4-33" names the scenes instead. most_excused() limits the excused pairs, unless
+// scenes are named, which may have been chosen by their results.
 #include <atomic>
 #include <chrono>
 #include <cstdlib>
@@ -28,7 +28,8 @@ namespace {
 
 constexpr std::uint64_t members = 40;
 constexpr int methods = 4, samples_per_pixel = 32;
-// Of the processor, which other work keeps waiting; the clock's is for what waits for nothing.
+// Limits on processor time, which excludes other programs, and on elapsed time, for a process that only
+// waits.
 constexpr std::chrono::seconds most_processor_time{1200}, most_time{7200};
 
 std::string environment(const char* name, const char* otherwise) {
@@ -36,7 +37,7 @@ std::string environment(const char* name, const char* otherwise) {
   return value != nullptr ? value : otherwise;
 }
 
-// Ends the program when a scene hangs, naming it.
+// Ends the program if a scene hangs, and names it.
 class Watchdog {
 public:
   Watchdog()

@@ -26,9 +26,9 @@ using render::Weights;
 using scene::Vec3;
 
 constexpr double sharp = 100, sharp_for_eye = 50;
-constexpr int longest_path = 9;       // edges: what is longer carries little
-constexpr double narrow_view = 0.002; // light paths that end in it are few
-constexpr double small_light = 1e-3;  // in SceneFacts' unit
+constexpr int longest_path = 9;       // edges; longer paths carry little light
+constexpr double narrow_view = 0.002; // few light paths end in it
+constexpr double small_light = 1e-3;  // in the unit of SceneFacts
 constexpr double small_spot = 0.02, little_power = 0.05;
 
 struct Kind {
@@ -46,7 +46,7 @@ std::string name_of_kind(const Settings& s) {
                                        : "bidir uniform";
 }
 
-// Chooses what covers most pairs of features that were not yet.
+// Chooses the method that covers the most pairs of features that are not covered yet.
 class Covering {
 public:
   explicit Covering(std::uint64_t seed) : random_(seed) {}
@@ -103,8 +103,8 @@ Vec3 vector_of(const float (&v)[3]) {
   return {v[0], v[1], v[2]};
 }
 
-// Light paths end anywhere on the surfaces, which are about a sphere of the scene's radius; a film of solid
-// angle w sees w d^2 / cosine of it at the distance d.
+// Light paths end anywhere on the surfaces, whose area is about that of a sphere with the scene's radius; a
+// film of solid angle w sees the area w d^2 / cosine at the distance d.
 double narrowest_view(const Surfaces& surfaces, const CameraRecord& camera, double radius) {
   double narrowest = 1;
   for (int y = 0; y < camera.height; ++y)
@@ -122,9 +122,9 @@ double narrowest_view(const Surfaces& surfaces, const CameraRecord& camera, doub
   return narrowest;
 }
 
-// Where a light's rays begin that go a way, if it sends any there.
+// Origin of the rays of a light in a direction, if it emits any there.
 std::optional<Vec3> source(const Surfaces& surfaces, const LightRecord& light, const Vec3& way) {
-  constexpr double off = 1e-6; // of what would count as near
+  constexpr double off = 1e-6; // relative to the distance that counts as near
   switch (light.kind) {
   case LIGHT_POINT:
     return vector_of(light.position);
@@ -144,8 +144,8 @@ std::optional<Vec3> source(const Surfaces& surfaces, const LightRecord& light, c
   }
 }
 
-// The part of a light's power that falls on surfaces nearer than `near`, as rays in evenly spread directions
-// (Fibonacci's) tell. A light that is larger than that makes no small spot.
+// The share of a light's power that falls on surfaces nearer than `near`, from rays in the directions of a
+// Fibonacci lattice. A light larger than that makes no small spot.
 double part_on_near_surfaces(const Surfaces& surfaces, const LightRecord& light, double near) {
   constexpr int directions = 1000;
   const bool planar = light.kind == LIGHT_PLANAR;
@@ -164,9 +164,8 @@ double part_on_near_surfaces(const Surfaces& surfaces, const LightRecord& light,
   return all > 0 ? part / all : 0;
 }
 
-// Whether lobes are too sharp for directions that are chosen without them, so many times in a path: the
-// second moment of f cos / density, in units of its square, is (n + 2)^2 / (4 (n + 1)) each time where the
-// density is that of the cosine.
+// Whether lobes are too sharp to sample this many directions of a path without regard to them: for sampling
+// by the cosine, each multiplies the relative second moment of f cos / density by (n + 2)^2 / (4 (n + 1)).
 bool too_sharp(double exponent, int times, double most) {
   const auto moment = [](double n) { return (n + 2) * (n + 2) / (4 * (n + 1)); };
   return std::pow(moment(exponent), times) > 1.0001 * moment(most);

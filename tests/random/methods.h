@@ -1,4 +1,4 @@
-// By which methods random scenes are rendered.
+// The methods that render random scenes.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace phlux::test {
 
-/// What makes some methods unfit for a scene.
+/// Properties of a scene that make some methods inefficient.
 struct SceneFacts {
   double largest_exponent = 0; ///< of lobes
   double brightest = 0;        ///< radiance, or what a light without area sends to a scene's radius away
@@ -25,26 +25,26 @@ struct SceneFacts {
 [[nodiscard]] SceneFacts facts_of(const scene::Scene& scene);
 
 /// The methods for the scenes of a family: `count` (4 or 5) of them, path tracing, path tracing, light
-/// tracing, bidirectional, bidirectional. Over the families, every pair of integrator and weights, strategy,
-/// width and traversal comes up about equally soon. The first and the fifth sample lobes by their shape; in
+/// tracing, bidirectional, bidirectional. Over the families, all pairs of integrator and weights, strategy,
+/// WIDTH and traversal occur about equally soon. The first and the fifth sample lobes by their shape; in
 /// families with sharp lobes all do.
 [[nodiscard]] std::vector<render::Settings> methods_of_family(std::uint64_t family, int count);
 
-/// The method with the scene's depths, and without what the renderer refuses for this scene.
+/// The method with the depths of the scene, and without options that the renderer refuses for it.
 [[nodiscard]] render::Settings for_scene(render::Settings method, const scene::Scene& scene,
                                          const SceneFacts& facts);
 
-/// Whether contributions have no variance in any scene with edges: connections that are weighted alike,
-/// whatever their density. Their means take more samples than others to be normal; unlike where there are
-/// doubts(), tests have time for them.
+/// Whether contributions have infinite variance in every scene with edges between surfaces: connections with
+/// uniform weights. Their means need more samples to become normal; unlike with doubts(), tests have time for
+/// these.
 [[nodiscard]] bool has_infinite_variance(const render::Settings& method);
 
-/// Why rare samples may carry much of the image, so that no number of samples that a test has time for shows
-/// their mean and variance: some paths' contributions are not bounded by a small multiple of the mean. Empty
-/// where that is not to be feared.
+/// Why rare samples may carry much of the image, so that a test has no time for enough samples to estimate
+/// mean and variance: the contributions of some paths are not bounded by a small multiple of the mean. Empty
+/// if they are.
 [[nodiscard]] std::string doubts(const render::Settings& method, const SceneFacts& facts);
 
-/// Such as "bidir power mixture 8 bvh".
+/// For example "bidir power mixture 8 bvh".
 [[nodiscard]] std::string name_of(const render::Settings& method);
 
 } // namespace phlux::test

@@ -1,4 +1,4 @@
-// The lights of a random scene: emitters without area, and how bright and how many its lamps are.
+// The lights of a random scene: emitters without area, and the number and brightness of its lamps.
 #pragma once
 
 #include <string>
@@ -9,13 +9,13 @@ namespace phlux::test {
 
 class RandomLights {
 public:
-  /// `draft` lies in the world by now.
+  /// `draft` must already be placed in the world.
   explicit RandomLights(SceneDraft& draft);
   /// Writes the emitters without area. Closed rooms are lit from inside; one scene in 30 has no light.
   void write();
-  /// Shapes that are to emit.
+  /// Number of emitting shapes.
   [[nodiscard]] int lamps() const { return lamps_; }
-  /// Of a lamp of half edge 1; of what gives as much light to the room, for an emitter without area.
+  /// Radiance of a lamp of half edge 1; for an emitter without area, that which gives the room as much light.
   scene::Rgb color();
 
 private:

@@ -10,7 +10,7 @@ using scene::Rgb;
 
 namespace {
 
-constexpr double tiny_exponent = 0.1; // where drawing exponents by their logarithms begins
+constexpr double tiny_exponent = 0.1; // lower limit of exponents drawn uniformly in their logarithm
 
 }
 

@@ -10,7 +10,7 @@ namespace phlux::test {
 class RandomMaterials {
 public:
   RandomMaterials(SceneDraft& draft, double most_exponent);
-  /// Writes them all into the file.
+  /// Writes all materials into the file.
   void write();
   /// Gives one of them to the open shape.
   void refer_to_one();

@@ -17,11 +17,12 @@ struct RandomMesh {
 
 enum class MeshShape { tetrahedron, octahedron, icosahedron, sheet };
 
-/// About the unit sphere's size, closed but for the sheet. Vertices are moved by `random`, never so far that
-/// a closed mesh turns inside out; normals lean away from the triangles' by some twenty degrees.
+/// Meshes about as large as the unit sphere, closed except for the sheet. `random` moves the vertices, never
+/// so far that a closed mesh turns inside out; normals deviate from those of the triangles by about twenty
+/// degrees.
 [[nodiscard]] RandomMesh random_mesh(MeshShape shape, bool with_normals, RandomNumbers& random);
-/// A box of half edge 1 seen from inside, whose normals lean: what a method makes of them does not average
-/// out.
+/// A box of half edge 1 seen from inside, with inclined normals, so that errors in their treatment do not
+/// average out.
 [[nodiscard]] RandomMesh random_room(RandomNumbers& random);
 
 [[nodiscard]] std::string obj_file(const RandomMesh& mesh);

@@ -1,4 +1,4 @@
-// Small valid scenes over all that a scene file may say (CONTRACT.md), each from two numbers.
+// Small valid scenes with everything that a scene file may contain (CONTRACT.md), each from two numbers.
 #pragma once
 
 #include <cstdint>
@@ -11,14 +11,14 @@
 
 namespace phlux::test {
 
-/// Scenes of one family are built of the same kinds of shapes, materials and lights, so that they share their
-/// kernels, whose building would otherwise take most of the time. All else differs among its members.
+/// Scenes of one family have the same kinds of shapes, materials and lights, so that they share their
+/// kernels, which would otherwise take most of the time to build. Everything else differs.
 struct SceneNumber {
   std::uint64_t family = 0, member = 0;
 };
 
-/// How a twin of a scene differs from it, so that what is rare in the scene is frequent in the twin. Its
-/// kernels are the same.
+/// Changes to a scene that make a twin of it, in which rare paths are frequent. The twin has the same
+/// kernels.
 struct Twin {
   double most_exponent = 0; ///< of lobes
   double least_lamp = 0;    ///< half edge of a shape that emits; the room's is 1
@@ -30,7 +30,7 @@ struct RandomScene {
   std::map<std::string, std::string> meshes; ///< bytes by file name
 };
 
-/// No exponent of a family's scenes is larger.
+/// Upper bound of the exponents of a family.
 [[nodiscard]] double most_exponent(std::uint64_t family);
 
 [[nodiscard]] std::string name_of(const SceneNumber& number);
@@ -39,7 +39,7 @@ struct RandomScene {
 /// Writes NAME.xml and its meshes; returns the scene's path.
 std::filesystem::path write_scene(const RandomScene& scene, const std::filesystem::path& folder,
                                   const std::string& name);
-/// As the scene's file is read.
+/// Definitions for reading the file of the scene.
 [[nodiscard]] scene::Scene load_random_scene(const SceneNumber& number, const std::optional<Twin>& twin = {});
 
 } // namespace phlux::test

@@ -1,4 +1,4 @@
-// The shapes of a random scene: what is about the camera, objects, and objects that emit.
+// The shapes of a random scene: surroundings of the camera, objects, and emitting objects.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ enum class Walls { none, floor, rectangles, mesh, sphere };
 class RandomShapes {
 public:
   RandomShapes(SceneDraft& draft, Walls walls, RandomMaterials& materials, RandomLights& lights);
-  /// Writes them all.
+  /// Writes all shapes.
   void write();
 
 private:

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int most_tiles = 4; // along each side of the image
 
-// Which of `parts` equal parts of `length` pixels a pixel is in.
+// Index of the part of a pixel if `length` pixels are divided into `parts` equal parts.
 int part_of(int pixel, int length, int parts) {
   return pixel * parts / length;
 }

@@ -11,7 +11,7 @@ using scene::Vec3;
 
 namespace {
 
-// Streams of random numbers that no two scenes share.
+// Random numbers of a scene; no two scenes share a stream.
 std::uint64_t stream_of(const SceneNumber& number) {
   return 1'000'003 * (number.member + 1) + (number.family << 24);
 }

@@ -1,5 +1,5 @@
-// What the parts of a random scene share while it is drawn: random numbers, the scene file's text, and how
-// the scene lies in the world.
+// Shared state of the generators of a random scene: random numbers, the text of the scene file, and the
+// transform to the world.
 #pragma once
 
 #include <map>
@@ -12,8 +12,8 @@
 
 namespace phlux::test {
 
-/// `structure` draws what decides over the kernel, `values` all else. Lengths are in units of the room's half
-/// edge until to_world() or in_world() scales and moves them.
+/// `structure` draws what determines the kernel, `values` everything else. Lengths are in units of the half
+/// edge of the room until to_world() or in_world() scales and moves them.
 class SceneDraft {
 public:
   SceneDraft(const SceneNumber& number, const std::optional<Twin>& twin);
@@ -26,8 +26,8 @@ public:
   scene::Vec3 offset{0.0};
   bool closed = false; ///< a room about the camera
 
-  /// What `draw` makes of `values`; in a twin that is placed anew, of numbers of its own. `values` go on
-  /// alike either way.
+  /// The result of `draw` from `values`; in a twin with new places, from other random numbers. `values`
+  /// advance equally in both cases.
   template<class Draw>
   auto place(const Draw& draw) {
     const auto first = draw(values);
@@ -36,7 +36,7 @@ public:
 
   [[nodiscard]] scene::Vec3 in_world(const scene::Vec3& p) const { return scale * p + offset; }
   void open_to_world();
-  /// Ends a transform with the step from the room's units to the world.
+  /// Ends a transform with that from the units of the room to the world.
   void close_to_world();
 
 private:
@@ -45,9 +45,9 @@ private:
 
 [[nodiscard]] scene::Vec3 triple(RandomNumbers& random, double from, double to);
 [[nodiscard]] scene::Vec3 unit_vector(RandomNumbers& random);
-/// Above the floor and before the objects, between two distances from the origin.
+/// A point above the floor and in front of the objects, between two distances from the origin.
 [[nodiscard]] scene::Vec3 above_floor(RandomNumbers& random, double nearest, double farthest);
-/// A direction across `axis`.
+/// A direction perpendicular to `axis`.
 [[nodiscard]] scene::Vec3 up_for(const scene::Vec3& axis);
 [[nodiscard]] std::string attribute(const char* name, const scene::Vec3& value);
 /// <lookat .../>

@@ -1,5 +1,4 @@
-// The text of a scene file in the making: elements, properties and colours in the ways in which they may be
-// spelt.
+// Writes the text of a scene file: elements, properties and colours in all permitted spellings.
 #pragma once
 
 #include <string>
@@ -12,8 +11,8 @@ namespace phlux::test {
 
 class SceneText {
 public:
-  /// Versions from 2 on spell names in snake_case, 0.5 and 0.6 in camelCase. `random` chooses among forms
-  /// that mean the same.
+  /// Names are in snake_case from version 2 on, in camelCase in 0.5 and 0.6. `random` chooses among
+  /// equivalent forms.
   SceneText(std::string version, RandomNumbers& random);
 
   void open(const std::string& tag, const std::string& attributes);
@@ -38,7 +37,7 @@ public:
   [[nodiscard]] std::string text() const;
 
 private:
-  /// The number, or the name of a parameter that stands for it.
+  /// The number, or the name of a parameter with this value.
   std::string written(const std::string& number);
 
   std::string version_, defaults_, body_;

@@ -79,7 +79,7 @@ Surfaces::Place Surfaces::middle(int primitive) const {
              normal = vector_at(values, base + PLANAR_NORMAL);
   if (geometry_.primitives[static_cast<std::size_t>(primitive)].region != REGION_TRIANGLE)
     return {origin, normal};
-  // Edges are stored over the length of their cross product.
+  // Edges are stored divided by the length of their cross product.
   const Vec3 v = vector_at(values, base + PLANAR_EDGE_V), u = -vector_at(values, base + PLANAR_MINUS_U);
   return {origin + (u + v) / (3 * glm::length(glm::cross(u, v))), normal};
 }

@@ -1,4 +1,4 @@
-// How near a scene's surfaces are, by rays on the host.
+// Distances to the surfaces of a scene, by rays on the host.
 #pragma once
 
 #include <optional>
@@ -17,7 +17,7 @@ public:
     scene::Vec3 position, normal; ///< normal: of a sphere, (0, 0, 0)
   };
 
-  /// `geometry` is without hierarchy, in blocks of one and in double; it must outlive this.
+  /// `geometry` must have no hierarchy, blocks of one and double precision, and must outlive this.
   explicit Surfaces(const accel::Geometry& geometry) : geometry_(geometry) {}
   /// In the geometry's coordinates; `direction` is a unit vector.
   [[nodiscard]] std::optional<Hit> first_hit(const scene::Vec3& origin, const scene::Vec3& direction) const;

@@ -1,4 +1,5 @@
-// The generator of random scenes: what it makes is valid, repeatable, and all that scene files may say.
+// The generator of random scenes: its scenes are valid, reproducible, and cover everything that scene files
+// may contain.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -25,7 +26,8 @@ TEST_CASE("random scenes are the same each time, and differ by family and member
   CHECK(random_scene({3, 1}).xml != random_scene({4, 1}).xml);
 }
 
-TEST_CASE("random scenes can be loaded, and together say all that a scene file may say", "[second]") {
+TEST_CASE("random scenes can be loaded, and together cover everything that a scene file may contain",
+          "[second]") {
   const auto level = spdlog::get_level();
   spdlog::set_level(spdlog::level::err);
   std::string all;
@@ -140,7 +142,7 @@ TEST_CASE("random scenes: facts of views and lights", "[second]") {
     const TemporaryFolder folder;
     return facts_of(scene_file::load(write_scene({xml, {}}, folder.path(), "facts")));
   };
-  // All is within a box of half edge 100. The film's area is 4 at the distance 1.
+  // Everything is within a box of half edge 100. The area of the film is 4 at the distance 1.
   const double nearness = 3 / (100 * std::sqrt(3));
   for (const char* shape : {"rectangle", "disk", "cube", "sphere"}) {
     CAPTURE(shape);

@@ -1,5 +1,5 @@
-// Random scenes, rendered by several methods each, which must agree: 30 of them in two test cases, and as
-// many as one likes by `test_random_scenes "[.long]"`, see random/long_run.cpp.
+// Random scenes, each rendered by several methods, which must agree: 30 in two test cases, and any number
+// with `test_random_scenes "[.long]"`, see random/long_run.cpp.
 #include <catch2/catch.hpp>
 #include <spdlog/spdlog.h>
 
@@ -28,7 +28,7 @@ void check_families(std::uint64_t first, std::uint64_t end) {
       pairs += static_cast<int>(all.front().pairs.size());
       excused += all.front().excused();
     }
-  // Else little is compared.
+  // Otherwise few pairs are compared.
   CAPTURE(scenes, dark, pairs, excused);
   CHECK(dark < scenes / 2);
   CHECK(excused < most_excused(end - first) * pairs);

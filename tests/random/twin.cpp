@@ -9,7 +9,7 @@
 namespace phlux::test {
 namespace {
 
-// In the order in which they are tried.
+// In the order of trial.
 constexpr double exponents[] = {50, 20, 10, 5, 2, 1};
 constexpr double lamps[] = {0, 0.2, 0.4, 0.8};
 constexpr int most_places = 100;
@@ -21,7 +21,7 @@ bool in_doubt(const std::vector<render::Settings>& methods, const scene::Scene& 
   });
 }
 
-// The largest of `exponents` about which there would be no doubts if lobes were all that there is to doubt.
+// The largest of `exponents` for which the lobes alone cause no doubts.
 double blunt_enough(const std::vector<render::Settings>& methods, const scene::Scene& scene,
                     const SceneFacts& facts) {
   SceneFacts lobes;

@@ -1,5 +1,4 @@
-// Twins of scenes in doubt: scenes of the same kernels in which every method finds soon what there is to
-// find.
+// Twins of scenes with doubts: scenes with the same kernels in which no method depends on rare samples.
 #pragma once
 
 #include <optional>
@@ -10,10 +9,10 @@
 
 namespace phlux::test {
 
-/// Of a scene in which tails of some of the methods are heavy, the twin that differs least from it and in
-/// which no method's are: exponents are capped, lamps are no smaller than some size, and only where that does
-/// not do, camera, point and spot lights stand elsewhere. Nothing where no method is in doubt.
-/// @throws std::runtime_error where there is no such twin
+/// For a scene in which some methods have heavy tails, the twin that differs least from it and in which none
+/// has: exponents are limited, lamps have a least size, and only if that is not enough, camera, point and
+/// spot lights are moved. Nothing if no method has doubts.
+/// @throws std::runtime_error if there is no such twin
 [[nodiscard]] std::optional<Twin> twin_of(const SceneNumber& number,
                                           const std::vector<render::Settings>& methods);
 

@@ -1,4 +1,5 @@
-// Settings and scenes that cannot be rendered are refused with the error that says whose fault it is.
+// Settings and scenes that cannot be rendered are refused with UsageError or SceneError, according to the
+// cause.
 #include <catch2/catch.hpp>
 
 #include "errors.h"

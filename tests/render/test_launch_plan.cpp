@@ -1,4 +1,4 @@
-// What a launch is planned to be, without a device.
+// Planning of launches, without a device.
 #include <catch2/catch.hpp>
 
 #include "render/launch_plan.h"
@@ -54,7 +54,7 @@ TEST_CASE("launches of paths that splat have whole batches") {
   CHECK(plan.scratch_bytes == 0);
 }
 
-TEST_CASE("what had too little room gets more") {
+TEST_CASE("buffers that were too small grow") {
   Planner planner(processor(), parts_for(Integrator::bidir), 0.05);
   const LaunchPlan first = planner.plan(launch_of(1000));
   std::vector<cl_int> counts(first.batches, first.record_capacity / 2);

@@ -1,4 +1,4 @@
-// The parts that a scene's program is built with. What is compiled of them: tests/portability.
+// The parts that are set for a scene. tests/portability tests the code that they leave.
 #include <algorithm>
 #include <map>
 

@@ -1,4 +1,4 @@
-// How samples are cut into launches, and how a schedule goes on where another one stopped.
+// Division of samples into launches, and resuming a schedule.
 #include "render/schedule.h"
 
 #include <catch2/catch.hpp>
@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::int64_t pixels = 7;
 
-// A block of one pixel: what the film gets in one addition.
+// A block of samples of one pixel, which the film adds in one step.
 struct Job {
   std::int64_t pixel, first_sample;
   int samples;
@@ -30,7 +30,7 @@ std::vector<Job> jobs_of(Schedule& schedule, std::int64_t jobs, int most = 1000)
   return all;
 }
 
-// Samples of every pixel, each of which may come once.
+// Samples of every pixel, each of which must occur once at most.
 std::vector<std::vector<int>> samples_in(const std::vector<Job>& jobs) {
   std::vector<std::vector<int>> counts(pixels);
   for (const Job& job : jobs) {
@@ -57,13 +57,13 @@ TEST_CASE("a schedule goes on where another stopped with the jobs that were to c
       Schedule second(pixels, samples, first.position());
       const std::vector<Job> rest = jobs_of(second, length, most);
       jobs.insert(jobs.end(), rest.begin(), rest.end());
-      jobs.resize(std::min(jobs.size(), all.size())); // without an end the two were stopped at different jobs
+      jobs.resize(std::min(jobs.size(), all.size())); // without a limit the two end at different jobs
       CHECK(jobs == std::vector<Job>(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(jobs.size())));
     }
   }
 }
 
-TEST_CASE("what is missing is handed out first, however it is cut") {
+TEST_CASE("missing samples are scheduled first, however they are divided") {
   SchedulePosition position{32, 5, samples_per_block, {{3, 10, 16, 16}, {6, 2, 32, 16}}};
   Schedule schedule(pixels, 64, position);
   const std::vector<Job> jobs = jobs_of(schedule, 4);
@@ -99,7 +99,7 @@ TEST_CASE("a schedule with another number of samples goes on without a gap and w
       jobs.insert(jobs.end(), rest.begin(), rest.end());
       const std::vector<int> once(static_cast<std::size_t>(after), 1);
       CHECK(samples_in(jobs) == std::vector<std::vector<int>>(pixels, once));
-      // Whole blocks again as soon as there can be.
+      // Whole blocks again as soon as possible.
       for (const Job& job : rest)
         CHECK((job.samples == samples_per_block || job.first_sample == position.sample ||
                job.first_sample % samples_per_block != 0 || job.first_sample + job.samples == after));

@@ -1,4 +1,4 @@
-// When a render ends.
+// Conditions that end a render.
 #include <algorithm>
 
 #include <catch2/catch.hpp>
@@ -34,10 +34,10 @@ TEST_CASE("a limit of time ends the render when two launches more are done, with
   CHECK(static_cast<double>(statistics.paths) / 4096 == Approx(film.samples_per_pixel()));
 }
 
-TEST_CASE("an error that is asked for is reached") {
+TEST_CASE("the requested error is reached") {
   render::Settings with = settings_for(1);
   with.target_error = 0.04;
-  with.time_limit = 30; // in case it is not
+  with.time_limit = 30; // in case the other condition fails
   const Render image = render_of(shipped("cornell-box", 16, 16), with);
   CHECK(image.film.relative_standard_error() <= 0.04);
   CHECK(image.statistics.seconds_render < 30);

@@ -12,7 +12,7 @@ namespace phlux::test {
 
 namespace {
 
-/// Takes the log's place while it lives.
+/// Replaces the log during its lifetime.
 class CapturedLog {
 public:
   CapturedLog() : previous_(spdlog::default_logger()) {

@@ -1,4 +1,4 @@
-// Scenes written as text by the tests of the scene file loader, and what the log said while they were read.
+// Loads scenes from text for the tests of the scene file loader, with the log of loading.
 #pragma once
 
 #include <map>
@@ -13,7 +13,7 @@ using Definitions = std::map<std::string, std::string>;
 
 /// <scene version="VERSION"> on line 1, `body` from line 2 on.
 std::string scene_text(const std::string& body, const std::string& version = "0.6.0");
-/// The same with a sensor on line 1, as no scene is without one.
+/// The same with a sensor on line 1, which every scene needs.
 std::string with_sensor(const std::string& body, const std::string& version = "0.6.0");
 
 /// Loads text as the file scene.xml.
@@ -21,21 +21,20 @@ scene::Scene load_text(const std::string& text, const Definitions& definitions =
 /// Loads with_sensor(body).
 scene::Scene load_body(const std::string& body, const std::string& version = "0.6.0");
 
-/// The SceneError that loading gives, without the folder's name: "scene.xml:LINE: ..."; empty if it gives
-/// none.
+/// The SceneError of loading, without the name of the folder: "scene.xml:LINE: ..."; empty if there is none.
 std::string error_of(const std::string& text, const Definitions& definitions = {});
-/// The same of with_sensor(body).
+/// The same for with_sensor(body).
 std::string error_in(const std::string& body, const std::string& version = "0.6.0");
 
-/// What loading writes to the log, notes and warnings alike, one a line.
+/// The log of loading, notes and warnings, one per line.
 std::string log_of(const std::string& text);
 
-/// A file name or message without the folder that the test made for it.
+/// A file name or message without the folder of the test.
 std::string without_folder(std::string message, const TemporaryFolder& folder);
 
 /// Loads <shape type="TYPE"> of a file with these bytes; `properties` go inside the shape.
 scene::Mesh load_mesh(const std::string& type, const std::string& bytes, const std::string& properties = "");
-/// The SceneError of that, without the folder's name.
+/// The SceneError of load_mesh(), without the name of the folder.
 std::string mesh_error(const std::string& type, const std::string& bytes);
 std::string mesh_log(const std::string& type, const std::string& bytes);
 

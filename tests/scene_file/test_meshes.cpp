@@ -172,7 +172,7 @@ TEST_CASE("OBJ: broken lines are errors with their number") {
   CHECK_THAT(mesh_error("obj", square), StartsWith("mesh.obj: the mesh has no triangles"));
 }
 
-TEST_CASE("Triangles without area are dropped, and counted in a warning") {
+TEST_CASE("Triangles without area are dropped, and a warning counts them") {
   const std::string bytes = square + "v 2 0 0\nf 1 2 3\nf 1 1 2\nf 1 2 5\nf 1 2\n";
   CHECK(load_mesh("obj", bytes).triangles.size() == 1);
   CHECK_THAT(mesh_log("obj", bytes), Contains("warning: mesh.obj: 3 zero-area triangles are dropped"));
@@ -197,7 +197,7 @@ TEST_CASE("Normals of the file are used, interpolated; faceNormals leaves them o
 }
 
 TEST_CASE("Normals that the file does not give are computed, weighted by angle, unless faceNormals is set") {
-  // A right-angled edge: the two squares' normals count alike at its ends.
+  // A right-angled edge: at its ends the normals of the two squares have equal weights.
   const std::string edge = "v 0 0 0\nv 0 1 0\nv 1 1 0\nv 1 0 0\nv 0 0 1\nv 0 1 1\nf 1 4 3 2\nf 1 2 6 5\n";
   const Mesh mesh = load_mesh("obj", edge);
   REQUIRE(mesh.normals.size() == mesh.positions.size());

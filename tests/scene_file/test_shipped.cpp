@@ -53,7 +53,7 @@ TEST_CASE("Every scene of scenes/stability loads, takes width, height and spp, a
     if (entry.path().extension() != ".xml") continue;
     INFO(entry.path());
     CHECK_THAT(text, Catch::Contains("[" + entry.path().filename().string() + "]"));
-    if (entry.path().stem() == "million-lights") continue; // its mesh is made when it is wanted
+    if (entry.path().stem() == "million-lights") continue; // a script generates its mesh
     const auto scene = load(entry.path(), {{"width", "7"}, {"height", "5"}, {"spp", "3"}});
     CHECK(scene.camera.width == 7);
     CHECK(scene.camera.height == 5);

@@ -19,7 +19,7 @@ bool near(const Vec3& a, const Vec3& b) {
   return glm::length(a - b) < 1e-12;
 }
 
-/// Where (x, y, 0) of the rectangle goes.
+/// Image of the point (x, y, 0) of the rectangle.
 Vec3 image(const std::string& steps, double x, double y, const std::string& version = "0.6.0") {
   const auto patch = load_body(rectangle(steps), version).patches.at(0);
   return patch.origin + x * patch.edge_u + y * patch.edge_v;
@@ -50,7 +50,7 @@ TEST_CASE("Each step") {
     CHECK(near(image(step, 0, 1), {1, 3, 3}));
   }
   const auto aimed = load_body(rectangle(R"(<lookat origin="0 0 0" target="0 5 0"/>)")).patches.at(0);
-  CHECK(near(glm::cross(aimed.edge_u, aimed.edge_v), {0, 1, 0})); // any up where none is given
+  CHECK(near(glm::cross(aimed.edge_u, aimed.edge_v), {0, 1, 0})); // any up direction if none is given
 }
 
 TEST_CASE("Both spellings of the name") {

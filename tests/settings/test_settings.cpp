@@ -1,4 +1,4 @@
-// The list of settings, and how choices, a scene and the defaults make the settings of a render.
+// The list of settings, and how the settings of a render follow from choices, scene and defaults.
 #include <set>
 
 #include <catch2/catch.hpp>
@@ -18,7 +18,7 @@ Choices chosen(const std::map<std::string, std::string>& texts) {
   return choices;
 }
 
-// A valid text of each setting that is not its default.
+// For each setting a valid value that is not the default, as text.
 const std::map<std::string, std::string> other_texts = {{"integrator", "bidir"},
                                                         {"strategy", "cosine"},
                                                         {"connect", "light"},
@@ -59,7 +59,7 @@ TEST_CASE("Every setting's value comes back from its text, and goes to no other 
   CHECK(names.size() == other_texts.size());
 }
 
-TEST_CASE("What a setting cannot be is refused by its name") {
+TEST_CASE("An invalid value of a setting is refused with the name of the setting") {
   const auto refusal = [](const std::string& name, const std::string& text) -> std::string {
     try {
       chosen({{name, text}});
@@ -142,7 +142,7 @@ TEST_CASE("Integrators and strategies are found by their names") {
   CHECK_THROWS_WITH(integrator_named("photons"), Contains("`integrator` photons: must be one of path"));
   CHECK_THROWS_WITH(strategy_named("guess"), Contains("`strategy` guess: must be one of uniform"));
   CHECK(strategy("`strategy`", "fold") == "fold");
-  CHECK(strategy("`strategy`", "of/my/own.cl") == "of/my/own.cl"); // which need not be there yet
+  CHECK(strategy("`strategy`", "of/my/own.cl") == "of/my/own.cl"); // which need not exist yet
   CHECK_THROWS_WITH(strategy("`strategy`", "fould"), Contains("`strategy` fould: did you mean fold?"));
   CHECK_THROWS_WITH(read_strategy("none.cl"), Contains("`strategy` none.cl: cannot be read"));
 }

@@ -21,7 +21,7 @@ TEST_CASE("Texts become values") {
   CHECK(settings::choice("--connect", "mis", {"none", "light", "mis"}) == 2);
 }
 
-TEST_CASE("What is no value is a UsageError") {
+TEST_CASE("An invalid value is a UsageError") {
   CHECK_THROWS_AS(settings::whole_number("--seed", "0x10", 0, 100), UsageError);
   CHECK_THROWS_AS(settings::whole_number("--seed", "", 0, 100), UsageError);
   CHECK_THROWS_AS(settings::whole_number("--seed", "18446744073709551616", 0, 100), UsageError);
@@ -31,7 +31,7 @@ TEST_CASE("What is no value is a UsageError") {
   CHECK_THROWS_AS(settings::definition("-D", "=b"), UsageError);
 }
 
-TEST_CASE("Only a near name is offered") {
+TEST_CASE("Only a similar name is suggested") {
   const std::vector<std::string> names = {"cosine", "mixture", "-n", "--spp"};
   CHECK(settings::nearest("cosin", names) == "cosine");
   CHECK(settings::nearest("mxitrue", names).empty()); // four edits

@@ -1,4 +1,4 @@
-// The tree of lights as the host builds it.
+// The light tree that the host builds.
 #include "tables/light_tree.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ std::vector<LightBounds> points(int count, const Vec3& from, const Vec3& step) {
   return lights;
 }
 
-// Checks what kernels rely on; the depth of the deepest leaf.
+// Checks the properties that kernels rely on; returns the depth of the deepest leaf.
 int check_tree(const std::vector<LightBounds>& lights) {
   std::vector<LightRecord> records(lights.size());
   const std::vector<LightNodeRecord> nodes = tables::light_tree(lights, records);
@@ -55,13 +55,13 @@ TEST_CASE("a tree of lights has a leaf for each, in boxes of which one holds the
   CHECK(check_tree(points(1000, {-500, 3, 2}, {1, 0.5, 0.25})) < 20);
 }
 
-// Boxes without area say nothing of where to split.
+// Boxes without area give no criterion for splitting.
 TEST_CASE("thousands of point lights in a row, or at one place, make no deep tree") {
   CHECK(check_tree(points(4000, {-2000, 0, 0}, {1, 0, 0})) < 24);
   CHECK(check_tree(points(4000, {1, 2, 3}, {0, 0, 0})) < 24);
 }
 
-TEST_CASE("one light leaves nothing to choose") {
+TEST_CASE("with one light there is no choice") {
   std::vector<LightRecord> records(1);
   CHECK(tables::light_tree(points(1, {0, 0, 0}, {0, 0, 0}), records).empty());
   CHECK(tables::light_tree({}, records).empty());

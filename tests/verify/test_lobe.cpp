@@ -1,5 +1,5 @@
-// The verification of any reflectance model: what ships passes, and a mistake in a function fails the check
-// that is there for it and names the function.
+// Verification of any reflectance model: shipped models pass, and a mistake in a function fails the check for
+// it, which names the function.
 #include <algorithm>
 #include <string>
 
@@ -45,7 +45,7 @@ Verified run_quick(const lobes::ModelPointer& model, const verify::Assignments& 
   return verified;
 }
 
-// The user's model with one mistake.
+// The user's model with a mistake in one function.
 Verified run_minnaert(const std::string& from = "", const std::string& to = "") {
   std::string text = minnaert_text;
   const auto at = text.find(from);
@@ -70,7 +70,7 @@ TEST_CASE("verify: every model that ships passes without closed forms", "[slow]"
     }
 }
 
-TEST_CASE("verify: a user's own model passes, all checks done", "[slow]") {
+TEST_CASE("verify: a user's own model passes all checks", "[slow]") {
   const Verified verified = run_minnaert();
   CHECK(verified.failures() == "");
   for (const char* check :

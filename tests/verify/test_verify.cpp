@@ -1,5 +1,4 @@
-// Verification itself: it passes on the device under test, and a wrong kernel fails the check that is there
-// for it.
+// Verification passes on the device under test, and a wrong kernel fails the check for it.
 #include <algorithm>
 #include <string>
 
@@ -66,7 +65,7 @@ TEST_CASE("verify: the printed estimate is named as biased", "[slow]") {
   }));
 }
 
-TEST_CASE("verify: wrong kernels fail the checks that are there for them", "[slow]") {
+TEST_CASE("verify: wrong kernels fail the checks for them", "[slow]") {
   struct Mistake {
     std::string strategy, file, from, to, check;
   };

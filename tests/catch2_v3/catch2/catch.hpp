@@ -1,4 +1,4 @@
-// Catch2 3 by the names of Catch2 2, which the tests are written with.
+// Declares the names of Catch2 2, which the tests use, with Catch2 3.
 #pragma once
 
 #include <catch2/catch_all.hpp>

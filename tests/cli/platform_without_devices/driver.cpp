@@ -1,12 +1,12 @@
-// An OpenCL driver whose platform has no devices, as a GPU's driver is on a machine without that GPU. The
-// loader finds it by an .icd file in the folder that OCL_ICD_VENDORS names.
+// An OpenCL driver whose platform has no devices, like a GPU driver on a machine without that GPU. The loader
+// finds it through an .icd file in the folder OCL_ICD_VENDORS.
 #include <cstring>
 #include <string>
 
 #include <CL/cl.h>
 #include <CL/cl_icd.h>
 
-// The loader takes the first member of each handle for the table of calls.
+// The loader expects the table of calls in the first member of each handle.
 struct _cl_platform_id {
   const cl_icd_dispatch* dispatch;
 };
@@ -73,7 +73,7 @@ cl_int CL_API_CALL platform_ids(cl_uint room, cl_platform_id* platforms, cl_uint
 
 extern "C" {
 
-// Newer loaders ask for these by this call, and older ones look for them themselves.
+// Newer loaders get these functions by this call; older ones look them up by symbol.
 CL_API_ENTRY void* CL_API_CALL clGetExtensionFunctionAddress(const char* name) {
   if (std::strcmp(name, "clIcdGetPlatformIDsKHR") == 0) return reinterpret_cast<void*>(platform_ids);
   if (std::strcmp(name, "clGetPlatformInfo") == 0) return reinterpret_cast<void*>(platform_info);
