@@ -107,6 +107,8 @@ MaterialTable material_table(const std::vector<scene::Material>& materials,
     }
     table.records.resize(end);
   }
+  // A material without a table has row 0 all the same: kernels read two neighbouring values of it.
+  if (tables.values.empty()) tables.values.resize(2);
   table.tables = std::move(tables.values);
   return table;
 }

@@ -37,7 +37,7 @@ void MaterialProgram::set_materials(const std::vector<scene::Material>& material
   if (materials == materials_) return;
   const lobes::MaterialTable table = lobes::material_table(materials, source_.models);
   records_ = upload(table.records);
-  tables_ = upload(table.tables.empty() ? std::vector<float>{0} : table.tables);
+  tables_ = upload(table.tables);
   materials_ = materials;
 }
 

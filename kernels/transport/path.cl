@@ -59,9 +59,11 @@ __kernel void trace_paths(SCENE_PARAMETERS, int pixel_count, int first_pixel, in
     if (CONNECT != CONNECT_NONE) {
       LightSample light;
       const FoundLight sampled = sample_light(&scene, &path, arrival.vertex, &light, arrival.scattered);
-      const Mask occluded = scene_occluded(&scene, light.ray, light.distance, sampled.found);
-      radiance = add_found(radiance, sampled, sampled.found & !occluded);
-      shadow_rays += sampled.found ? (Uint)(1u) : (Uint)(0u);
+      if (any_lane(sampled.found)) {
+        const Mask occluded = scene_occluded(&scene, light.ray, light.distance, sampled.found);
+        radiance = add_found(radiance, sampled, sampled.found & !occluded);
+        shadow_rays += sampled.found ? (Uint)(1u) : (Uint)(0u);
+      }
     }
     MaterialSample sample;
     const Vec3 throughput = path.throughput;

@@ -75,7 +75,7 @@ TEST_CASE("verify: wrong kernels fail the checks for them", "[slow]") {
       {"mixture", "phong/one_part.cl", "* (m.exponent + 1.0f) / (m.exponent + 2.0f)", "", "densities"},
       {"cosine", "math/directions.h", "polar_direction(sqrt(1.0f - u1), sqrt(u1), u2)",
        "polar_direction(sqrt((1.0f - u1) * (1.0f + u1)), u1, u2)", "jacobian"},
-      {"lobe-ks", "lobes/material.cl", "vec_scale(1.0f / survival, s.weight)", "s.weight", "means"},
+      {"lobe-ks", "lobes/material.cl", "vec_scale(inverse_survival, s.weight)", "s.weight", "means"},
   };
   for (const Mistake& m : mistakes) {
     CAPTURE(m.strategy, m.to);
