@@ -32,19 +32,25 @@ void add_amount(CLI::App& app, VerifyOptions& options) {
             });
 }
 
+std::vector<std::string> model_names() {
+  const lobes::Library library;
+  std::vector<std::string> names;
+  for (const auto& model : library.models()) names.push_back(model->name);
+  return names;
+}
+
 void add_models(CLI::App& app, VerifyOptions& options) {
   add_lobes(
       app,
       "verifies a reflectance model of your own instead: its functions against one another; may be repeated",
       options.lobes);
-  add_values(app, "--model", "NAME",
-             "the same for a built-in model: diffuse, phong, anisotropicphong or conductor; may be repeated",
-             [&options](const std::string& text) {
-               const lobes::Library library;
-               std::vector<std::string> names;
-               for (const auto& model : library.models()) names.push_back(model->name);
-               options.models.push_back(names[settings::choice("--model", text, names)]);
-             });
+  add_values(
+      app, "--model", "NAME",
+      fmt::format("the same for a built-in model: {}; may be repeated", fmt::join(model_names(), ", ")),
+      [&options](const std::string& text) {
+        const std::vector<std::string> names = model_names();
+        options.models.push_back(names[settings::choice("--model", text, names)]);
+      });
   add_values(
       app, "--set", "NAME=VALUE",
       "value of a parameter of that model, such as exponent=90 or specularReflectance=0.9,0.6,0.2, tested "

@@ -76,7 +76,7 @@ TEST_CASE("phlux render --lobe: compiler errors name the user's file and line") 
   std::filesystem::create_directory(folder / "my lobes");
   folder.write("my lobes/minnaert.cl", replaced(minnaert_text, "v.density = minnaert_density(m, generated.z)",
                                                 "v.density = minnaert_density(m, generated.w)"));
-  const Outcome wrong = render(folder, {"--lobe", "my lobes/minnaert.cl"});
+  const Outcome wrong = render(folder, {"-q", "--lobe", "my lobes/minnaert.cl"});
   CHECK(wrong.exit_code == 4);
   CHECK(wrong.is_one_line_error());
   CHECK_THAT(wrong.err, Contains("my lobes/minnaert.cl:19: "));

@@ -45,26 +45,30 @@ Verified run_quick(const lobes::ModelPointer& model, const verify::Assignments& 
   return verified;
 }
 
-// The user's model with a mistake in one function.
-Verified run_minnaert(const std::string& from = "", const std::string& to = "") {
-  std::string text = minnaert_text;
+// A user's model with a mistake in one function.
+Verified run_user_model(const std::string& name, std::string text, const std::string& from,
+                        const std::string& to) {
   const auto at = text.find(from);
   REQUIRE(at != std::string::npos);
   text.replace(at, from.size(), to);
   const TemporaryFolder folder;
-  folder.write("minnaert.cl", text);
+  folder.write(name + ".cl", text);
   lobes::Library library;
-  library.add(folder / "minnaert.cl");
-  return run_quick(library.find("minnaert"));
+  library.add(folder / (name + ".cl"));
+  return run_quick(library.find(name));
+}
+Verified run_minnaert(const std::string& from = "", const std::string& to = "") {
+  return run_user_model("minnaert", minnaert_text, from, to);
 }
 
 } // namespace
 
 TEST_CASE("verify: every model that ships passes without closed forms", "[slow]") {
-  for (const char* name : {"diffuse", "phong", "anisotropicphong", "conductor"})
+  const lobes::Library shipped;
+  for (const lobes::ModelPointer& model : shipped.models())
     for (const int lanes : {1, 16}) {
-      CAPTURE(name, lanes);
-      const Verified verified = run_quick(lobes::shipped(name), {}, "exact", lanes);
+      CAPTURE(model->name, lanes);
+      const Verified verified = run_quick(model, {}, "exact", lanes);
       CHECK(verified.failures() == "");
       CHECK(verified.report.p_values() > 5);
     }
@@ -170,4 +174,18 @@ TEST_CASE("verify: of three functions the one that contradicts two is named", "[
             .conclusions ==
         std::vector<std::string>{
             "minnaert_evaluate and minnaert_sample agree: minnaert_reflectivity is the one to look at"});
+  CHECK(run_minnaert("return (m.exponent + 2.0f)", "return (m.exponent + 1.0f)").conclusions ==
+        std::vector<std::string>{"minnaert_evaluate's density has the right shape and the wrong scale"});
+  const std::string retro =
+      TemporaryFolder::read(std::filesystem::path(PHLUX_SOURCE_DIR) / "scenes/lobes/retro.cl");
+  CHECK(run_user_model("retro", retro, "0.5f * (m.exponent + 1.0f) * power",
+                       "0.5f * (m.exponent + 2.0f) * power")
+            .conclusions ==
+        std::vector<std::string>{"retro_evaluate's density has the right shape and the wrong scale"});
+  CHECK(run_user_model("retro", retro, "cosine_power_direction(m.exponent,",
+                       "cosine_power_direction(m.exponent + 1.0f,")
+            .conclusions ==
+        std::vector<std::string>{
+            "retro_evaluate's f_r and retro_reflectivity agree: look at retro_evaluate's density "
+            "and retro_sample's directions, which contradict each other"});
 }

@@ -23,7 +23,9 @@ constexpr Meaning meanings[] = {
     {"isotropy", "{0}_evaluate depends on the longitude, and {1}_NEEDS_TANGENTS 1 is not declared"},
     {"reciprocity", "{0}_evaluate's f_r changes where the two directions are swapped: it is not reciprocal"},
     {"reverse", "{0}_evaluate's `reverse` is not its `density` for swapped directions"},
-    {"quadrature", "{0}_evaluate varies too fast to be integrated: the checks of its integrals say nothing"},
+    {"quadrature",
+     "{0}_evaluate varies too fast to be integrated, so that the checks of its integrals say nothing: choose "
+     "less extreme parameters"},
     {"normalised", "{0}_evaluate's density does not integrate to the share of samples that have a density"},
     {"directions", "{0}_sample's directions do not follow {0}_evaluate's density: one of them is wrong"},
     {"stated density", "{0}_sample states another density than {0}_evaluate has for the same directions"},
@@ -63,14 +65,23 @@ std::vector<std::string> explain(Report& report, const std::string& name, const 
   const auto alone = [&](const std::string& function, const std::string& others) {
     conclusions.push_back(fmt::format("{} agree: {} is the one to look at", others, function));
   };
+  const auto either = [&](const std::string& one, const std::string& other, const std::string& others) {
+    conclusions.push_back(
+        fmt::format("{} agree: look at {} and {}, which contradict each other", others, one, other));
+  };
   const std::string evaluate = model + "_evaluate", sample = model + "_sample",
                     reflectivity = model + "_reflectivity";
   if (fails("means") && fails("reflectivity") && passes("weights' mean"))
     alone(evaluate + "'s f_r", sample + " and " + reflectivity);
   if (fails("reflectivity") && fails("weights' mean") && passes("means"))
     alone(reflectivity, evaluate + " and " + sample);
-  if (fails("means") && fails("weights' mean") && passes("reflectivity"))
-    alone(fails("normalised") ? evaluate + "'s density" : sample, evaluate + "'s f_r and " + reflectivity);
+  if (fails("means") && fails("weights' mean") && passes("reflectivity")) {
+    const std::string others = evaluate + "'s f_r and " + reflectivity;
+    if (!fails("normalised"))
+      alone(sample, others);
+    else if (fails("directions"))
+      either(evaluate + "'s density", sample + "'s directions", others);
+  }
   if (fails("normalised") && passes("directions"))
     conclusions.push_back(evaluate + "'s density has the right shape and the wrong scale");
   return conclusions;
