@@ -35,6 +35,8 @@ install_intel() { # ROOT
 }
 
 set_up() { # DRIVER
+  # The one scene whose mesh is generated, with the python3 of this machine.
+  [[ -s $root$clone/scenes/stability/million-lights.ply ]] || python3 "$root$clone/scenes/stability/million_lights.py" || return
   if [[ $1 == intel ]]; then install_intel "$root" || return; fi
   on "$1" ./phlux --version && on "$1" ./phlux devices
 }
