@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include <boost/math/distributions/normal.hpp>
 #include <catch2/catch.hpp>
 
 #include "device/kernel.h"
 #include "device_under_test.h"
+#include "measure/moments.h"
 #include "measure/statistics.h"
 #include "phong/reflectivity.h"
 
@@ -62,15 +62,13 @@ std::vector<float> mean_weights(const device::BuiltProgram& program, int width, 
 // the error of the table, else 0.
 double mean_p(const std::vector<float>& values, double expected) {
   constexpr double table_error = 1e-4; // relative
-  const auto count = static_cast<double>(values.size());
-  double sum = 0, squares = 0;
-  for (const float value : values) sum += static_cast<double>(value);
-  for (const float value : values) squares += std::pow(static_cast<double>(value) - sum / count, 2);
-  const double off = std::max(0.0, std::abs(sum / count - expected) - table_error * expected);
+  measure::PowerSums sums;
+  sums.centre = expected;
+  for (const float value : values) sums.add(static_cast<double>(value));
+  const measure::Moments moments = moments_of(sums);
+  const double off = std::max(0.0, std::abs(moments.mean - expected) - table_error * expected);
   if (off == 0) return 1;
-  const boost::math::normal_distribution<double> normal;
-  const double error = std::sqrt(squares / (count - 1) / count);
-  return error > 0 ? 2 * cdf(complement(normal, std::min(off / error, 30.0))) : 0;
+  return moments.mean_standard_error > 0 ? measure::normal_p(off / moments.mean_standard_error) : 0;
 }
 
 } // namespace
