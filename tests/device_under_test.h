@@ -22,8 +22,7 @@ inline std::size_t thinned(std::size_t count, std::size_t factor = 64) {
 }
 
 inline sources::KernelFiles kernel_files() {
-  const std::filesystem::path folder = tested_kernels();
-  return folder.empty() ? sources::KernelFiles() : sources::KernelFiles(folder);
+  return sources::KernelFiles(tested_kernels());
 }
 
 } // namespace phlux::test

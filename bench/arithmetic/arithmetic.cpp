@@ -8,7 +8,6 @@
 #include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
-#include "bench/common/case.h"
 #include "bench/common/report/draw.h"
 #include "bench/common/status_line.h"
 #include "bench/common/tables/csv.h"
@@ -186,7 +185,7 @@ void write_arithmetic_table(const ArithmeticOptions& options) {
   CsvFile table(options.folder, "arithmetic.csv", fmt::format("{}", fmt::join(arithmetic_columns(), ",")));
   const device::Device device = device::open_devices(options.devices).front();
   const int lanes = options.lanes_on(device.info);
-  const ArithmeticKernels kernels(device, kernel_files(options.kernel_dir), lanes);
+  const ArithmeticKernels kernels(device, sources::KernelFiles(options.kernel_dir), lanes);
   const std::size_t values = std::size_t{1} << (options.quick ? 15 : 18);
   StatusLine status;
   for (const FormulaGroup& group : formula_groups())

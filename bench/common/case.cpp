@@ -17,8 +17,4 @@ scene::Material material_of(const Case& one) {
   return lobes::phong(scene::Rgb(one.diffuse), scene::Rgb(one.specular), one.exponent);
 }
 
-sources::KernelFiles kernel_files(const std::filesystem::path& folder) {
-  return folder.empty() ? sources::KernelFiles() : sources::KernelFiles(folder);
-}
-
 } // namespace phlux::bench

@@ -1,11 +1,9 @@
 // A material whose sampling is measured, and the fixed direction.
 #pragma once
 
-#include <filesystem>
 #include <memory>
 
 #include "lobes/models.h"
-#include "sources/kernel_files.h"
 
 namespace phlux::bench {
 
@@ -22,8 +20,5 @@ struct Case {
 [[nodiscard]] double exact_reflectivity(const Case& one);
 
 [[nodiscard]] scene::Material material_of(const Case& one);
-
-/// The kernels in `folder`; the embedded ones if it is empty.
-[[nodiscard]] sources::KernelFiles kernel_files(const std::filesystem::path& folder);
 
 } // namespace phlux::bench

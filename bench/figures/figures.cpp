@@ -34,7 +34,7 @@ cl_float4 direction_at(double degrees) {
 class FigureKernels {
 public:
   explicit FigureKernels(const FiguresOptions& options)
-      : program_(device::open_devices(options.devices).front(), kernel_files(options.kernel_dir),
+      : program_(device::open_devices(options.devices).front(), sources::KernelFiles(options.kernel_dir),
                  {.root = "measure/figures.cl", .lanes = options.lanes}),
         seed_{{options.seed, 0}} {
     program_.set_materials({material_of({diffuse, specular, exponent, incoming_degrees})});

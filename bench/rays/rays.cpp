@@ -174,8 +174,7 @@ void measure_rays(const RaysOptions& options) {
   CsvFile table(options.folder, "rays.csv", columns);
   fmt::print("{}\n", columns);
   const device::Device device = device::open_devices(options.devices).front();
-  const sources::KernelFiles files =
-      options.kernel_dir.empty() ? sources::KernelFiles() : sources::KernelFiles(options.kernel_dir);
+  const sources::KernelFiles files(options.kernel_dir);
   const int lanes = options.lanes_on(device.info);
   for (const std::uint64_t triangles : options.triangles) {
     const scene::Scene scene = knot_scene(triangles);

@@ -283,7 +283,7 @@ bool write_sampling_tables(const SamplingOptions& options) {
   const auto tables = tables_of(options);
   std::vector<Integral> integrals = integrals_of(cases_of(options), lights_of(options));
   const std::size_t all = integrals.size();
-  const sources::KernelFiles files = kernel_files(options.kernel_dir);
+  const sources::KernelFiles files(options.kernel_dir);
   const auto settings =
       settings_of(options, device, lanes, strategies, integrals,
                   Sampler::kernels_fingerprint(files, strategies, lanes, model_of(options)));

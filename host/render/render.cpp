@@ -193,9 +193,7 @@ void warn(const scene::Scene& scene, const Settings& settings, const Events& eve
 class WorkerFactory {
 public:
   WorkerFactory(const scene::Scene& scene, const Settings& settings, const Events& events)
-      : scene_(scene), settings_(settings), events_(events),
-        files_(settings.kernel_dir.empty() ? sources::KernelFiles()
-                                           : sources::KernelFiles(settings.kernel_dir)) {}
+      : scene_(scene), settings_(settings), events_(events), files_(settings.kernel_dir) {}
 
   // The radiance that is 1 in the devices' sums.
   [[nodiscard]] double unit() const { return host_->lights.unit; }

@@ -18,7 +18,7 @@ const device::BuiltProgram& program_for(const device::Device& device, const rend
   key["folder"] = kernels.string();
   if (const auto found = kept.find(key); found != kept.end()) return found->second;
   if (kept.size() == most) kept.clear();
-  const sources::KernelFiles files = kernels.empty() ? sources::KernelFiles() : sources::KernelFiles(kernels);
+  const sources::KernelFiles files(kernels);
   return kept.emplace(key, device::build(device, files, parts.source(parts.file()))).first->second;
 }
 
