@@ -1,4 +1,4 @@
-// What `phlux --version` prints, for bug reports.
+// The text of `phlux --version`: commit, compiler, libraries and OpenCL platforms.
 #pragma once
 
 #include <string>

@@ -15,7 +15,7 @@ std::uint32_t word_of(double component) {
   return std::bit_cast<std::uint32_t>(static_cast<float>(component));
 }
 
-// Of an element, the vector in planes first, first + 1 and first + 2.
+// One element's vector, whose components are in the planes first, first + 1 and first + 2.
 Rgb vector_at(const std::vector<float>& planes, std::size_t plane, std::size_t first, std::size_t element) {
   const auto at = [&](std::size_t k) { return planes[(first + k) * plane + element]; };
   return {at(0), at(1), at(2)};

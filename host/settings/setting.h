@@ -18,14 +18,14 @@ namespace phlux::settings {
 
 struct Settings;
 
-/// What a setting affects.
+/// The property of a render that a setting changes. If it is execution, images differ by rounding only.
 enum class Affects {
   expectation, ///< the image that a render converges to
   estimate,    ///< the noise
   film,        ///< what is stored besides the image
   samples,     ///< which samples are taken
   amount,      ///< the number of samples
-  execution    ///< where and how kernels run; images differ by rounding only
+  execution    ///< where and how kernels run
 };
 
 /// std::monostate: absent.

@@ -34,10 +34,6 @@ inline constexpr std::array<Strategy, 12> strategies = {{
   static const std::vector<std::string> names = names_in(strategies);
   return names;
 }
-/// @throws UsageError for an unknown name
-[[nodiscard]] inline const Strategy& strategy_named(const std::string& name) {
-  return strategies[choice(quoted("strategy"), name, strategy_names())];
-}
 
 /// Whether `strategy` is a user's kernel file, FILE.cl (kernels/phong/phong.cl: what it defines), not a name.
 [[nodiscard]] bool is_strategy_file(const std::string& strategy);

@@ -12,7 +12,7 @@ namespace phlux::verify {
 /// With fewer samples per case, as for interpreters, checks that take no samples are reduced too.
 inline constexpr std::size_t thin_samples = 1000;
 
-/// What the checks of one strategy share.
+/// The strategy under test, and the cases and the report that all of its checks use.
 struct Subject {
   const Strategy& strategy;
   const DeviceModel& device;

@@ -1,4 +1,4 @@
-// The random words and the directions at which samplers fail, if they do.
+// Extreme random words and directions, for which samplers are most likely to fail.
 #pragma once
 
 #include <vector>
@@ -7,10 +7,9 @@
 
 namespace phlux::verify {
 
-/// All combinations of the first and last numbers, of those next to them, and of some between; fewer where
-/// `thin`.
+/// All combinations of the smallest and largest numbers, their neighbours, and some between; fewer if `thin`.
 [[nodiscard]] std::vector<measure::Words> extreme_words(bool thin);
-/// The normal, nearly the normal, grazing, in the tangent plane.
+/// The normal, close to the normal, grazing, in the tangent plane.
 [[nodiscard]] std::vector<measure::Direction> extreme_directions();
 
 } // namespace phlux::verify

@@ -23,7 +23,7 @@ inline DeviceModel device_model(Variant variant, const std::vector<phlux::scene:
   return {test_device(), kernel_files(), variant.width, strategy, materials, defines};
 }
 
-/// Of many generated directions for one fixed direction.
+/// f_r and densities for one fixed direction and each of `generated`.
 inline std::vector<PairValues> evaluate(const DeviceModel& model, int material, const glm::dvec3& fixed,
                                         const std::vector<glm::dvec3>& generated) {
   std::vector<phlux::measure::Pair> pairs;

@@ -138,9 +138,9 @@ TEST_CASE("Integrators and strategies are found by their names") {
     CHECK(&integrator_named(info.name) == &info);
     CHECK(&info_of(info.integrator) == &info);
   }
-  for (const Strategy& strategy : strategies) CHECK(&strategy_named(strategy.name) == &strategy);
+  for (const Strategy& each : strategies) CHECK(strategy("`strategy`", each.name) == each.name);
   CHECK_THROWS_WITH(integrator_named("photons"), Contains("`integrator` photons: must be one of path"));
-  CHECK_THROWS_WITH(strategy_named("guess"), Contains("`strategy` guess: must be one of uniform"));
+  CHECK_THROWS_WITH(strategy("`strategy`", "guess"), Contains("`strategy` guess: must be one of uniform"));
   CHECK(strategy("`strategy`", "fold") == "fold");
   CHECK(strategy("`strategy`", "of/my/own.cl") == "of/my/own.cl"); // which need not exist yet
   CHECK_THROWS_WITH(strategy("`strategy`", "fould"), Contains("`strategy` fould: did you mean fold?"));

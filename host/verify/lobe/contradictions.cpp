@@ -65,10 +65,6 @@ std::vector<std::string> explain(Report& report, const std::string& name, const 
   const auto alone = [&](const std::string& function, const std::string& others) {
     conclusions.push_back(fmt::format("{} agree: {} is the one to look at", others, function));
   };
-  const auto either = [&](const std::string& one, const std::string& other, const std::string& others) {
-    conclusions.push_back(
-        fmt::format("{} agree: look at {} and {}, which contradict each other", others, one, other));
-  };
   const std::string evaluate = model + "_evaluate", sample = model + "_sample",
                     reflectivity = model + "_reflectivity";
   if (fails("means") && fails("reflectivity") && passes("weights' mean"))
@@ -80,7 +76,9 @@ std::vector<std::string> explain(Report& report, const std::string& name, const 
     if (!fails("normalised"))
       alone(sample, others);
     else if (fails("directions"))
-      either(evaluate + "'s density", sample + "'s directions", others);
+      conclusions.push_back(
+          fmt::format("{} agree: look at {}'s density and {}'s directions, which contradict each other",
+                      others, evaluate, sample));
   }
   if (fails("normalised") && passes("directions"))
     conclusions.push_back(evaluate + "'s density has the right shape and the wrong scale");
