@@ -64,24 +64,29 @@ std::vector<film::Film> render_rounds(const Setup& setup, int lanes, bool double
   settings.samples_per_pixel = quick ? quick_round_samples : round_samples;
   if (accel::count_primitives(setup.scene) <= most_without_hierarchy)
     settings.traversal = render::Traversal::brute_force;
+  MethodRenderer renderer(setup.scene, settings);
   std::vector<film::Film> films;
-  for (int round = 0; round < (quick ? quick_rounds : rounds); ++round, ++settings.seed)
-    films.push_back(render_samples(setup.scene, settings, setup.options.interrupted));
+  for (int round = 0; round < (quick ? quick_rounds : rounds); ++round)
+    films.push_back(renderer.render_samples(settings.seed + static_cast<std::uint64_t>(round),
+                                            settings.samples_per_pixel, setup.options.interrupted));
   return films;
 }
 
 // Renders alternate, so that other load on the machine affects both alike.
 Timing time_in_turns(const Setup& setup, int lanes) {
   const bool quick = setup.options.quick;
-  const auto seconds_of = [&](const render::Settings& settings) {
-    return render_for(setup.scene, settings, quick ? quick_timing_seconds : timing_seconds, {},
-                      setup.options.interrupted)
+  const auto seconds_of = [&](MethodRenderer& renderer) {
+    return renderer
+        .render_for(setup.options.seed, quick ? quick_timing_seconds : timing_seconds, {},
+                    setup.options.interrupted)
         .processor_seconds_per_sample;
   };
+  MethodRenderer renderer32(setup.scene, setup.settings(lanes, false));
+  MethodRenderer renderer64(setup.scene, setup.settings(1, true));
   std::vector<double> float32, float64, ratios;
   for (int i = 0; i < (quick ? quick_timings : timings); ++i) {
-    float32.push_back(seconds_of(setup.settings(lanes, false)));
-    float64.push_back(seconds_of(setup.settings(1, true)));
+    float32.push_back(seconds_of(renderer32));
+    float64.push_back(seconds_of(renderer64));
     if (float32.back() > 0 && float64.back() > 0) ratios.push_back(float64.back() / float32.back());
   }
   if (ratios.empty()) return {};

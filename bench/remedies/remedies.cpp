@@ -88,12 +88,13 @@ struct Rounds { // renders before, or after
 
   void add(const TimedRender& render, bool processor_time) {
     images.push_back(render.last.image);
-    seconds.push_back(processor_time ? render.processor_seconds_per_sample : render.seconds_per_sample());
+    seconds.push_back(processor_time ? render.processor_seconds_per_sample : render.seconds_per_sample);
     rays.push_back(static_cast<double>(render.statistics.rays + render.statistics.shadow_rays) /
                    render.paths);
   }
   [[nodiscard]] Efficiency efficiency(const Reference& reference) const {
-    return {variance_per_sample(images, reference), measure::median(seconds), measure::median(rays)};
+    return {mean_of(variances_per_sample(images, reference)), measure::median(seconds),
+            measure::median(rays)};
   }
 };
 
@@ -104,16 +105,15 @@ struct Measurement {
 Measurement measure(const RemedyCase& one, const RemediesOptions& options, bool processor_time) {
   Rounds before, after;
   const double seconds = options.quick ? quick_round_seconds : round_seconds;
-  render::Settings with[] = {one.before, one.after};
+  MethodRenderer without(one.scene, one.before), with(one.scene, one.after);
   for (int round = 0; round < (options.quick ? quick_rounds : rounds); ++round) {
-    for (const bool remedied : {false, true})
-      (remedied ? after : before)
-          .add(render_for(one.scene, with[remedied], seconds, {}, options.interrupted), processor_time);
-    for (render::Settings& settings : with) ++settings.seed;
+    const std::uint64_t seed = one.before.seed + static_cast<std::uint64_t>(round);
+    before.add(without.render_for(seed, seconds, {}, options.interrupted), processor_time);
+    after.add(with.render_for(seed, seconds, {}, options.interrupted), processor_time);
   }
   std::vector<ImageEstimate> all = before.images;
   all.insert(all.end(), after.images.begin(), after.images.end());
-  const Reference reference = pooled(all).radiance;
+  const Reference reference = pooled_reference(all, static_cast<std::size_t>(one.scene.camera.width));
   return {before.efficiency(reference), after.efficiency(reference)};
 }
 

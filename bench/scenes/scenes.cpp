@@ -1,6 +1,7 @@
 #include "bench/scenes/scenes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <iterator>
@@ -10,7 +11,6 @@
 
 #include "bench/common/methods/build_ahead.h"
 #include "bench/common/methods/result_table.h"
-#include "bench/common/methods/timed_render.h"
 #include "bench/common/report/draw.h"
 #include "bench/common/status_line.h"
 #include "bench/common/tables/array_file.h"
@@ -45,6 +45,8 @@ struct Run { // settings of all scenes
   std::vector<Method> methods;
   double seconds = 0;      // per scene
   double seconds_left = 0; // per scene, after building kernels
+
+  [[nodiscard]] CostClock clock() const { return clock_of(device); }
 };
 
 struct SceneRun {
@@ -68,6 +70,12 @@ SceneRun load(const std::filesystem::path& file, const Run& run) {
   return result;
 }
 
+struct SceneResults {
+  ReferenceImage reference;
+  std::vector<MethodResult> methods;
+  std::vector<RankedCost> costs; // of the methods
+};
+
 // ---- The tables
 
 std::vector<std::string> convergence_values(const ReferenceImage& reference, const MethodResult& result,
@@ -75,7 +83,7 @@ std::vector<std::string> convergence_values(const ReferenceImage& reference, con
   std::vector<std::string> row;
   for (const double value :
        {point.seconds, point.samples_per_pixel, point.relmse, point.relmse_least, point.relmse_most,
-        result.variance.value / point.samples_per_pixel + reference.relmse})
+        result.variance.value / point.samples_per_pixel + reference.image.relmse()})
     row.push_back(number_text(value));
   row.push_back(fmt::format("{}", point.rounds));
   return row;
@@ -86,17 +94,17 @@ struct Tables {
       : results(folder, "scenes.csv", {"scene"}, result_columns()),
         convergence(folder, "scenes-convergence.csv", {"scene"}, convergence_columns) {}
 
-  void replace(const Run& run, const SceneRun& scene, const std::vector<Method>& methods,
-               const ReferenceImage& reference, const std::vector<MethodResult>& measured) {
-    results.remove({scene.name}, methods, scene.settings);
-    convergence.remove({scene.name}, methods, scene.settings);
-    for (const MethodResult& result : measured) {
+  void replace(const Run& run, const SceneRun& scene, const SceneResults& measured) {
+    results.remove({scene.name});
+    convergence.remove({scene.name});
+    for (std::size_t i = 0; i < measured.methods.size(); ++i) {
+      const MethodResult& result = measured.methods[i];
       results.add({scene.name}, result.method,
-                  result_values(result, reference, scene.scene.camera,
-                                {run.device.name, run.lanes, run.options.seed}),
+                  result_values(result, measured.costs[i], measured.reference, scene.scene.camera,
+                                {run.device.name, run.lanes, run.options.seed, run.clock()}),
                   scene.settings);
       for (const ConvergencePoint& point : result.convergence)
-        convergence.add({scene.name}, result.method, convergence_values(reference, result, point),
+        convergence.add({scene.name}, result.method, convergence_values(measured.reference, result, point),
                         scene.settings);
     }
     write();
@@ -116,38 +124,50 @@ std::string file_name(const Method& m) {
 }
 
 void write_images(const std::filesystem::path& folder, const scene::Camera& camera,
-                  const ReferenceImage& reference, const std::vector<MethodResult>& results) {
+                  const SceneResults& measured) {
   make_folder(folder);
   const std::vector<std::size_t> shape = {static_cast<std::size_t>(camera.height),
                                           static_cast<std::size_t>(camera.width), 3};
-  write_array(folder / "reference.npy", shape, reference.radiance);
-  for (const MethodResult& result : results)
+  write_array(folder / "reference.npy", shape, measured.reference.image.radiance);
+  for (const MethodResult& result : measured.methods)
     if (result.verdict != Verdict::refused)
       write_array(folder / file_name(result.method), shape, result.first_image.radiance);
 }
 
-void print(const SceneRun& scene, const ReferenceImage& reference, const std::vector<MethodResult>& results) {
+// The answer comes last, where a terminal shows it.
+void print(const Run& run, const SceneRun& scene, const SceneResults& measured) {
+  const ReferenceImage& reference = measured.reference;
+  const scene::Camera& camera = scene.scene.camera;
   fmt::print("{}, {}x{}; reference by {}, {:.0f} samples per pixel, relative MSE {:.2g}\n", scene.name,
-             scene.scene.camera.width, scene.scene.camera.height, reference.method,
-             reference.samples_per_pixel, reference.relmse);
-  fmt::print("  {:<28} {:>12} {:>10} {:>14} {:>10}  {}\n", "method", "variance", "ns/sample", "to variance 1",
-             "top 0.1%", "");
-  for (const MethodResult& r : results) {
+             camera.width, camera.height, reference.method, reference.samples_per_pixel,
+             reference.image.relmse());
+  fmt::print("  {:<28} {:>10} {:>8} {:>14} {:>22}  {}\n", "method", "variance", "ns", "to variance 1",
+             "relative to the best", "");
+  for (std::size_t i = 0; i < measured.methods.size(); ++i) {
+    const MethodResult& r = measured.methods[i];
+    const RankedCost& cost = measured.costs[i];
     if (r.verdict == Verdict::refused) {
       fmt::print("  {:<28} {}: {}\n", r.method.name(), word_of(r.verdict), r.reason);
       continue;
     }
-    const bool sound = r.verdict == Verdict::sound;
-    fmt::print("  {:<28} {:>12} {:>10.1f} {:>14} {:>9.1f}%  {}{}{}\n", r.method.name(),
-               fmt::format("{:.4g}", r.variance.value), 1e9 * r.seconds_per_sample,
-               sound ? fmt::format("{:.3g} us", 1e6 * r.variance.value * r.seconds_per_sample) : "-",
-               100 * r.top_share, sound ? "" : word_of(r.verdict), sound ? "" : ": ", sound ? "" : r.reason);
+    const bool ranked = r.verdict == Verdict::sound;
+    fmt::print("  {:<28} {:>10.4g} {:>8.1f} {:>14} {:>22}  {}{}{}\n", r.method.name(), r.variance.value,
+               1e9 * cost.cost / r.variance.value, ranked ? fmt::format("{:.3g} us", 1e6 * cost.cost) : "-",
+               std::isnan(cost.ratio)
+                   ? "-"
+                   : fmt::format("{:.3g} ({:.3g} to {:.3g})", cost.ratio, cost.low, cost.high),
+               ranked ? word_of(cost.rank) : word_of(r.verdict), r.reason.empty() ? "" : ": ", r.reason);
   }
+  const int roulette = scene.scene.defaults.rr_depth;
+  fmt::print(
+      "{}: {}\n  ({} time, {}, {}x{}, {}; the intervals are right together in 95 of 100 measurements)\n",
+      scene.name, answer_of(measured.methods, measured.costs, run.seconds), word_of(run.clock()),
+      roulette < 0 ? "no roulette" : fmt::format("roulette from edge {}", roulette), camera.width,
+      camera.height, run.device.name);
   std::fflush(stdout);
 }
 
-ReferenceImage reference_of(const SceneBench& bench, const SceneRun& scene,
-                            const std::filesystem::path& folder) {
+ReferenceImage reference_of(SceneBench& bench, const SceneRun& scene, const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / (scene.name + ".exr");
   if (auto saved = read_reference(file, scene.settings)) return *saved;
   const ReferenceImage reference = bench.reference();
@@ -156,31 +176,22 @@ ReferenceImage reference_of(const SceneBench& bench, const SceneRun& scene,
   return reference;
 }
 
-struct SceneResults {
-  ReferenceImage reference;
-  std::vector<MethodResult> methods;
-};
+using Report = std::function<void(const std::string& what, double seconds_left)>;
 
-SceneBenchSettings settings_for(const ScenesOptions& options) {
-  return bench_settings(options, options.quick ? 3 : 6);
-}
-
-SceneResults measure(const Run& run, const SceneRun& scene, const std::vector<Method>& methods,
-                     Tables& tables, const std::function<void(const std::string&)>& report) {
-  SceneBenchSettings settings = settings_for(run.options);
+SceneResults measure(const Run& run, const SceneRun& scene, Tables& tables, const Report& report,
+                     const std::function<void(const std::string&)>& notice) {
+  SceneBenchSettings settings = bench_settings(run.options);
   settings.seconds = run.seconds_left;
   settings.report = report;
+  settings.notice = notice;
   SceneBench bench(scene.scene, settings);
-  bench.try_methods(methods);
-  ReferenceImage reference = reference_of(bench, scene, run.options.folder / "references");
-  const std::vector<MethodResult> results = bench.measure(reference);
-  // The renders of the reference may all lack large samples that the rounds have drawn.
-  for (const MethodResult& result : results)
-    if (result.method.name() == reference.method)
-      reference.relmse = std::max(reference.relmse, result.variance.value / reference.samples_per_pixel);
-  write_images(run.options.folder / "scenes-images" / scene.name, scene.scene.camera, reference, results);
-  tables.replace(run, scene, methods, reference, results);
-  return {reference, results};
+  bench.try_methods(run.methods);
+  SceneResults measured{reference_of(bench, scene, run.options.folder / "references"), {}, {}};
+  measured.methods = bench.measure(measured.reference);
+  measured.costs = rank(measured.methods, run.clock());
+  write_images(run.options.folder / "scenes-images" / scene.name, scene.scene.camera, measured);
+  tables.replace(run, scene, measured);
+  return measured;
 }
 
 // ---- All scenes
@@ -212,26 +223,26 @@ struct Progress {
 
 void measure_all(const Run& run, const std::vector<SceneRun>& scenes, Tables& tables, Progress& progress) {
   StatusLine status;
-  std::vector<std::vector<Method>> methods_of;
+  std::vector<const SceneRun*> pending;
   for (const SceneRun& scene : scenes)
-    methods_of.push_back(tables.results.missing({scene.name}, run.methods, scene.settings));
-  for (std::size_t i = 0; i < scenes.size(); ++i) {
-    const std::vector<Method>& methods = methods_of[i];
-    if (methods.empty()) {
-      fmt::print("{}: measured already\n", scenes[i].name);
-      continue;
-    }
-    const Clock::time_point begin = Clock::now();
-    const auto later = std::count_if(methods_of.begin() + static_cast<std::ptrdiff_t>(i) + 1,
-                                     methods_of.end(), [](const auto& missing) { return !missing.empty(); });
-    const SceneResults results = measure(run, scenes[i], methods, tables, [&](const std::string& what) {
-      const double left = std::max(0.0, run.seconds_left - seconds_since(begin)) +
-                          run.seconds_left * static_cast<double>(later);
-      status.show(fmt::format("scene {} of {}, {}: {}  {} left", i + 1, scenes.size(), scenes[i].name, what,
-                              clock_text(left)));
-    });
+    if (tables.results.has({scene.name}, run.methods, scene.settings))
+      fmt::print("{}: measured already\n", scene.name);
+    else
+      pending.push_back(&scene);
+  for (std::size_t i = 0; i < pending.size(); ++i) {
+    const SceneRun& scene = *pending[i];
+    const double later = run.seconds_left * static_cast<double>(pending.size() - i - 1);
+    const auto report = [&](const std::string& what, double left) {
+      status.show(fmt::format("scene {} of {}, {}: {}  {} left", i + 1, pending.size(), scene.name, what,
+                              clock_text(left + later)));
+    };
+    const auto notice = [&](const std::string& text) {
+      status.clear();
+      fmt::print("{}: {}\n", scene.name, text);
+    };
+    const SceneResults measured = measure(run, scene, tables, report, notice);
     status.clear();
-    print(scenes[i], results.reference, results.methods);
+    print(run, scene, measured);
     ++progress.scenes;
   }
 }
@@ -273,7 +284,7 @@ bool measure_scenes(const ScenesOptions& options) {
     progress.programs = files.size() * methods.size();
     std::vector<std::function<scene::Scene()>> loads;
     for (const auto& file : files) loads.emplace_back([&file] { return scene_file::load(file); });
-    progress.programs_built = build_programs(loads, methods, settings_for(options));
+    progress.programs_built = build_programs(loads, methods, bench_settings(options));
   }
   const device::Device device = device::open_devices(options.devices).front();
   const double total = options.quick ? quick_total : default_total;

@@ -4,11 +4,9 @@
 #include <cstdio>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "bench/common/methods/build_ahead.h"
 #include "bench/common/methods/result_table.h"
-#include "bench/common/methods/timed_render.h"
 #include "bench/common/report/draw.h"
 #include "bench/common/status_line.h"
 #include "bench/common/tables/array_file.h"
@@ -26,15 +24,8 @@ constexpr double default_seconds = 20, quick_seconds = 10; // per cell
 constexpr double default_total = 13 * 60, quick_total = 90;
 constexpr int default_side = 48, quick_side = 32;
 constexpr double reference_share = 0.15; // of the time of a cell
-constexpr int trial_renders = 2;         // few: they do not choose the method of the reference
 // In every cell bidir balance has an efficient technique for each kind of path.
 const Method reference_method{"bidir", "exact", "balance"};
-
-std::vector<std::string> columns() {
-  std::vector<std::string> all = result_columns();
-  all.emplace_back("clock"); // of variance_times_seconds; processor time excludes other programs
-  return all;
-}
 
 std::vector<Method> methods_of(const StabilityOptions& options) {
   std::vector<Method> methods = all_methods(options.strategies, options.quick && options.variants.empty());
@@ -55,7 +46,7 @@ struct Run { // settings of all cells
   double seconds_left = 0; // per cell, after building kernels
 
   [[nodiscard]] CommonValues common_values() const {
-    return {device.name, lanes, options.seed, device.type == "cpu"};
+    return {device.name, lanes, options.seed, clock_of(device)};
   }
 };
 
@@ -89,9 +80,10 @@ ReferenceImage reference_of(const CellRun& cell, const SceneBenchSettings& setti
                             const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / ("stability-" + cell.name() + ".exr");
   if (auto saved = read_reference(file, cell.settings)) return *saved;
-  if (settings.report) settings.report("reference by " + reference_method.name());
+  if (settings.report) settings.report("reference by " + reference_method.name(), settings.seconds);
+  MethodRenderer renderer(cell.scene, render_settings(reference_method, cell.scene, settings));
   const ReferenceImage reference =
-      make_reference(cell.scene, reference_method, render_settings(reference_method, cell.scene, settings),
+      make_reference(renderer, reference_method, cell.scene.camera, settings.seed,
                      std::max(reference_share * settings.seconds, 0.25), settings.interrupted);
   make_folder(folder);
   write_reference(file, cell.settings, reference, cell.scene.camera);
@@ -101,76 +93,49 @@ ReferenceImage reference_of(const CellRun& cell, const SceneBenchSettings& setti
 void write_image(const std::filesystem::path& folder, const CellRun& cell, const ReferenceImage& reference) {
   make_folder(folder);
   const auto side = static_cast<std::size_t>(cell.scene.camera.width);
-  write_array(folder / (cell.name() + ".npy"), {side, side, 3}, reference.radiance);
+  write_array(folder / (cell.name() + ".npy"), {side, side, 3}, reference.image.radiance);
 }
 
-void print(const Run& run, const CellRun& cell, const std::vector<MethodResult>& results) {
-  const auto cost = [&](const MethodResult& r) {
-    return r.variance.value *
-           (run.common_values().processor_time ? r.processor_seconds_per_sample : r.seconds_per_sample);
-  };
-  std::vector<const MethodResult*> sound;
-  std::vector<std::string> others;
-  for (const MethodResult& result : results) {
-    if (result.verdict == Verdict::sound)
-      sound.push_back(&result);
-    else
-      others.push_back(fmt::format("{} {}", result.method.name(), word_of(result.verdict)));
-  }
-  std::ranges::sort(sound, {}, [&](const MethodResult* r) { return cost(*r); });
-  std::string text = cell.title() + ": ";
-  text += sound.empty()
-              ? "no method is sound"
-              : fmt::format("{}, {:.3g} us to variance 1", sound[0]->method.name(), 1e6 * cost(*sound[0]));
-  if (sound.size() > 1)
-    text += fmt::format("; {} takes {:.3g} times as long", sound[1]->method.name(),
-                        cost(*sound[1]) / cost(*sound[0]));
-  if (!others.empty()) text += fmt::format("; {}", fmt::join(others, ", "));
-  fmt::print("{}\n", text);
-  std::fflush(stdout);
-}
+using Report = std::function<void(const std::string& what, double seconds_left)>;
 
-void measure(const Run& run, const CellRun& cell, const std::vector<Method>& methods, ResultTable& table,
-             StatusLine& status, const std::function<void(const std::string&)>& report) {
+void measure(const Run& run, const CellRun& cell, ResultTable& table, StatusLine& status,
+             const Report& report) {
   const Clock::time_point begin = Clock::now();
-  SceneBenchSettings settings = bench_settings(run.options, trial_renders);
+  SceneBenchSettings settings = bench_settings(run.options);
   settings.seconds = run.seconds_left;
   settings.report = report;
   ReferenceImage reference = reference_of(cell, settings, run.options.folder / "references");
   settings.seconds = std::max(0.0, run.seconds_left - seconds_since(begin));
   SceneBench bench(cell.scene, settings);
-  bench.try_methods(methods);
+  bench.try_methods(run.methods);
   const std::vector<MethodResult> results = bench.measure(reference);
+  const std::vector<RankedCost> costs = rank(results, run.common_values().clock);
   write_image(run.options.folder / "stability-images", cell, reference);
-  table.remove(cell.key, methods, cell.settings);
-  for (const MethodResult& result : results) {
-    auto values = result_values(result, reference, cell.scene.camera, run.common_values());
-    values.emplace_back(run.common_values().processor_time ? "processor" : "wall");
-    table.add(cell.key, result.method, values, cell.settings);
-  }
+  table.remove(cell.key);
+  for (std::size_t i = 0; i < results.size(); ++i)
+    table.add(cell.key, results[i].method,
+              result_values(results[i], costs[i], reference, cell.scene.camera, run.common_values()),
+              cell.settings);
   table.write();
   status.clear();
-  print(run, cell, results);
+  fmt::print("{}: {}\n", cell.title(), answer_of(results, costs, run.seconds));
+  std::fflush(stdout);
 }
 
 // ---- All cells
 
 void measure_all(const Run& run, const std::vector<CellRun>& cells, ResultTable& table) {
   StatusLine status;
-  std::vector<std::pair<const CellRun*, std::vector<Method>>> pending;
+  std::vector<const CellRun*> pending;
   for (const CellRun& cell : cells)
-    if (auto methods = table.missing(cell.key, run.methods, cell.settings); !methods.empty())
-      pending.emplace_back(&cell, std::move(methods));
+    if (!table.has(cell.key, run.methods, cell.settings)) pending.push_back(&cell);
   if (pending.size() < cells.size())
     fmt::print("{} of {} cells are measured already\n", cells.size() - pending.size(), cells.size());
   for (std::size_t i = 0; i < pending.size(); ++i) {
-    const auto& [cell, methods] = pending[i];
-    const Clock::time_point begin = Clock::now();
-    measure(run, *cell, methods, table, status, [&](const std::string& what) {
-      const double left = std::max(0.0, run.seconds_left - seconds_since(begin)) +
-                          run.seconds_left * static_cast<double>(pending.size() - i - 1);
-      status.show(fmt::format("cell {} of {}, {}: {}  {} left", i + 1, pending.size(), cell->title(), what,
-                              clock_text(left)));
+    const double later = run.seconds_left * static_cast<double>(pending.size() - i - 1);
+    measure(run, *pending[i], table, status, [&](const std::string& what, double left) {
+      status.show(fmt::format("cell {} of {}, {}: {}  {} left", i + 1, pending.size(), pending[i]->title(),
+                              what, clock_text(left + later)));
     });
   }
 }
@@ -192,7 +157,7 @@ void build_kernels(const StabilityOptions& options, const StabilityCell& cell,
   std::vector<Method> all = methods;
   if (std::ranges::count(all, reference_method) == 0) all.push_back(reference_method);
   (void)build_programs({[&] { return stability_scene(cell.exponent, cell.light_radius, 1); }}, all,
-                       bench_settings(options, trial_renders));
+                       bench_settings(options));
 }
 
 } // namespace
@@ -219,7 +184,7 @@ bool measure_stability(const StabilityOptions& options) {
       options.cells.empty() ? stability_cells(options.quick) : options.cells;
   const std::vector<Method> methods = methods_of(options);
   make_folder(options.folder);
-  ResultTable table(options.folder, "stability.csv", {"exponent", "light_radius"}, columns());
+  ResultTable table(options.folder, "stability.csv", {"exponent", "light_radius"}, result_columns());
   const Clock::time_point begin = Clock::now();
   if (options.build_ahead && table.empty()) {
     table.write();

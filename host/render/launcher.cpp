@@ -27,17 +27,21 @@ double seconds_of(const cl::Event& kernel_done) {
 Launcher::Launcher(const device::Device& device, const device::BuiltProgram& program, const HostScene& scene,
                    const Parts& parts, const Settings& settings)
     : device_(device), scene_(device, scene, parts), parts_(parts),
-      kernel_(program, settings::info_of(parts.integrator).kernel),
-      planner_(device.info, parts, settings.launch_seconds),
+      kernel_(program, settings::info_of(parts.integrator).kernel), planner_(device.info, parts),
       pixels_(static_cast<std::int64_t>(scene.camera.width) * scene.camera.height) {
   scene_.bind(kernel_);
   kernel_.set("pixel_count", static_cast<cl_int>(pixels_));
-  kernel_.set("seed",
-              cl_uint2{{static_cast<cl_uint>(settings.seed), static_cast<cl_uint>(settings.seed >> 32)}});
   kernel_.set("max_edges", bounded(settings.max_depth));
   kernel_.set("roulette_edges", bounded(settings.rr_depth));
   kernel_.set("sky_light", static_cast<cl_int>(std::max(scene.lights.constant, 0)));
   kernel_.set("ambient", static_cast<cl_float>(settings.ambient.value_or(0.0) / scene.lights.unit));
+  begin(settings);
+}
+
+void Launcher::begin(const Settings& settings) {
+  kernel_.set("seed",
+              cl_uint2{{static_cast<cl_uint>(settings.seed), static_cast<cl_uint>(settings.seed >> 32)}});
+  planner_.set_launch_seconds(settings.launch_seconds);
 }
 
 Launcher::~Launcher() {

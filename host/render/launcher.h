@@ -23,6 +23,9 @@ public:
   Launcher(const Launcher&) = delete;
   Launcher& operator=(const Launcher&) = delete;
 
+  /// Sets what may differ between the renders of a scene: the seed and the duration of a launch.
+  void begin(const Settings& settings);
+
   /// An empty launch. Drivers defer work to a kernel's first launch; PoCL compiles most of the kernel then.
   void warm_up();
 

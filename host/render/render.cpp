@@ -40,11 +40,10 @@ void add(const Counts& counts, Counts& to) {
 // The work that devices share. Taking a launch and adding its results to the film are serialized by a lock.
 class DispatchLoop {
 public:
-  DispatchLoop(const scene::Camera& camera, const Settings& settings, film::Film& film, const Events& events,
-               const RenderState& from)
+  DispatchLoop(const Settings& settings, film::Film& film, const Events& events, const RenderState& from)
       : settings_(settings), film_(film), events_(events), begin_(Clock::now()),
         seconds_before_(from.seconds_render), open_ended_(settings.time_limit || settings.target_error),
-        schedule_(static_cast<std::int64_t>(camera.width) * camera.height,
+        schedule_(static_cast<std::int64_t>(film.pixels().size()),
                   open_ended_ ? std::nullopt : std::optional<std::int64_t>(settings.samples_per_pixel),
                   from.position),
         counts_(from), ended_(from.paths > 0 && precise_enough()) {}
@@ -285,30 +284,59 @@ void run_all(DispatchLoop& loop, std::vector<Worker>& workers) {
     if (failure) std::rethrow_exception(failure);
 }
 
-} // namespace
-
-Statistics render(const scene::Scene& scene, const Settings& settings, film::Film& film, const Events& events,
-                  const RenderState& from) try {
-  check(settings);
-  check_paths_end(scene, settings);
-  warn(scene, settings, events);
-  Statistics statistics;
-  const std::vector<device::Device> devices = device::open_devices(settings.devices);
-  WorkerFactory factory(scene, settings, events);
-  std::vector<Worker> workers;
-  for (const device::Device& device : devices) workers.push_back(factory.make(device, statistics));
-  describe(statistics, devices, workers);
-  set_unit(film, factory.unit());
-  statistics.shines = factory.shines();
-  if (settings.clamp) film.set_clamp(*settings.clamp);
-  if (settings.techniques) film.use_techniques();
-
-  DispatchLoop loop(scene.camera, settings, film, events, from);
-  run_all(loop, workers);
-  static_cast<RenderState&>(statistics) = loop.state();
-  return statistics;
+// Calls `work`; an error of OpenCL becomes a DeviceError.
+template<class Work>
+auto reporting_device_errors(const Work& work) try {
+  return work();
 } catch (const cl::Error& error) {
   throw DeviceError(fmt::format("{} failed: {}", error.what(), device::error_name(error.err())));
+}
+
+} // namespace
+
+struct Renderer::Ready {
+  std::vector<Worker> workers;
+  Statistics statistics; // of the set-up
+  double unit = 1;       // of the film's sums
+};
+
+Renderer::Renderer(const scene::Scene& scene, const Settings& settings, const Events& events)
+    : ready_(std::make_unique<Ready>()) {
+  reporting_device_errors([&] {
+    check(settings);
+    check_paths_end(scene, settings);
+    warn(scene, settings, events);
+    const std::vector<device::Device> devices = device::open_devices(settings.devices);
+    WorkerFactory factory(scene, settings, events);
+    for (const device::Device& device : devices)
+      ready_->workers.push_back(factory.make(device, ready_->statistics));
+    describe(ready_->statistics, devices, ready_->workers);
+    ready_->statistics.shines = factory.shines();
+    ready_->unit = factory.unit();
+  });
+}
+
+Renderer::~Renderer() = default;
+
+Statistics Renderer::render(const Settings& settings, film::Film& film, const Events& events,
+                            const RenderState& from) {
+  return reporting_device_errors([&] {
+    check(settings);
+    set_unit(film, ready_->unit);
+    if (settings.clamp) film.set_clamp(*settings.clamp);
+    if (settings.techniques) film.use_techniques();
+    for (const Worker& worker : ready_->workers) worker.launcher->begin(settings);
+    DispatchLoop loop(settings, film, events, from);
+    run_all(loop, ready_->workers);
+    Statistics statistics = ready_->statistics;
+    static_cast<RenderState&>(statistics) = loop.state();
+    return statistics;
+  });
+}
+
+Statistics render(const scene::Scene& scene, const Settings& settings, film::Film& film, const Events& events,
+                  const RenderState& from) {
+  return Renderer(scene, settings, events).render(settings, film, events, from);
 }
 
 } // namespace phlux::render

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 
 #include "film/film.h"
@@ -29,11 +30,32 @@ struct Events {
   std::function<bool(const Progress&)> progress;
 };
 
-/// Adds samples to `film`, which has the camera's width and height. To resume an earlier render of the scene
-/// with these settings, `film` is the earlier one's and `from` its state; samples, seconds and counts then
-/// include the earlier ones. On one device the film is the same, bit for bit, as without the interruption.
-/// @throws UsageError for settings that cannot work, SceneError for a scene that cannot be rendered,
-/// DeviceError
+/// A scene that is ready to be rendered: its tables and its program on every device. Renders it several times
+/// without building and copying these again.
+class Renderer {
+public:
+  /// `scene` and `settings` are only used here. @throws UsageError for settings that cannot work, SceneError
+  /// for a scene that cannot be rendered, DeviceError
+  Renderer(const scene::Scene& scene, const Settings& settings, const Events& events);
+  ~Renderer();
+  Renderer(const Renderer&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
+
+  /// Adds samples to `film`, which has the camera's width and height. Seed, samples, limits of time and
+  /// error, launch_seconds and clamp are those of `settings`; everything else must be as in the
+  /// constructor's. To resume an earlier render, `film` is the earlier one's and `from` its state; samples,
+  /// seconds and counts then include the earlier ones. On one device the film is the same, bit for bit, as
+  /// without the interruption. The set-up times in the result are those of the constructor.
+  /// @throws UsageError, SceneError for a film of another version, DeviceError
+  [[nodiscard]] Statistics render(const Settings& settings, film::Film& film, const Events& events,
+                                  const RenderState& from = {});
+
+private:
+  struct Ready;
+  std::unique_ptr<Ready> ready_;
+};
+
+/// Renderer::render() for one render. @throws as Renderer and its render()
 [[nodiscard]] Statistics render(const scene::Scene& scene, const Settings& settings, film::Film& film,
                                 const Events& events, const RenderState& from = {});
 

@@ -24,7 +24,8 @@ ResultTable::Values values(const MethodResult& result) {
   reference.method = "bidir balance";
   scene::Camera camera;
   camera.width = 3, camera.height = 2;
-  return result_values(result, reference, camera, {"a CPU, of some kind", 4, 7, true});
+  const RankedCost cost{.cost = 2 * .25, .ratio = 1.5, .low = .9, .high = 2.25, .rank = Rank::tied};
+  return result_values(result, cost, reference, camera, {"a CPU, of some kind", 4, 7, CostClock::processor});
 }
 
 MethodResult result_with(Verdict verdict) {
@@ -50,7 +51,11 @@ TEST_CASE("The table contains only the values that the verdict of a method allow
   const auto sound = values(result_with(Verdict::sound));
   CHECK(sound.size() == result_columns().size());
   CHECK(value_of(sound, "variance_per_sample") == "2");
-  CHECK(value_of(sound, "variance_times_seconds") == "0.5"); // processor time
+  CHECK(value_of(sound, "variance_times_seconds") == "1"); // wall-clock time, as seconds_per_sample
+  CHECK(value_of(sound, "cost") == "0.5");
+  CHECK(value_of(sound, "clock") == "processor");
+  CHECK(value_of(sound, "cost_ratio_low") == "0.9");
+  CHECK(value_of(sound, "rank") == "tied");
   CHECK(value_of(sound, "device") == "a CPU  of some kind");
   CHECK(value_of(sound, "image") == "3x2");
   const auto suspect = values(result_with(Verdict::suspect_variance));
@@ -65,7 +70,7 @@ TEST_CASE("The table contains only the values that the verdict of a method allow
   CHECK(value_of(refused, "seconds_per_sample").empty());
 }
 
-TEST_CASE("Missing methods are those without a row of the same settings") {
+TEST_CASE("A measurement is complete if every method has a row of the same settings") {
   const TemporaryFolder folder;
   {
     ResultTable table = open(folder);
@@ -76,15 +81,13 @@ TEST_CASE("Missing methods are those without a row of the same settings") {
   }
   ResultTable table = open(folder);
   CHECK_FALSE(table.empty());
-  CHECK(table.missing(key, {none, mis}, "s").empty()); // only refused methods are missing
-  CHECK(table.missing(key, {none, mis, light}, "s") == std::vector<Method>{none, light});
-  CHECK(table.missing(key, {mis}, "other settings") == std::vector<Method>{mis});
-  CHECK(table.missing(other_key, {mis}, "s") == std::vector<Method>{mis});
-  table.remove(key, {none}, "s");
-  CHECK(table.missing(key, {none, mis}, "s") == std::vector<Method>{none});
-  table.remove(other_key, {mis}, "other settings");
-  CHECK(table.missing(key, {mis}, "s").empty());
-  table.remove(key, {}, "other settings");
+  CHECK(table.has(key, {none, mis}, "s"));
+  CHECK_FALSE(table.has(key, {none, mis, light}, "s"));
+  CHECK_FALSE(table.has(key, {mis}, "other settings"));
+  CHECK_FALSE(table.has(other_key, {mis}, "s"));
+  table.remove(other_key);
+  CHECK(table.has(key, {mis}, "s"));
+  table.remove(key);
   CHECK(table.empty());
 }
 

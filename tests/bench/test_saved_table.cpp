@@ -43,12 +43,19 @@ TEST_CASE("References are read back only for the same settings") {
   const TemporaryFolder folder;
   phlux::scene::Camera camera;
   camera.width = 2, camera.height = 1;
-  const ReferenceImage reference{{1, 2, 3, 4, 5, 6}, 0.5, {3.5, 0.25}, 4, "path mis", 7, 100};
+  const ReferenceImage reference{noisy_reference({1, 2, 3, 4, 5, 6}, {0.5, 0.5, 0.5, 2, 2, 2}, 2),
+                                 {3.5, 0.25, 7},
+                                 8,
+                                 "path mis",
+                                 7,
+                                 100};
   write_reference(folder / "s.exr", "abc", reference, camera);
   const auto read = read_reference(folder / "s.exr", "abc");
   REQUIRE(read);
-  CHECK(read->radiance == reference.radiance);
-  CHECK(read->relmse == reference.relmse);
+  CHECK(read->image.radiance == reference.image.radiance);
+  CHECK(read->image.variance == reference.image.variance);
+  CHECK(read->image.weights == reference.image.weights);
+  CHECK(read->mean.degrees == 7);
   CHECK(read->mean.standard_error == reference.mean.standard_error);
   CHECK(read->method == reference.method);
   CHECK_FALSE(read_reference(folder / "s.exr", "abd"));

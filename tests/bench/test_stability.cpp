@@ -21,10 +21,11 @@ std::vector<MethodResult> measured(const scene::Scene& scene, const std::vector<
                                    double seconds) {
   SceneBenchSettings settings;
   settings.seconds = seconds;
-  settings.trial_renders = 2;
   SceneBench bench(scene, settings);
   bench.try_methods(methods);
-  return bench.measure(make_reference(scene, bidir, render_settings(bidir, scene, settings), 0.25, {}));
+  MethodRenderer renderer(scene, render_settings(bidir, scene, settings));
+  ReferenceImage reference = make_reference(renderer, bidir, scene.camera, settings.seed, 0.25, {});
+  return bench.measure(reference);
 }
 
 double power(const scene::Scene& scene) {
@@ -69,11 +70,10 @@ TEST_CASE("A method that never hits the light is suspect and does not render the
   const scene::Scene scene = stability_scene(100, 1e-4, 8);
   SceneBenchSettings settings;
   settings.seconds = 0.5;
-  settings.trial_renders = 3;
   SceneBench bench(scene, settings);
   bench.try_methods({none, mis});
   CHECK(bench.trials()[0].variance == 0);
-  const ReferenceImage reference = bench.reference();
+  ReferenceImage reference = bench.reference();
   CHECK(reference.method == mis.name());
   const auto results = bench.measure(reference);
   CHECK(results[0].verdict == Verdict::suspect_variance);

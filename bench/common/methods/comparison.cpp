@@ -6,14 +6,12 @@
 
 namespace phlux::bench {
 
-SceneBenchSettings bench_settings(const ComparisonOptions& options, int trial_renders) {
+SceneBenchSettings bench_settings(const ComparisonOptions& options) {
   SceneBenchSettings settings;
   settings.devices = options.devices;
   settings.lanes = options.lanes;
   settings.kernel_dir = options.kernel_dir;
   settings.seed = options.seed;
-  settings.least_rounds = options.quick ? 5 : 10;
-  settings.trial_renders = trial_renders;
   settings.interrupted = options.interrupted;
   return settings;
 }

@@ -22,7 +22,7 @@ struct ComparisonOptions : CommonOptions {
   std::function<bool()> interrupted; ///< may be empty
 };
 
-[[nodiscard]] SceneBenchSettings bench_settings(const ComparisonOptions& options, int trial_renders);
+[[nodiscard]] SceneBenchSettings bench_settings(const ComparisonOptions& options);
 
 /// Seconds for each scene: the requested time if there is one. Else the `total` minus the time spent on
 /// `building` kernels, divided by the number of scenes, limited to [seconds / 4, seconds].

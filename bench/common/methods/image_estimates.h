@@ -5,11 +5,10 @@
 // pixel, the inverse of the efficiency (Veach 1997, chapter 2).
 //
 // Only means of independent renders are used, so the estimates also hold where the samples of one render are
-// correlated. Standard errors are jackknifed over the repeats (Efron and Stein 1981). With R repeats,
-// value +- t standard errors is a confidence interval of Student's t distribution with R - 1 degrees of
-// freedom.
+// correlated. Vectors of radiance, variance and weights have three values per pixel.
 #pragma once
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -19,16 +18,39 @@ namespace phlux::bench {
 
 /// The image of one render.
 struct ImageEstimate {
-  std::vector<double> radiance; ///< three values per pixel
-  std::vector<double> samples;  ///< of each pixel
+  std::vector<double> radiance;
+  std::vector<double> samples; ///< one value per pixel
 };
 
+/// A value with its standard error, from a t distribution with `degrees` degrees of freedom.
 struct Estimate {
   double value = 0, standard_error = 0;
+  double degrees = std::numeric_limits<double>::infinity();
 };
 
-using Reference = std::vector<double>; ///< radiance, three values per pixel
 using Repeats = std::span<const ImageEstimate>;
+
+/// What images are compared with. The weight of a squared error is 1 / (radiance^2 + 1e-4).
+struct Reference {
+  std::vector<double> radiance;
+  std::vector<double> variance; ///< of the radiance; 0 where it is exact
+  std::vector<double> weights;
+
+  /// The expected relative MSE of the reference itself.
+  [[nodiscard]] double relmse() const;
+};
+
+/// A reference without error.
+[[nodiscard]] Reference exact_reference(std::vector<double> radiance);
+
+/// A reference with noise, of an image of this width. Its weights are those of the denoised image: by its own
+/// value, a pixel that is too bright by chance would lower the weight of its error. Denoised by the local
+/// linear minimum mean square error filter (Lee 1980) over 9x9 pixels.
+[[nodiscard]] Reference noisy_reference(std::vector<double> radiance, std::vector<double> variance,
+                                        std::size_t width);
+
+/// The mean of the repeats, as a reference with its own variance. Requires two repeats or more.
+[[nodiscard]] Reference pooled_reference(Repeats repeats, std::size_t width);
 
 [[nodiscard]] ImageEstimate estimate_of(const film::Film& film);
 
@@ -37,16 +59,21 @@ using Repeats = std::span<const ImageEstimate>;
 
 [[nodiscard]] double relative_mse(const ImageEstimate& image, const Reference& reference);
 
-/// Relative variance per sample: variance of the repeats about their mean, times their samples. Requires two
+/// Mean of the values with its standard error, from values.size() - 1 degrees of freedom. With one value the
+/// standard error is infinite.
+[[nodiscard]] Estimate mean_of(std::span<const double> values);
+
+/// Relative variance per sample by each repeat: its squared distance from the mean of all repeats, times its
+/// samples, times R / (R - 1) for R repeats. The mean of these values is the unbiased estimate. Requires two
 /// repeats or more.
-[[nodiscard]] Estimate variance_per_sample(Repeats repeats, const Reference& reference);
+[[nodiscard]] std::vector<double> variances_per_sample(Repeats repeats, const Reference& reference);
 
-/// Mean radiance over pixels and channels. Requires two repeats or more.
-[[nodiscard]] Estimate image_mean(Repeats repeats);
+/// Mean radiance over pixels and channels of each repeat.
+[[nodiscard]] std::vector<double> image_means(Repeats repeats);
 
-/// The relative MSE of the pooled image minus the part that its variance explains. What remains is squared
-/// bias, or the error of the reference. Requires two repeats or more. Without bias the jackknife of this
-/// difference of squares overestimates the standard error.
+/// The relative squared error of the pooled image, minus the parts that the variances of the image and of the
+/// reference explain: squared bias. The standard error is that of the mean over groups of pixels, so it holds
+/// for any distribution of the radiance. Requires two repeats or more.
 [[nodiscard]] Estimate unexplained_mse(Repeats repeats, const Reference& reference);
 
 /// From images with one sample per pixel: the share of the largest 0.1% of the pixels in the sum of all
@@ -54,13 +81,20 @@ using Repeats = std::span<const ImageEstimate>;
 /// few samples and may be infinite.
 [[nodiscard]] double top_share(Repeats one_sample_images, const Reference& reference);
 
-/// log(variance per sample estimated from `many` / from `few`), for repeats with more and with fewer samples.
-/// Near 0 for a finite variance whose largest samples were drawn; an infinite variance grows with the number
-/// of samples.
-[[nodiscard]] Estimate log_growth(Repeats many, Repeats few, const Reference& reference);
+/// log(mean of `many` / mean of `few`), of the variances per sample by repeats with more and with fewer
+/// samples. Near 0 for a finite variance whose largest samples were drawn; an infinite variance grows with
+/// the number of samples. 0 if a mean is 0.
+[[nodiscard]] Estimate log_growth(std::span<const double> many, std::span<const double> few);
 
-/// Two-sided p-value of the hypothesis value = expected, by Student's t distribution with repeats - 1 degrees
-/// of freedom. With a standard error of 0: 1 if the value is as expected, else 0.
-[[nodiscard]] double p_value(const Estimate& figure, double expected, std::size_t repeats);
+/// a - b of independent estimates, with Welch's degrees of freedom.
+[[nodiscard]] Estimate difference_of(const Estimate& a, const Estimate& b);
+
+/// p-values of the hypothesis value = expected, two-sided, and of value <= expected, one-sided. With a
+/// standard error of 0: 1 if the hypothesis is true of the value, else 0. With an infinite one: 1.
+[[nodiscard]] double p_value(const Estimate& figure, double expected);
+[[nodiscard]] double p_value_above(const Estimate& figure, double expected);
+
+/// The distance in standard errors that has the two-sided p-value `level`.
+[[nodiscard]] double t_quantile(double level, double degrees);
 
 } // namespace phlux::bench

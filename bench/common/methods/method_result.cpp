@@ -13,14 +13,15 @@ namespace phlux::bench {
 namespace {
 
 // The relative standard error of a finite variance decreases with every sample, that of an infinite one does
-// not. A variance is suspect if its relative standard error is above suspect_error; or above
-// suspect_error_with_tail while the top share is above suspect_top_share; or if it grows from one sample per
-// pixel to many by the factor suspect_growth.
-constexpr double suspect_error = 0.25;
-constexpr double suspect_error_with_tail = 0.1, suspect_top_share = 0.3;
-constexpr double suspect_growth = 2.0;
-// Of each test. About 60 rows with two tests each: a false alarm in 1% of the reports with normal means.
-constexpr double significance_level = 1e-4;
+// not. A variance is suspect if its relative standard error is above tail_error while the top share is above
+// suspect_top_share, or if it grows from one sample per pixel to many by the factor suspect_growth.
+constexpr double tail_error = 0.1, suspect_top_share = 0.3;
+constexpr double suspect_growth = 2.0, growth_level = 1e-4;
+// A difference is a bias only at 4.5 standard errors, as a p-value of the t distribution.
+constexpr double bias_level = 6.8e-6;
+// A method is undecided while its variance is known to less than largest_error, or while a bias of
+// detectable_bias would not be found.
+constexpr double largest_error = 0.25, detectable_bias = 0.1;
 constexpr double rounding = 1e-5; // relative error that float32 sums may give a mean, whatever its noise
 
 double mean_samples(const ImageEstimate& image) {
@@ -31,7 +32,7 @@ double mean_samples(const ImageEstimate& image) {
 } // namespace
 
 const char* word_of(Verdict verdict) {
-  constexpr std::array<const char*, 4> words = {"sound", "suspect", "biased", "refused"};
+  constexpr std::array<const char*, 5> words = {"sound", "suspect", "biased", "undecided", "refused"};
   return words[static_cast<std::size_t>(verdict)];
 }
 
@@ -41,8 +42,7 @@ MethodRenders::TimedError MethodRenders::error_of(const Snapshot& snapshot, cons
 }
 
 void MethodRenders::add(TimedRender render, const Reference& reference) {
-  seconds_per_sample_.push_back(render.seconds_per_sample());
-  processor_seconds_per_sample_.push_back(render.processor_seconds_per_sample);
+  costs_.push_back({0, render.seconds_per_sample, render.processor_seconds_per_sample});
   for (const Snapshot& snapshot : render.intermediate) errors_.push_back(error_of(snapshot, reference));
   errors_.push_back(error_of(render.last, reference));
   images_.push_back(std::move(render.last.image));
@@ -70,68 +70,91 @@ std::vector<ConvergencePoint> MethodRenders::convergence() const {
   return points;
 }
 
-void MethodRenders::judge_mean(MethodResult& result, const ReferenceImage& reference,
-                               const std::string& known_bias) const {
-  const Estimate unexplained = unexplained_mse(images_, reference.radiance);
-  const Estimate difference{result.mean.value - reference.mean.value,
-                            std::hypot(result.mean.standard_error, reference.mean.standard_error)};
-  if (difference.standard_error > 0) result.mean_bias_sigma = difference.value / difference.standard_error;
-  // The error of the reference has fewer degrees of freedom than the rounds, but is a small part of the sum.
-  const bool mean_differs = std::abs(difference.value) > rounding * reference.mean.value &&
-                            p_value(difference, 0, images_.size()) < significance_level;
-  const bool pixels_differ = unexplained.value > 2 * reference.relmse + rounding * rounding &&
-                             p_value(unexplained, reference.relmse, images_.size()) < significance_level;
-  if (!known_bias.empty())
-    result.reason = known_bias;
-  else if (mean_differs)
-    result.reason = fmt::format("the image's mean is {:+.2g}% off the reference's ({:+.1f} sigma)",
-                                100 * difference.value / reference.mean.value, result.mean_bias_sigma);
-  else if (pixels_differ)
-    result.reason = fmt::format("the variance does not explain a relative MSE of {:.2g}", unexplained.value);
-  if (!known_bias.empty() || mean_differs || pixels_differ) result.verdict = Verdict::biased;
+Estimate MethodRenders::variance(const Reference& reference) const {
+  return mean_of(variances_per_sample(images_, reference));
 }
 
-void MethodRenders::judge_variance(MethodResult& result, const Reference& reference) const {
-  if (!(result.variance.value > 0)) {
-    if (result.verdict == Verdict::sound) return;
-    result.verdict = Verdict::suspect_variance;
-    result.reason = "all renders are equal: the samples that carry the light were never drawn";
-    return;
-  }
+std::string MethodRenders::why_suspect(const MethodResult& result, const ReferenceImage& reference) const {
   const double error = result.variance.standard_error / result.variance.value;
-  if (error > suspect_error || (error > suspect_error_with_tail && result.top_share > suspect_top_share)) {
-    result.verdict = Verdict::suspect_variance;
-    result.reason =
-        fmt::format("standard error of the variance {:.0f}%: the largest 0.1% of the samples hold "
-                    "{:.0f}% of the squared error",
-                    100 * error, 100 * result.top_share);
+  if (error > tail_error && result.top_share > suspect_top_share)
+    return fmt::format("standard error of the variance {:.0f}%: the largest 0.1% of the samples hold "
+                       "{:.0f}% of the squared error",
+                       100 * error, 100 * result.top_share);
+  const Estimate growth = log_growth(variances_per_sample(images_, reference.image),
+                                     variances_per_sample(one_sample_images_, reference.image));
+  if (growth.value > std::log(suspect_growth) && p_value_above(growth, 0) < growth_level)
+    return fmt::format("the variance grew {:.1f} times with the number of samples", std::exp(growth.value));
+  return {};
+}
+
+// Rare large samples that most renders lack also look like a bias, so that the variance is judged first.
+void MethodRenders::judge(MethodResult& result, const ReferenceImage& reference) const {
+  const Estimate difference = difference_of(result.mean, reference.mean);
+  if (difference.standard_error > 0) result.mean_bias_sigma = difference.value / difference.standard_error;
+  const bool mean_differs =
+      std::abs(difference.value) > rounding * reference.mean.value && p_value(difference, 0) < bias_level;
+  const Estimate unexplained = unexplained_mse(images_, reference.image);
+  const bool pixels_differ =
+      unexplained.value > rounding * rounding && p_value_above(unexplained, 0) < bias_level;
+  const auto decide = [&](Verdict verdict, const std::string& reason) {
+    result.verdict = verdict;
+    result.reason = reason;
+  };
+  if (!(result.variance.value > 0)) {
+    if (mean_differs || pixels_differ)
+      decide(Verdict::suspect_variance,
+             "all renders are equal: the samples that carry the light were never drawn");
     return;
   }
-  const Estimate growth = log_growth(images_, one_sample_images_, reference);
-  if (growth.value > std::log(suspect_growth) && p_value(growth, 0, images_.size()) < significance_level) {
-    result.verdict = Verdict::suspect_variance;
-    result.reason =
-        fmt::format("the variance grew {:.1f} times with the number of samples", std::exp(growth.value));
-  }
+  if (const std::string why = why_suspect(result, reference); !why.empty())
+    return decide(Verdict::suspect_variance, why);
+  if (mean_differs)
+    return decide(Verdict::biased,
+                  fmt::format("the image's mean is {:+.2g}% off the reference's ({:+.1f} sigma)",
+                              100 * difference.value / reference.mean.value, result.mean_bias_sigma));
+  if (pixels_differ)
+    return decide(Verdict::biased,
+                  fmt::format("the variances do not explain a relative MSE of {:.2g}", unexplained.value));
+  const double error = result.variance.standard_error / result.variance.value;
+  const double detectable =
+      t_quantile(bias_level, difference.degrees) * difference.standard_error / reference.mean.value;
+  if (error > largest_error)
+    result.undecide(fmt::format("standard error of the variance {:.0f}%", 100 * error),
+                    error / largest_error);
+  else if (detectable > detectable_bias)
+    result.undecide(fmt::format("only a bias above {:.0f}% would be found", 100 * detectable),
+                    detectable / detectable_bias);
+}
+
+// Errors fall with the square root of the time.
+void MethodResult::undecide(const std::string& why, double error_ratio) {
+  verdict = Verdict::undecided;
+  reason = why;
+  times_longer = error_ratio * error_ratio;
 }
 
 MethodResult MethodRenders::result(const Method& method, const ReferenceImage& reference,
                                    const std::string& known_bias) const {
   MethodResult result{.method = method};
-  result.rounds = static_cast<int>(images_.size());
-  result.variance = variance_per_sample(images_, reference.radiance);
-  result.top_share = top_share(one_sample_images_, reference.radiance);
-  result.mean = image_mean(images_);
-  result.seconds_per_sample = measure::median(seconds_per_sample_);
-  result.processor_seconds_per_sample = measure::median(processor_seconds_per_sample_);
-  const auto [least, most] = std::ranges::minmax(seconds_per_sample_);
+  result.rounds = costs_;
+  const std::vector<double> variances = variances_per_sample(images_, reference.image);
+  std::vector<double> seconds, processor_seconds;
+  for (std::size_t i = 0; i < costs_.size(); ++i) {
+    result.rounds[i].variance = variances[i];
+    seconds.push_back(costs_[i].seconds);
+    processor_seconds.push_back(costs_[i].processor_seconds);
+  }
+  result.variance = mean_of(variances);
+  result.top_share = top_share(one_sample_images_, reference.image);
+  result.mean = mean_of(image_means(images_));
+  result.seconds_per_sample = measure::median(seconds);
+  result.processor_seconds_per_sample = measure::median(processor_seconds);
+  const auto [least, most] = std::ranges::minmax(seconds);
   result.seconds_per_sample_least = least, result.seconds_per_sample_most = most;
   result.convergence = convergence();
   result.first_image = images_.front();
-  judge_mean(result, reference, known_bias);
-  // A few large samples that most renders lack also look like a bias: a suspect variance replaces that
-  // verdict.
-  if (known_bias.empty()) judge_variance(result, reference.radiance);
+  judge(result, reference);
+  if (!known_bias.empty()) result.verdict = Verdict::biased, result.reason = known_bias;
   return result;
 }
 

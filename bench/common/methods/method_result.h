@@ -21,12 +21,18 @@ struct ConvergencePoint {
 };
 
 /// sound: the variance is known and the mean agrees with the reference. suspect_variance: the variance may be
-/// infinite, its value is a lower bound. biased: the image differs from the reference by more than the
-/// variance explains, or the method is known to be biased. refused: the renderer cannot render the scene.
-enum class Verdict { sound, suspect_variance, biased, refused };
+/// infinite, its value is a lower bound. biased: the image differs from the reference by more than all
+/// variances explain, or the method is known to be biased. undecided: too few samples to tell. refused: the
+/// renderer cannot render the scene.
+enum class Verdict { sound, suspect_variance, biased, undecided, refused };
 
-/// "sound", "suspect", "biased", "refused".
+/// "sound", "suspect", "biased", "undecided", "refused".
 [[nodiscard]] const char* word_of(Verdict verdict);
+
+/// Of one round, per sample.
+struct RoundCost {
+  double variance = 0, seconds = 0, processor_seconds = 0;
+};
 
 struct MethodResult {
   Method method;
@@ -37,10 +43,15 @@ struct MethodResult {
   Estimate mean{};            ///< of the image
   double mean_bias_sigma = 0; ///< (mean - mean of the reference) / standard error of the difference
   double seconds_per_sample = 0, seconds_per_sample_least = 0, seconds_per_sample_most = 0;
-  double processor_seconds_per_sample = 0;     ///< over all threads; median
+  double processor_seconds_per_sample = 0; ///< over all threads; median
+  /// By which factor more time would be needed to decide; 0 if the verdict is not undecided.
+  double times_longer = 0;
+  std::vector<RoundCost> rounds{};
   std::vector<ConvergencePoint> convergence{}; ///< the last one is for the complete renders
-  int rounds = 0;
-  ImageEstimate first_image{}; ///< of the first round
+  ImageEstimate first_image{};                 ///< of the first round
+
+  /// Makes the verdict undecided. `error_ratio`: the error that decides / the largest allowed one.
+  void undecide(const std::string& why, double error_ratio);
 };
 
 /// Collects the renders of one method on one scene.
@@ -49,7 +60,10 @@ public:
   /// `render` must have an image with one sample per pixel.
   void add(TimedRender render, const Reference& reference);
 
-  /// Requires three renders or more. `known_bias`: why the method is known to be biased, or empty.
+  /// Relative variance per sample. Requires two renders or more.
+  [[nodiscard]] Estimate variance(const Reference& reference) const;
+
+  /// Requires two renders or more. `known_bias`: why the method is known to be biased, or empty.
   [[nodiscard]] MethodResult result(const Method& method, const ReferenceImage& reference,
                                     const std::string& known_bias) const;
 
@@ -60,11 +74,11 @@ private:
   };
   [[nodiscard]] static TimedError error_of(const Snapshot& snapshot, const Reference& reference);
   [[nodiscard]] std::vector<ConvergencePoint> convergence() const;
-  void judge_mean(MethodResult& result, const ReferenceImage& reference, const std::string& known_bias) const;
-  void judge_variance(MethodResult& result, const Reference& reference) const;
+  void judge(MethodResult& result, const ReferenceImage& reference) const;
+  [[nodiscard]] std::string why_suspect(const MethodResult& result, const ReferenceImage& reference) const;
 
   std::vector<ImageEstimate> images_, one_sample_images_;
-  std::vector<double> seconds_per_sample_, processor_seconds_per_sample_;
+  std::vector<RoundCost> costs_; // without variances, which depend on all images
   std::vector<TimedError> errors_;
 };
 

@@ -34,28 +34,17 @@ Method ResultTable::method_of(const SavedTable::Row& row) const {
   return {row[key_size_], row[key_size_ + 1], row[key_size_ + 2]};
 }
 
-std::vector<Method> ResultTable::missing(const Values& key, const std::vector<Method>& methods,
-                                         const std::string& settings) const {
-  const auto row_of = [&](const Method& method) {
-    return std::ranges::find_if(table_.rows(), [&](const SavedTable::Row& row) {
+bool ResultTable::has(const Values& key, const std::vector<Method>& methods,
+                      const std::string& settings) const {
+  return std::ranges::all_of(methods, [&](const Method& method) {
+    return std::ranges::any_of(table_.rows(), [&](const SavedTable::Row& row) {
       return is_of(row, key) && method_of(row) == method && row.back() == settings;
     });
-  };
-  std::vector<Method> without;
-  bool only_refusals = true;
-  for (const Method& method : methods) {
-    const auto row = row_of(method);
-    if (row != table_.rows().end() && table_.value(*row, "verdict") != word_of(Verdict::refused)) continue;
-    only_refusals = only_refusals && row != table_.rows().end();
-    without.push_back(method);
-  }
-  return only_refusals ? std::vector<Method>{} : without;
+  });
 }
 
-void ResultTable::remove(const Values& key, const std::vector<Method>& methods, const std::string& settings) {
-  table_.remove_if([&](const SavedTable::Row& row) {
-    return is_of(row, key) && (row.back() != settings || std::ranges::count(methods, method_of(row)) > 0);
-  });
+void ResultTable::remove(const Values& key) {
+  table_.remove_if([&](const SavedTable::Row& row) { return is_of(row, key); });
 }
 
 void ResultTable::add(const Values& key, const Method& method, const Values& values,
@@ -84,6 +73,12 @@ const std::vector<std::string>& result_columns() {
                                                    "seconds_per_sample_least",
                                                    "seconds_per_sample_most",
                                                    "processor_seconds_per_sample",
+                                                   "clock",
+                                                   "cost",
+                                                   "cost_ratio",
+                                                   "cost_ratio_low",
+                                                   "cost_ratio_high",
+                                                   "rank",
                                                    "mean",
                                                    "mean_standard_error",
                                                    "mean_bias_sigma",
@@ -97,8 +92,9 @@ const std::vector<std::string>& result_columns() {
   return columns;
 }
 
-std::vector<std::string> result_values(const MethodResult& result, const ReferenceImage& reference,
-                                       const scene::Camera& camera, const CommonValues& common) {
+std::vector<std::string> result_values(const MethodResult& result, const RankedCost& cost,
+                                       const ReferenceImage& reference, const scene::Camera& camera,
+                                       const CommonValues& common) {
   Values row = {csv_value(common.device)};
   const bool refused = result.verdict == Verdict::refused, sound = result.verdict == Verdict::sound;
   const auto add = [&](double value, bool valid = true) {
@@ -113,9 +109,7 @@ std::vector<std::string> result_values(const MethodResult& result, const Referen
   add(result.variance.standard_error, variance_known);
   add(result.top_share);
   add(result.seconds_per_sample);
-  const double seconds =
-      common.processor_time ? result.processor_seconds_per_sample : result.seconds_per_sample;
-  add(result.variance.value * seconds, sound);
+  add(result.variance.value * result.seconds_per_sample, sound);
   row.emplace_back(word_of(result.verdict));
   row.push_back(csv_value(result.reason));
   add(result.variance.value);
@@ -123,13 +117,17 @@ std::vector<std::string> result_values(const MethodResult& result, const Referen
   add(result.seconds_per_sample_least);
   add(result.seconds_per_sample_most);
   add(result.processor_seconds_per_sample);
+  row.emplace_back(word_of(common.clock));
+  add(cost.cost);
+  for (const double value : {cost.ratio, cost.low, cost.high}) add(value);
+  row.emplace_back(word_of(cost.rank));
   add(result.mean.value);
   add(result.mean.standard_error);
   add(result.mean_bias_sigma);
-  for (const std::string& text :
-       {fmt::format("{}", result.rounds), fmt::format("{}", common.seed),
-        fmt::format("{}x{}", camera.width, camera.height), csv_value(reference.method),
-        number_text(reference.relmse), number_text(reference.seconds), fmt::format("{}", common.lanes)})
+  for (const std::string& text : {fmt::format("{}", result.rounds.size()), fmt::format("{}", common.seed),
+                                  fmt::format("{}x{}", camera.width, camera.height),
+                                  csv_value(reference.method), number_text(reference.image.relmse()),
+                                  number_text(reference.seconds), fmt::format("{}", common.lanes)})
     row.push_back(text);
   return row;
 }

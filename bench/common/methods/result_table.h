@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/common/methods/scene_bench.h"
+#include "bench/common/methods/ranking.h"
+#include "bench/common/methods/reference.h"
 #include "bench/common/tables/saved_table.h"
 
 namespace phlux::bench {
@@ -22,12 +23,11 @@ public:
               const Values& columns);
 
   [[nodiscard]] bool empty() const { return table_.rows().empty(); }
-  /// The `methods` without a row of these settings. Refused ones count as missing too, since they take no
-  /// time, but if all missing ones are refused, returns none.
-  [[nodiscard]] std::vector<Method> missing(const Values& key, const std::vector<Method>& methods,
-                                            const std::string& settings) const;
-  /// Removes the rows of this key that are of other settings or of these methods.
-  void remove(const Values& key, const std::vector<Method>& methods, const std::string& settings);
+  /// Whether every one of the `methods` has a row of this key and these settings.
+  [[nodiscard]] bool has(const Values& key, const std::vector<Method>& methods,
+                         const std::string& settings) const;
+  /// Removes the rows of this key: methods are only comparable within one measurement.
+  void remove(const Values& key);
   void add(const Values& key, const Method& method, const Values& values, const std::string& settings);
   /// Replaces the file atomically. @throws WriteError
   void write() const { table_.write(); }
@@ -45,13 +45,13 @@ struct CommonValues {
   std::string device;
   int lanes = 0;
   std::uint64_t seed = 0;
-  bool processor_time = false; ///< variance_times_seconds uses processor time, not wall-clock time
+  CostClock clock = CostClock::wall;
 };
 
 /// From `device` on, the columns of the contract, then those about the measurement. Values that the verdict
 /// does not allow are empty (bench/README.md).
 [[nodiscard]] const std::vector<std::string>& result_columns();
-[[nodiscard]] std::vector<std::string> result_values(const MethodResult& result,
+[[nodiscard]] std::vector<std::string> result_values(const MethodResult& result, const RankedCost& cost,
                                                      const ReferenceImage& reference,
                                                      const scene::Camera& camera, const CommonValues& common);
 

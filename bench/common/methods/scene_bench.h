@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -18,12 +19,14 @@ struct SceneBenchSettings {
   int lanes = 0;
   std::filesystem::path kernel_dir;
   std::uint64_t seed = 1;
-  double seconds = 120;  ///< for the whole scene, building kernels included
-  int least_rounds = 10; ///< even if that takes longer than `seconds`
+  double seconds = 120; ///< for the whole scene, from the constructor of SceneBench on
+  int least_rounds = 5; ///< even if they take longer than `seconds`
   int most_rounds = 10;
-  int trial_renders = 6;             ///< per method; fewer would not reveal rare large samples
   std::function<bool()> interrupted; ///< may be empty
-  std::function<void(const std::string& what)> report; ///< receives the current step; may be empty
+  /// Receives the current step and the seconds left; may be empty.
+  std::function<void(const std::string& what, double seconds_left)> report;
+  /// Receives what the user must know before it happens; may be empty.
+  std::function<void(const std::string& text)> notice;
 };
 
 /// Settings of render() for `method`: depths of the scene, devices and seed of `settings`.
@@ -36,35 +39,42 @@ struct Trial {
   std::string refusal{}; ///< why it cannot render the scene; then the rest is empty
   double variance = 0;   ///< per sample, relative to a provisional reference, plus 3 standard errors
   double seconds_per_sample = 0;
+  double least_seconds = 0; ///< for one sample per pixel
   std::vector<ImageEstimate> images{};
+  std::unique_ptr<MethodRenderer> renderer{}; ///< may be empty between renders
 };
 
 class SceneBench {
 public:
   SceneBench(const scene::Scene& scene, const SceneBenchSettings& settings);
 
-  /// @throws Interrupted, DeviceError
+  /// Uses at most 15% of the time. @throws Interrupted, DeviceError
   void try_methods(const std::vector<Method>& methods);
   [[nodiscard]] const std::vector<Trial>& trials() const { return trials_; }
   /// Rendered by the method of the trial with the least variance x seconds among those without a known bias.
   /// @throws Interrupted, DeviceError, SceneError if no method can render the scene
-  [[nodiscard]] ReferenceImage reference() const;
-  /// Measures every method of the trials. @throws Interrupted, DeviceError
-  [[nodiscard]] std::vector<MethodResult> measure(const ReferenceImage& reference) const;
+  [[nodiscard]] ReferenceImage reference();
+  /// Measures every method of the trials in the time that is left. Raises the variance of the reference if
+  /// the rounds of its method show a larger one. @throws Interrupted, DeviceError
+  [[nodiscard]] std::vector<MethodResult> measure(ReferenceImage& reference);
 
 private:
-  [[nodiscard]] render::Settings settings_for(const Method& method) const;
-  [[nodiscard]] Trial try_method(const Method& method, double seconds) const;
+  [[nodiscard]] Trial try_method(const Method& method, double seconds, int renders) const;
   void rate_trials();
-  [[nodiscard]] const Trial* best_trial() const;
+  [[nodiscard]] Trial* best_trial();
+  [[nodiscard]] MethodRenderer& renderer_of(Trial& trial) const;
+  void release(Trial& trial) const;
+  [[nodiscard]] std::vector<Trial*> accepted();
+  [[nodiscard]] std::vector<MethodRenders> run_rounds(const std::vector<Trial*>& methods,
+                                                      const ReferenceImage& reference);
   [[nodiscard]] double seconds_left() const;
-  void report_step(const std::string& what) const;
+  void report_step(const std::string& what, double seconds_left) const;
 
   const scene::Scene& scene_;
   const SceneBenchSettings& settings_;
   Clock::time_point begin_;
+  bool keep_renderers_ = true;
   std::vector<Trial> trials_;
-  double overhead_ = 0; ///< seconds that one method takes per round beyond the requested ones
 };
 
 } // namespace phlux::bench

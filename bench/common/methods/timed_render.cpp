@@ -29,25 +29,43 @@ double processor_seconds() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
+// Time per path between the first launch and the last one. Its callbacks' processor time is excluded, as is
+// the time before the results of the first launch.
+class Marginal {
+public:
+  Marginal() : begin_processor_(processor_seconds()) {}
+
+  void add_launch(const render::Progress& progress, double processor) {
+    const Time time{static_cast<double>(progress.paths), progress.seconds, processor - excluded_};
+    if (!first_) first_ = time;
+    last_ = time;
+  }
+  void exclude(double processor) { excluded_ += processor; }
+
+  void set(TimedRender& render) const {
+    if (!first_) return;
+    const bool one_launch = last_.paths == first_->paths;
+    const Time begin = one_launch ? Time{0, 0, begin_processor_} : *first_;
+    const double paths = last_.paths - begin.paths;
+    render.seconds_per_sample = (last_.wall - begin.wall) / paths;
+    render.processor_seconds_per_sample = (last_.processor - begin.processor) / paths;
+  }
+
+private:
+  struct Time {
+    double paths = 0, wall = 0, processor = 0;
+  };
+  double begin_processor_, excluded_ = 0;
+  std::optional<Time> first_;
+  Time last_;
+};
+
 bool every_pixel_has_one(const film::Film& film) {
   return all_pixels(film, [](double samples) { return samples == 1; });
 }
 
 bool every_pixel_has_some(const film::Film& film) {
   return all_pixels(film, [](double samples) { return samples >= 1; });
-}
-
-// For a time that was too short for one sample per pixel.
-TimedRender render_once(const scene::Scene& scene, render::Settings settings, std::size_t time) {
-  film::Film film(scene.camera.width, scene.camera.height);
-  settings.samples_per_pixel = 1;
-  settings.time_limit.reset();
-  TimedRender result;
-  result.statistics = render::render(scene, settings, film, {});
-  result.last = {estimate_of(film), result.statistics.seconds_render, time};
-  result.one_sample = result.last.image;
-  result.paths = static_cast<double>(result.statistics.paths);
-  return result;
 }
 
 } // namespace
@@ -64,22 +82,25 @@ bool runs_to_end(const std::function<void()>& work, const std::function<bool()>&
   return true;
 }
 
-TimedRender render_for(const scene::Scene& scene, render::Settings settings, double seconds,
-                       const std::vector<double>& times, const std::function<bool()>& interrupted) {
-  film::Film film(scene.camera.width, scene.camera.height);
+MethodRenderer::MethodRenderer(const scene::Scene& scene, const render::Settings& settings)
+    : width_(scene.camera.width), height_(scene.camera.height), settings_(settings),
+      renderer_(scene, settings, {}) {}
+
+TimedRender MethodRenderer::render_for(std::uint64_t seed, double seconds, const std::vector<double>& times,
+                                       const std::function<bool()>& interrupted) {
+  film::Film film(width_, height_);
   TimedRender result;
+  render::Settings settings = settings_;
+  settings.seed = seed;
   settings.time_limit = seconds;
   settings.launch_seconds = std::min(longest_launch_seconds, times.empty() ? seconds / 8 : times.front() / 2);
   std::size_t next = 0;
   bool stopped = false;
-  std::optional<std::uint64_t> first_paths;
-  double first_processor_seconds = 0;
+  Marginal marginal;
   render::Events events;
   events.progress = [&](const render::Progress& progress) {
-    if (!first_paths) { // the set-up is done
-      first_paths = progress.paths;
-      first_processor_seconds = processor_seconds();
-    }
+    const double callback_begin = processor_seconds();
+    marginal.add_launch(progress, callback_begin);
     if (!result.one_sample && progress.samples_done == 1.0 && every_pixel_has_one(film))
       result.one_sample = estimate_of(film);
     if (next < times.size() && progress.seconds >= times[next]) {
@@ -88,31 +109,54 @@ TimedRender render_for(const scene::Scene& scene, render::Settings settings, dou
         result.intermediate.push_back({estimate_of(film), progress.seconds, next - 1});
     }
     stopped = interrupted && interrupted();
+    marginal.exclude(processor_seconds() - callback_begin);
     return !stopped;
   };
-  result.statistics = render::render(scene, settings, film, events);
+  result.statistics = renderer_.render(settings, film, events);
   if (stopped) throw Interrupted{};
-  if (!every_pixel_has_some(film)) return render_once(scene, settings, times.size());
+  if (!every_pixel_has_some(film)) {
+    TimedRender once = render_one_sample(seed);
+    once.last.time = times.size();
+    return once;
+  }
   result.last = {estimate_of(film), result.statistics.seconds_render, times.size()};
   result.paths = static_cast<double>(result.statistics.paths);
-  if (const double paths = result.paths - static_cast<double>(first_paths.value_or(0)); paths > 0)
-    result.processor_seconds_per_sample = (processor_seconds() - first_processor_seconds) / paths;
+  marginal.set(result);
   return result;
 }
 
-film::Film render_samples(const scene::Scene& scene, const render::Settings& settings,
-                          const std::function<bool()>& interrupted) {
-  film::Film film(scene.camera.width, scene.camera.height);
+TimedRender MethodRenderer::render_one_sample(std::uint64_t seed) {
+  film::Film film(width_, height_);
+  render::Settings settings = settings_;
+  settings.seed = seed;
+  settings.samples_per_pixel = 1;
+  TimedRender result;
+  Marginal marginal;
+  render::Events events;
+  events.progress = [&](const render::Progress& progress) {
+    marginal.add_launch(progress, processor_seconds());
+    return true;
+  };
+  result.statistics = renderer_.render(settings, film, events);
+  result.last = {estimate_of(film), result.statistics.seconds_render, 0};
+  result.one_sample = result.last.image;
+  result.paths = static_cast<double>(result.statistics.paths);
+  marginal.set(result);
+  return result;
+}
+
+film::Film MethodRenderer::render_samples(std::uint64_t seed, int samples,
+                                          const std::function<bool()>& interrupted) {
+  film::Film film(width_, height_);
+  render::Settings settings = settings_;
+  settings.seed = seed;
+  settings.samples_per_pixel = samples;
   bool stopped = false;
   render::Events events;
   events.progress = [&](const render::Progress&) { return !(stopped = interrupted && interrupted()); };
-  (void)render::render(scene, settings, film, events);
+  (void)renderer_.render(settings, film, events);
   if (stopped) throw Interrupted{};
   return film;
-}
-
-ImageEstimate render_one_sample(const scene::Scene& scene, const render::Settings& settings) {
-  return render_once(scene, settings, 0).last.image;
 }
 
 } // namespace phlux::bench

@@ -28,27 +28,40 @@ struct TimedRender {
   std::optional<ImageEstimate> one_sample; ///< the image when every pixel had exactly one sample
   Snapshot last;
   double paths = 0;
-  double processor_seconds_per_sample = 0; ///< processor time of this process, over all threads
+  /// Marginal: the time after the first launch for the paths after it, so that the fixed costs of a short
+  /// render are not charged to its samples. Of a render of one launch: the whole time.
+  double seconds_per_sample = 0;
+  double processor_seconds_per_sample = 0; ///< the same in processor time of this process, over all threads
   render::Statistics statistics;
 
-  [[nodiscard]] double seconds_per_sample() const { return last.seconds / paths; }
   [[nodiscard]] double samples_per_pixel() const {
     return paths / static_cast<double>(last.image.samples.size());
   }
 };
 
-/// Renders for `seconds`, or one sample per pixel if that takes longer, and keeps the image after each of
-/// `times` (ascending, less than `seconds`). Calls `interrupted` between launches. @throws Interrupted, and
-/// as render()
-[[nodiscard]] TimedRender render_for(const scene::Scene& scene, render::Settings settings, double seconds,
-                                     const std::vector<double>& times,
-                                     const std::function<bool()>& interrupted);
+/// Renders one scene by one method several times; its program and tables stay on the devices.
+class MethodRenderer {
+public:
+  /// @throws as Renderer
+  MethodRenderer(const scene::Scene& scene, const render::Settings& settings);
 
-/// Renders `settings.samples_per_pixel` samples without logging. @throws Interrupted, and as render()
-[[nodiscard]] film::Film render_samples(const scene::Scene& scene, const render::Settings& settings,
-                                        const std::function<bool()>& interrupted);
+  /// Renders for `seconds`, or one sample per pixel if that takes longer, and keeps the image after each of
+  /// `times` (ascending, less than `seconds`). Calls `interrupted` between launches. @throws Interrupted, and
+  /// as render()
+  [[nodiscard]] TimedRender render_for(std::uint64_t seed, double seconds, const std::vector<double>& times,
+                                       const std::function<bool()>& interrupted);
 
-/// Renders one sample per pixel. @throws as render()
-[[nodiscard]] ImageEstimate render_one_sample(const scene::Scene& scene, const render::Settings& settings);
+  /// Renders one sample per pixel. @throws as render()
+  [[nodiscard]] TimedRender render_one_sample(std::uint64_t seed);
+
+  /// Renders `samples` per pixel. @throws Interrupted, and as render()
+  [[nodiscard]] film::Film render_samples(std::uint64_t seed, int samples,
+                                          const std::function<bool()>& interrupted);
+
+private:
+  int width_, height_;
+  render::Settings settings_;
+  render::Renderer renderer_;
+};
 
 } // namespace phlux::bench
