@@ -17,15 +17,6 @@ scene::Scene shipped(const std::string& name, int side) {
                           {{"width", std::to_string(side)}, {"height", std::to_string(side)}});
 }
 
-ImageEstimate rendered(const scene::Scene& scene, render::Settings settings, int samples,
-                       std::uint64_t seed) {
-  settings.samples_per_pixel = samples;
-  settings.seed = seed;
-  film::Film film(scene.camera.width, scene.camera.height);
-  (void)render::render(scene, settings, film, {});
-  return estimate_of(film);
-}
-
 ImageEstimate pixel_of(const ImageEstimate& image, std::size_t pixel) {
   const auto first = image.radiance.begin() + static_cast<std::ptrdiff_t>(3 * pixel);
   return {{first, first + 3}, {image.samples[pixel]}};
@@ -53,10 +44,11 @@ TEST_CASE("The standard error of the mean covers the radiance of a furnace at th
   constexpr std::size_t groups = 20, seeds = 10, pixels = 36;
   constexpr double t_95 = 2.2622; // Student's, two-sided, 9 degrees of freedom
   int covered = 0;
+  MethodRenderer renderer(furnace, settings);
   for (std::uint64_t group = 0; group < groups; ++group) {
     std::vector<ImageEstimate> images;
     for (std::uint64_t seed = 0; seed < seeds; ++seed)
-      images.push_back(rendered(furnace, settings, 64, group * seeds + seed));
+      images.push_back(estimate_of(renderer.render_samples(group * seeds + seed, 64, {})));
     for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
       std::vector<ImageEstimate> of_pixel;
       for (const ImageEstimate& image : images) of_pixel.push_back(pixel_of(image, pixel));
@@ -77,12 +69,9 @@ TEST_CASE("The variance between renders agrees with the variance estimated by th
   std::vector<double> within(3 * images.size());
   const Reference ones = exact_reference(std::vector<double>(3 * 144, 1.0));
   double of_films = 0;
+  MethodRenderer renderer(scene, settings);
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
-    render::Settings one = settings;
-    one.samples_per_pixel = samples;
-    one.seed = seed;
-    film::Film film(12, 12);
-    (void)render::render(scene, one, film, {});
+    const film::Film film = renderer.render_samples(seed, samples, {});
     images.push_back(estimate_of(film));
     for (std::size_t pixel = 0; pixel < 144; ++pixel)
       for (const double variance : film.variance_of_mean(pixel))
@@ -173,7 +162,7 @@ TEST_CASE("A render for a given time keeps intermediate images") {
   const ImageEstimate again = *renderer.render_one_sample(1).one_sample;
   CHECK(render.one_sample->radiance == again.radiance);
   CHECK(renderer.render_one_sample(2).one_sample->radiance != again.radiance);
-  CHECK(again.radiance == rendered(scene, settings, 1, 1).radiance);
+  CHECK(again.radiance == estimate_of(MethodRenderer(scene, settings).render_samples(1, 1, {})).radiance);
   // A time that is too short for one sample per pixel still gives an image.
   MethodRenderer large(shipped("cornell-box", 256), settings);
   CHECK(large.render_for(1, 1e-6, {}, {}).samples_per_pixel() >= 1);

@@ -74,17 +74,23 @@ Estimate MethodRenders::variance(const Reference& reference) const {
   return mean_of(variances_per_sample(images_, reference));
 }
 
-std::string MethodRenders::why_suspect(const MethodResult& result, const ReferenceImage& reference) const {
+bool MethodRenders::suspect(MethodResult& result, const ReferenceImage& reference) const {
   const double error = result.variance.standard_error / result.variance.value;
-  if (error > tail_error && result.top_share > suspect_top_share)
-    return fmt::format("standard error of the variance {:.0f}%: the largest 0.1% of the samples hold "
-                       "{:.0f}% of the squared error",
-                       100 * error, 100 * result.top_share);
+  if (error > tail_error && result.top_share > suspect_top_share) {
+    result.decide(Verdict::suspect_variance,
+                  fmt::format("standard error of the variance {:.0f}%: the largest 0.1% of the samples hold "
+                              "{:.0f}% of the squared error",
+                              100 * error, 100 * result.top_share),
+                  error / tail_error);
+    return true;
+  }
   const Estimate growth = log_growth(variances_per_sample(images_, reference.image),
                                      variances_per_sample(one_sample_images_, reference.image));
-  if (growth.value > std::log(suspect_growth) && p_value_above(growth, 0) < growth_level)
-    return fmt::format("the variance grew {:.1f} times with the number of samples", std::exp(growth.value));
-  return {};
+  if (!(growth.value > std::log(suspect_growth)) || p_value_above(growth, 0) > growth_level) return false;
+  result.decide(
+      Verdict::suspect_variance,
+      fmt::format("the variance grew {:.1f} times with the number of samples", std::exp(growth.value)));
+  return true;
 }
 
 // Rare large samples that most renders lack also look like a bias, so that the variance is judged first.
@@ -96,39 +102,34 @@ void MethodRenders::judge(MethodResult& result, const ReferenceImage& reference)
   const Estimate unexplained = unexplained_mse(images_, reference.image);
   const bool pixels_differ =
       unexplained.value > rounding * rounding && p_value_above(unexplained, 0) < bias_level;
-  const auto decide = [&](Verdict verdict, const std::string& reason) {
-    result.verdict = verdict;
-    result.reason = reason;
-  };
   if (!(result.variance.value > 0)) {
     if (mean_differs || pixels_differ)
-      decide(Verdict::suspect_variance,
-             "all renders are equal: the samples that carry the light were never drawn");
+      result.decide(Verdict::suspect_variance,
+                    "all renders are equal: the samples that carry the light were never drawn");
     return;
   }
-  if (const std::string why = why_suspect(result, reference); !why.empty())
-    return decide(Verdict::suspect_variance, why);
+  if (suspect(result, reference)) return;
   if (mean_differs)
-    return decide(Verdict::biased,
-                  fmt::format("the image's mean is {:+.2g}% off the reference's ({:+.1f} sigma)",
-                              100 * difference.value / reference.mean.value, result.mean_bias_sigma));
+    return result.decide(Verdict::biased,
+                         fmt::format("the image's mean is {:+.2g}% off the reference's ({:+.1f} sigma)",
+                                     100 * difference.value / reference.mean.value, result.mean_bias_sigma));
   if (pixels_differ)
-    return decide(Verdict::biased,
-                  fmt::format("the variances do not explain a relative MSE of {:.2g}", unexplained.value));
+    return result.decide(Verdict::biased, fmt::format("the variances do not explain a relative MSE of {:.2g}",
+                                                      unexplained.value));
   const double error = result.variance.standard_error / result.variance.value;
   const double detectable =
       t_quantile(bias_level, difference.degrees) * difference.standard_error / reference.mean.value;
   if (error > largest_error)
-    result.undecide(fmt::format("standard error of the variance {:.0f}%", 100 * error),
-                    error / largest_error);
+    result.decide(Verdict::undecided, fmt::format("standard error of the variance {:.0f}%", 100 * error),
+                  error / largest_error);
   else if (detectable > detectable_bias)
-    result.undecide(fmt::format("only a bias above {:.0f}% would be found", 100 * detectable),
-                    detectable / detectable_bias);
+    result.decide(Verdict::undecided,
+                  fmt::format("only a bias above {:.0f}% would be found", 100 * detectable),
+                  detectable / detectable_bias);
 }
 
-// Errors fall with the square root of the time.
-void MethodResult::undecide(const std::string& why, double error_ratio) {
-  verdict = Verdict::undecided;
+void MethodResult::decide(Verdict v, const std::string& why, double error_ratio) {
+  verdict = v;
   reason = why;
   times_longer = error_ratio * error_ratio;
 }
@@ -154,7 +155,7 @@ MethodResult MethodRenders::result(const Method& method, const ReferenceImage& r
   result.convergence = convergence();
   result.first_image = images_.front();
   judge(result, reference);
-  if (!known_bias.empty()) result.verdict = Verdict::biased, result.reason = known_bias;
+  if (!known_bias.empty()) result.decide(Verdict::biased, known_bias);
   return result;
 }
 

@@ -44,14 +44,15 @@ struct MethodResult {
   double mean_bias_sigma = 0; ///< (mean - mean of the reference) / standard error of the difference
   double seconds_per_sample = 0, seconds_per_sample_least = 0, seconds_per_sample_most = 0;
   double processor_seconds_per_sample = 0; ///< over all threads; median
-  /// By which factor more time would be needed to decide; 0 if the verdict is not undecided.
+  /// How many times as long a measurement would have to be to decide; of undecided and suspect methods.
   double times_longer = 0;
   std::vector<RoundCost> rounds{};
   std::vector<ConvergencePoint> convergence{}; ///< the last one is for the complete renders
   ImageEstimate first_image{};                 ///< of the first round
 
-  /// Makes the verdict undecided. `error_ratio`: the error that decides / the largest allowed one.
-  void undecide(const std::string& why, double error_ratio);
+  /// Sets the verdict and its reason. `error_ratio`: the error that prevents another verdict / the largest
+  /// one that would allow it. Errors decrease with the square root of the time.
+  void decide(Verdict v, const std::string& why, double error_ratio = 2);
 };
 
 /// Collects the renders of one method on one scene.
@@ -75,7 +76,7 @@ private:
   [[nodiscard]] static TimedError error_of(const Snapshot& snapshot, const Reference& reference);
   [[nodiscard]] std::vector<ConvergencePoint> convergence() const;
   void judge(MethodResult& result, const ReferenceImage& reference) const;
-  [[nodiscard]] std::string why_suspect(const MethodResult& result, const ReferenceImage& reference) const;
+  [[nodiscard]] bool suspect(MethodResult& result, const ReferenceImage& reference) const;
 
   std::vector<ImageEstimate> images_, one_sample_images_;
   std::vector<RoundCost> costs_; // without variances, which depend on all images

@@ -85,12 +85,11 @@ std::string factor(const RankedCost& cost) {
   return fmt::format("{:.3g} ({:.3g} to {:.3g})", cost.ratio, cost.low, cost.high);
 }
 
-std::string text_of_open(const MethodResult& result, double seconds) {
-  const std::string method = options_of(result.method);
-  if (result.verdict != Verdict::undecided)
-    return fmt::format("{} may need less or more time: {}", method, result.reason);
-  return fmt::format("{} may need less time, but there was too little time to tell: --seconds {:.2g} or more",
-                     method, seconds * std::max(2.0, result.times_longer));
+// A, B and C
+std::string list_of(const std::vector<std::string>& names) {
+  if (names.size() == 1) return names[0];
+  const std::vector<std::string> first(names.begin(), names.end() - 1);
+  return fmt::format("{} and {}", fmt::join(first, ", "), names.back());
 }
 
 } // namespace
@@ -116,7 +115,11 @@ std::vector<RankedCost> rank(const std::vector<MethodResult>& results, CostClock
     costs[i].cost = cost_in(results[i], clock, all_rounds(results[i].rounds.size()));
     if (results[i].verdict == Verdict::sound && (!best || costs[i].cost < costs[*best].cost)) best = i;
   }
-  if (!best) return costs;
+  if (!best) {
+    for (std::size_t i = 0; i < results.size(); ++i)
+      if (has_cost(results[i])) costs[i].rank = Rank::open;
+    return costs;
+  }
   const auto comparisons =
       std::max<double>(1, static_cast<double>(std::ranges::count_if(results, has_cost) - 1));
   const double level = 1 - std::pow(1 - false_alarm_rate, 1 / comparisons);
@@ -138,32 +141,35 @@ std::string options_of(const Method& method) {
 
 std::string answer_of(const std::vector<MethodResult>& results, const std::vector<RankedCost>& costs,
                       double seconds) {
-  const auto name = [&](std::size_t i) { return options_of(results[i].method); };
   std::vector<std::size_t> order(results.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::erase_if(order, [&](std::size_t i) { return std::isnan(costs[i].cost); });
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return costs[i].cost; });
   std::vector<std::string> fastest, slower, open;
+  double longer = 2;
   for (const std::size_t i : order) {
+    const std::string name = options_of(results[i].method);
     const Rank rank = costs[i].rank;
-    if (rank == Rank::best) fastest.insert(fastest.begin(), name(i));
-    if (rank == Rank::tied) fastest.push_back(name(i) + ", " + factor(costs[i]));
-    if (rank == Rank::slower) slower.push_back(name(i) + ", needs " + factor(costs[i]) + " times as long");
-    if (rank == Rank::open) open.push_back(text_of_open(results[i], seconds));
+    if (rank == Rank::best) fastest.insert(fastest.begin(), name);
+    if (rank == Rank::tied) fastest.push_back(name + ", " + factor(costs[i]));
+    if (rank == Rank::slower) slower.push_back(name + ", needs " + factor(costs[i]) + " times as long");
+    if (rank == Rank::open) {
+      open.push_back(name);
+      longer = std::max(longer, results[i].times_longer);
+    }
   }
-  std::string text = "no method is known to be right";
-  if (fastest.size() == 1) text = fastest[0] + " needs the least time for the same error";
-  if (fastest.size() > 1)
-    text = fmt::format("tied for the least time for the same error: {}", fmt::join(fastest, "; "));
-  if (!slower.empty())
-    text += "; the next, " + slower[0];
-  else if (!fastest.empty())
-    text += "; no other method is known to be right";
-  if (fastest.empty())
-    for (const MethodResult& result : results)
-      if (result.verdict == Verdict::undecided) open.push_back(text_of_open(result, seconds));
-  for (const std::string& more : open) text += "; " + more;
-  return text;
+  if (fastest.empty() && open.empty()) return "no method is right";
+  std::string text;
+  if (!open.empty())
+    text = fmt::format(
+        "too little time to tell whether {} {} less time for the same error: --seconds {:.2g} or more",
+        list_of(open), open.size() == 1 ? "needs" : "need", seconds * longer);
+  if (fastest.empty()) return text;
+  if (!open.empty()) text += "; of the others, ";
+  const std::string what = open.empty() ? "the least time for the same error" : "the least time";
+  text += fastest.size() == 1 ? fmt::format("{} needs {}", fastest[0], what)
+                              : fmt::format("tied for {}: {}", what, fmt::join(fastest, "; "));
+  return text + (slower.empty() ? "; no other method is known to be right" : "; the next, " + slower[0]);
 }
 
 } // namespace phlux::bench

@@ -52,7 +52,7 @@ void doubt_reference(std::vector<MethodResult>& results, const ReferenceImage& r
   if (std::ranges::none_of(results, doubtful)) return;
   for (MethodResult& result : results)
     if (result.verdict == Verdict::biased && known_bias(result.method, scene).empty())
-      result.undecide(result.reason + ", whose own variance is suspect", 4);
+      result.decide(Verdict::undecided, result.reason + ", whose own variance is suspect");
 }
 
 } // namespace
