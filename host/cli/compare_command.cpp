@@ -66,7 +66,7 @@ bool any_above_limit(const CompareOptions& options, const nlohmann::ordered_json
   bool any = false;
   for (const auto& [metric, limit] : options.limits) {
     if (json[metric].get<double>() <= limit) continue;
-    fmt::print(stderr, "phlux: {} is {}: --fail-above {}={}\n", metric, text_of(json[metric]), metric, limit);
+    fmt::print(stderr, "phlux: {} is {}: must be at most {}\n", metric, text_of(json[metric]), limit);
     any = true;
   }
   return any;

@@ -21,27 +21,28 @@ constexpr std::size_t outliers_one_in = 20;
 // Sizes in pixels.
 constexpr int least_side = 320;          // of a picture: smaller images are magnified, for the titles to fit
 constexpr int least_text_scale = 2;      // of the font's pixels
-constexpr int side_per_text_scale = 480; // larger images have larger text
+constexpr int side_per_text_scale = 250; // larger images have larger text
 
 constexpr const char* formula = "(A - B) / sqrt(B^2 + 1e-4)";
 
 // Three columns, each with a title, a picture and room for a scale.
 struct Layout {
-  explicit Layout(const Image& image)
+  Layout(const Image& image, bool all_finite)
       : zoom(std::max(1, (least_side + std::max(image.width, image.height) - 1) /
                              std::max(image.width, image.height))),
         picture_width(image.width * zoom), picture_height(image.height * zoom),
         column_width(std::max(picture_width, least_side)),
-        text_scale(std::max(least_text_scale, column_width / side_per_text_scale)),
-        line(Canvas::text_height(text_scale) + 2 * text_scale) {}
+        text_scale(std::max(least_text_scale, std::min(picture_width, picture_height) / side_per_text_scale)),
+        line(Canvas::text_height(text_scale) + 2 * text_scale), lines_below(all_finite ? 4 : 5) {}
 
   int zoom, picture_width, picture_height, column_width, text_scale;
-  int line; // height of a line of text, and the margin
+  int line;        // height of a line of text, and the margin
+  int lines_below; // the pictures: the scale, its text and the margin
   [[nodiscard]] int left(int column) const { return line + column * (column_width + line); }
   [[nodiscard]] int top() const { return 2 * line; }                                // of the pictures
   [[nodiscard]] int scale_top() const { return top() + picture_height + line / 2; } // of the colour scale
   [[nodiscard]] int width() const { return left(3); }
-  [[nodiscard]] int height() const { return scale_top() + 5 * line; }
+  [[nodiscard]] int height() const { return scale_top() + lines_below * line; }
 };
 
 // The name, or its end, after "A: ".
@@ -132,7 +133,9 @@ Color false_color(double value) {
 }
 
 Canvas compare_picture(const Image& a, const Image& b, const std::string& name_a, const std::string& name_b) {
-  const Layout layout(b);
+  const std::vector<double> differences = relative_differences(a, b);
+  const bool all_finite = std::ranges::none_of(differences, [](double value) { return std::isnan(value); });
+  const Layout layout(b, all_finite);
   Canvas canvas(layout.width(), layout.height(), paper);
   const auto begin_column = [&](int column, const std::string& text) {
     canvas.text(layout.left(column), layout.line / 2 + layout.text_scale, text, ink, layout.text_scale);
@@ -145,11 +148,9 @@ Canvas compare_picture(const Image& a, const Image& b, const std::string& name_a
   begin_column(1, title("B", name_b, layout));
   draw_image(canvas, layout.left(1), layout.top(), layout.zoom, b, exposed);
   begin_column(2, formula);
-  const std::vector<double> differences = relative_differences(a, b);
   const double scale = scale_of(differences);
   draw_difference(canvas, layout, differences, scale, b.width);
-  draw_scale(canvas, layout, scale,
-             std::ranges::none_of(differences, [](double value) { return std::isnan(value); }));
+  draw_scale(canvas, layout, scale, all_finite);
   return canvas;
 }
 

@@ -90,18 +90,18 @@ TEST_CASE("phlux compare --fail-above ends with 1 and a line for each metric abo
       {{"a.exr", "b.exr", "--fail-above", "rmse=.99", "--fail-above", "relmse=1", "--fail-above",
         "mean_error=4e-1"},
        1,
-       "phlux: rmse is 1.0: --fail-above rmse=0.99\nphlux: mean_error is 0.5: --fail-above mean_error=0.4\n"},
+       "phlux: rmse is 1.0: must be at most 0.99\nphlux: mean_error is 0.5: must be at most 0.4\n"},
       {{"black.exr", "black.exr", "--fail-above", "mean_error=1e300"},
        1,
-       "phlux: mean_error is undefined: --fail-above mean_error=1e+300\n"},
+       "phlux: mean_error is undefined: must be at most 1e+300\n"},
       {{"a.exr", "black.exr", "--fail-above", "mean_error=1e300"},
        1,
-       "phlux: mean_error is infinite: --fail-above mean_error=1e+300\n"},
+       "phlux: mean_error is infinite: must be at most 1e+300\n"},
       {{"nan.exr", "b.exr", "--fail-above", "nonfinite=1"}, 0, left_out},
       {{"nan.exr", "b.exr", "--fail-above", "rmse=1"}, 1, left_out},
       {{"nan.exr", "b.exr", "--fail-above", "nonfinite=0"},
        1,
-       left_out + "phlux: nonfinite is 1: --fail-above nonfinite=0\n"},
+       left_out + "phlux: nonfinite is 1: must be at most 0\n"},
   };
   for (auto [arguments, exit_code, errors] : cases) {
     arguments.insert(arguments.begin(), "compare");
