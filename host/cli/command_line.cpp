@@ -1,5 +1,8 @@
 #include "cli/command_line.h"
 
+#include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <functional>
 #include <memory>
 
@@ -12,6 +15,7 @@
 #include "cli/grammar.h"
 #include "cli/version.h"
 #include "errors.h"
+#include "files/compare.h"
 #include "settings/values.h"
 
 namespace phlux::cli {
@@ -61,24 +65,17 @@ void add_device(CLI::App& app, RenderOptions& options) {
 
 void add_files(CLI::App& app, RenderOptions& options) {
   app.option_defaults()->group("Files and messages");
-  const auto add_file = [&](const std::string& names, const std::string& value, const std::string& help,
-                            std::filesystem::path& file) {
-    add_value(app, names, value, help, [&file, names](const std::string& text) {
-      if (text.empty()) throw UsageError(fmt::format("{} '': must be a file name", names));
-      file = text;
-    });
-  };
-  add_file("-o,--output", "FILE.exr", "the image; default: the scene's name in the working directory",
+  add_file(app, "-o,--output", "FILE.exr", "the image; default: the scene's name in the working directory",
            options.output);
-  add_file("--png", "FILE",
+  add_file(app, "--png", "FILE",
            "tone-mapped preview, updated while rendering; default: beside the image; none: no preview",
            options.preview);
-  add_file("--contributions", "DIR",
+  add_file(app, "--contributions", "DIR",
            "bidir and light: a folder with an image for every technique (s light and t eye vertices), "
            "weighted and unweighted, and a contact sheet",
            options.contributions);
-  add_file("--stats", "FILE.json", "statistics of the render, as JSON", options.statistics);
-  add_file("--checkpoint", "FILE",
+  add_file(app, "--stats", "FILE.json", "statistics of the render, as JSON", options.statistics);
+  add_file(app, "--checkpoint", "FILE",
            "file to resume from, written at intervals, at the end and on interruption; default: the file of "
            "--resume, if given; none: no checkpoint",
            options.checkpoint);
@@ -88,7 +85,7 @@ void add_files(CLI::App& app, RenderOptions& options) {
               options.checkpoint_seconds = settings::number_within("--checkpoint-every", text, 0.01, 1e9);
             });
   add_file(
-      "--resume", "FILE",
+      app, "--resume", "FILE",
       "continues from a checkpoint, with its options where this command gives none; -n, --time and --error "
       "include what was rendered before",
       options.resume);
@@ -128,16 +125,41 @@ void add_devices(CLI::App& program, std::optional<Command>& command) {
   app.final_callback([&command, options] { command = [options] { return list_devices(*options); }; });
 }
 
+CompareOptions::Limit limit_of(const std::string& text) {
+  const std::size_t equals = std::min(text.find('='), text.size());
+  CompareOptions::Limit limit{text.substr(0, equals), 0.0};
+  const char *value = text.data() + std::min(equals + 1, text.size()), *end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(value, end, limit.value);
+  if (std::ranges::find(files::metric_names, limit.metric) == files::metric_names.end() ||
+      error != std::errc() || stop != end || !std::isfinite(limit.value) || limit.value < 0.0)
+    throw UsageError(fmt::format("--fail-above {}: must be METRIC=VALUE, where METRIC is one of {} and VALUE "
+                                 "a number of 0 or more",
+                                 text.empty() ? "''" : text, fmt::join(files::metric_names, ", ")));
+  return limit;
+}
+
 void add_compare(CLI::App& program, std::optional<Command>& command) {
   CLI::App& app = *program.add_subcommand("compare", "Compares an image with a reference");
   const auto options = std::make_shared<CompareOptions>();
   app.add_option("A.exr", options->a, "image")->type_name("")->required();
   app.add_option("B.exr", options->b, "reference")->type_name("")->required();
   app.add_flag("--json", options->json, "as JSON");
-  app.footer("relmse is the mean of (a-b)^2 / (b^2 + 1e-4), relmse_trimmed the same without the largest 0.1% "
+  add_values(app, "--fail-above", "METRIC=VALUE",
+             fmt::format("exit code 1 if the metric is above the value, or undefined: {}; may be repeated",
+                         fmt::join(files::metric_names, ", ")),
+             [options](const std::string& text) { options->limits.push_back(limit_of(text)); });
+  add_file(app, "--png", "FILE",
+           "picture of A, B and their relative difference in false colours: of R, G and B the one that "
+           "differs most; A is exposed as B is",
+           options->picture);
+  app.footer("mean_a_rgb and mean_b_rgb are the means of R, G and B; mean_error is |mean_a / mean_b - 1|.\n"
+             "relmse is the mean of (a-b)^2 / (b^2 + 1e-4), relmse_trimmed the same without the largest 0.1% "
              "of pixels;\n"
              "max_z and z_share_over_3 need images rendered with --moments.\n"
-             "Exit code: 0, or 1 when a value is not finite.");
+             "psnr, in dB, is of the images on a screen: both exposed as B is, tone-mapped, sRGB, peak 1; "
+             "larger is better.\n"
+             "Exit code: 0, or 1 when a metric is above its limit. Without --fail-above nonfinite=N, a value "
+             "that is\nnot finite suffices.");
   app.final_callback([&command, options] { command = [options] { return compare(*options); }; });
 }
 

@@ -11,7 +11,8 @@ namespace phlux::cli {
 /// 0.
 [[nodiscard]] int list_devices(const DevicesOptions& options);
 
-/// 0, or 1 when an image has values that are not finite: their pixels cannot be compared.
+/// 0, or 1 when a metric is above its limit. That of values that are not finite, whose pixels cannot be
+/// compared, is 0 unless an option gives another.
 [[nodiscard]] int compare(const CompareOptions& options);
 
 /// 0.

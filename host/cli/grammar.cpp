@@ -26,6 +26,14 @@ std::string wrapped(const std::string& text) {
   return lines;
 }
 
+void add_file(CLI::App& app, const std::string& names, const std::string& value, const std::string& help,
+              std::filesystem::path& file) {
+  add_value(app, names, value, help, [&file, names](const std::string& text) {
+    if (text.empty()) throw UsageError(fmt::format("{} '': must be a file name", names));
+    file = text;
+  });
+}
+
 void add_setting(CLI::App& app, const settings::Setting& setting, settings::Choices& choices) {
   std::string names = "--" + setting.name, help = with_options(setting.help);
   for (const auto& [name, letter] : letters)

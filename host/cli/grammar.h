@@ -45,6 +45,10 @@ CLI::Option* add_values(CLI::App& app, const std::string& names, const std::stri
       ->allow_extra_args(false);
 }
 
+// An option with the name of a file. `names`: "-o,--output". @throws UsageError while parsing an empty name
+void add_file(CLI::App& app, const std::string& names, const std::string& value, const std::string& help,
+              std::filesystem::path& file);
+
 // The option of a setting.
 void add_setting(CLI::App& app, const settings::Setting& setting, settings::Choices& choices);
 

@@ -30,7 +30,14 @@ struct RenderOptions : settings::Choices {
 };
 
 struct CompareOptions {
+  /// The largest value of a metric, one of files::metric_names, that passes.
+  struct Limit {
+    std::string metric;
+    double value = 0.0;
+  };
   std::filesystem::path a, b;
+  std::filesystem::path picture; ///< empty: none
+  std::vector<Limit> limits;
   bool json = false;
 };
 

@@ -24,14 +24,6 @@ std::string lower_case_extension(const fs::path& file) {
   return extension;
 }
 
-// Whether the file's name says that it is an image of another format than `own`.
-bool is_of_another_format(const fs::path& file, const std::string& own) {
-  const std::vector<std::string> formats = {".exr", ".png",  ".jpg", ".jpeg", ".hdr",  ".pfm", ".ppm",
-                                            ".tif", ".tiff", ".bmp", ".gif",  ".webp", ".json"};
-  const std::string extension = lower_case_extension(file);
-  return extension != own && std::ranges::find(formats, extension) != formats.end();
-}
-
 void reject_other_formats(const fs::path& image, const fs::path& preview) {
   if (is_of_another_format(image, ".exr"))
     throw UsageError(
@@ -62,6 +54,13 @@ void reject_same_names(const Outputs& outputs) {
 }
 
 } // namespace
+
+bool is_of_another_format(const fs::path& file, const std::string& own) {
+  const std::vector<std::string> formats = {".exr", ".png",  ".jpg", ".jpeg", ".hdr",  ".pfm", ".ppm",
+                                            ".tif", ".tiff", ".bmp", ".gif",  ".webp", ".json"};
+  const std::string extension = lower_case_extension(file);
+  return extension != own && std::ranges::find(formats, extension) != formats.end();
+}
 
 Outputs outputs_of(const RenderOptions& options) {
   Outputs outputs{options.output, options.preview, options.statistics,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "cli/options.h"
 #include "files/image.h"
@@ -12,6 +13,9 @@ namespace phlux::cli {
 struct Outputs {
   std::filesystem::path image, preview, statistics, checkpoint;
 };
+
+/// Whether the file's name says that it is an image of another format than `own`, such as ".png".
+[[nodiscard]] bool is_of_another_format(const std::filesystem::path& file, const std::string& own);
 
 /// The options' files or their defaults; the default checkpoint is the file that the render resumes from.
 /// There is no default preview for an image that is not a regular file (/dev/null).

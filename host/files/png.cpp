@@ -1,44 +1,52 @@
 #include "files/png.h"
 
 #include <cstddef>
-#include <cstdint>
-#include <stdexcept>
 #include <vector>
 
+#include <fmt/format.h>
 #include <png.h>
 
+#include "errors.h"
 #include "files/output.h"
 #include "files/tone_map.h"
 
 namespace phlux::files {
-namespace {
 
-std::vector<std::uint8_t> screen_pixels(const Image& image) {
-  const float factor = exposure(image);
-  const std::vector<float>* channels[3] = {&image.channels.at("R"), &image.channels.at("G"),
-                                           &image.channels.at("B")};
-  std::vector<std::uint8_t> codes(3 * channels[0]->size());
-  for (std::size_t channel = 0; channel < 3; ++channel)
-    for (std::size_t pixel = 0; pixel < channels[channel]->size(); ++pixel)
-      codes[3 * pixel + channel] = srgb_code(compress_highlights(factor * (*channels[channel])[pixel]));
-  return codes;
+void draw_image(Canvas& canvas, int left, int top, int zoom, const Image& image, float exposure) {
+  const std::vector<float>*red = &image.channels.at("R"), *green = &image.channels.at("G"),
+        *blue = &image.channels.at("B");
+  const auto code = [exposure](float radiance) {
+    return srgb_code(compress_highlights(exposure * radiance));
+  };
+  std::size_t pixel = 0;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x, ++pixel)
+      canvas.fill(left + x * zoom, top + y * zoom, zoom, zoom,
+                  {code((*red)[pixel]), code((*green)[pixel]), code((*blue)[pixel])});
 }
 
-} // namespace
-
-std::string encode_png(const Image& image) {
-  const std::vector<std::uint8_t> pixels = screen_pixels(image);
+std::string encode_png(const Canvas& canvas) {
+  static_assert(sizeof(Color) == 3);
   png_image description{};
   description.version = PNG_IMAGE_VERSION;
-  description.width = static_cast<png_uint_32>(image.width);
-  description.height = static_cast<png_uint_32>(image.height);
+  description.width = static_cast<png_uint_32>(canvas.width());
+  description.height = static_cast<png_uint_32>(canvas.height());
   description.format = PNG_FORMAT_RGB;
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(description);
   std::string bytes(size, '\0');
-  if (png_image_write_to_memory(&description, bytes.data(), &size, 0, pixels.data(), 0, nullptr) == 0)
-    throw std::runtime_error(description.message);
+  if (png_image_write_to_memory(&description, bytes.data(), &size, 0, canvas.pixels().data(), 0, nullptr) ==
+      0)
+    throw WriteError(
+        fmt::format("a PNG file of {}x{} pixels cannot be written: {}: smaller images are needed",
+                    canvas.width(), canvas.height(), description.message));
   bytes.resize(size);
   return bytes;
+}
+
+std::string encode_png(const Image& image) {
+  Canvas canvas(image.width, image.height, {});
+  draw_image(canvas, 0, 0, 1, image, exposure(image));
+  return encode_png(canvas);
 }
 
 void write_png(const std::filesystem::path& file, const Image& image) {

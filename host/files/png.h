@@ -1,14 +1,22 @@
-// The preview: a tone-mapped image.
+// PNG files: the tone-mapped preview of an image, and what is drawn.
 #pragma once
 
 #include <filesystem>
 #include <string>
 
+#include "files/canvas.h"
 #include "files/image.h"
 
 namespace phlux::files {
 
-/// The bytes of an 8-bit sRGB PNG file, tone-mapped per channel by tone_map.h. Deterministic.
+/// Draws channels R, G, B, tone-mapped by tone_map.h with that exposure, each pixel as a square of `zoom`
+/// pixels.
+void draw_image(Canvas& canvas, int left, int top, int zoom, const Image& image, float exposure);
+
+/// The bytes of an 8-bit sRGB PNG file. Deterministic. @throws WriteError for more pixels than libpng writes
+[[nodiscard]] std::string encode_png(const Canvas& canvas);
+
+/// encode_png of the image, exposed by tone_map.h. @throws WriteError
 [[nodiscard]] std::string encode_png(const Image& image);
 
 /// encode_png to a file. @throws WriteError

@@ -48,11 +48,13 @@ float compress_highlights(float value) {
   return 1.0F - (1.0F - shoulder) * std::exp((shoulder - value) / (1.0F - shoulder));
 }
 
-std::uint8_t srgb_code(float linear) {
+float srgb(float linear) {
   const float clamped = std::clamp(linear, 0.0F, 1.0F);
-  const float encoded =
-      clamped <= 0.0031308F ? 12.92F * clamped : 1.055F * std::pow(clamped, 1.0F / 2.4F) - 0.055F;
-  return static_cast<std::uint8_t>(std::lround(255.0F * encoded));
+  return clamped <= 0.0031308F ? 12.92F * clamped : 1.055F * std::pow(clamped, 1.0F / 2.4F) - 0.055F;
+}
+
+std::uint8_t srgb_code(float linear) {
+  return static_cast<std::uint8_t>(std::lround(255.0F * srgb(linear)));
 }
 
 } // namespace phlux::files

@@ -20,7 +20,9 @@ namespace phlux::files {
 /// negative values become 0.
 [[nodiscard]] float compress_highlights(float value);
 
-/// The sRGB code of a linear value, IEC 61966-2-1; clamped to [0, 255].
+/// A linear value clamped to [0, 1] and encoded as sRGB, IEC 61966-2-1.
+[[nodiscard]] float srgb(float linear);
+/// The same as an 8-bit code, in [0, 255].
 [[nodiscard]] std::uint8_t srgb_code(float linear);
 
 } // namespace phlux::files

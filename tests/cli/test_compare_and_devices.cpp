@@ -1,4 +1,6 @@
+#include <filesystem>
 #include <limits>
+#include <set>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -27,6 +29,7 @@ TEST_CASE("phlux compare prints the figures") {
   CHECK(text.exit_code == 0);
   CHECK(text.err.empty());
   CHECK_THAT(text.out, Catch::Contains("mean_ratio      1.5\n"));
+  CHECK_THAT(text.out, Catch::Contains("mean_b_rgb      2.0 2.0 2.0\n"));
   const Outcome json = run({{"compare", "a.exr", "b.exr", "--json"}, folder.path(), {}, {}});
   CHECK(json.exit_code == 0);
   CHECK(nlohmann::json::parse(json.out)["rmse"] == 1.0);
@@ -65,6 +68,89 @@ TEST_CASE("phlux compare ends with 1 if values are not finite, and prints the fi
   CHECK(outcome.exit_code == 1);
   CHECK(outcome.is_one_line_error());
   CHECK(nlohmann::json::parse(outcome.out)["nonfinite"] == 1);
+}
+
+TEST_CASE("phlux compare --fail-above ends with 1 and a line for each metric above its value") {
+  const TemporaryFolder folder;
+  write_exr(folder / "a.exr", constant(2, 2, 3.0F));
+  write_exr(folder / "b.exr", constant(2, 2, 2.0F)); // rmse 1, mean_error 0.5
+  write_exr(folder / "black.exr", constant(2, 2, 0.0F));
+  Image image = constant(2, 2, 2.0F);
+  image.channels["R"][0] = std::numeric_limits<float>::quiet_NaN();
+  write_exr(folder / "nan.exr", image);
+  struct Case {
+    std::vector<std::string> arguments;
+    int exit_code;
+    std::string errors;
+  };
+  const std::string left_out =
+      "phlux: 1 values of nan.exr and b.exr are not finite: the figures leave their pixels out\n";
+  const std::vector<Case> cases = {
+      {{"a.exr", "b.exr", "--fail-above", "rmse=1", "--fail-above=mean_error=0.5"}, 0, ""},
+      {{"a.exr", "b.exr", "--fail-above", "rmse=.99", "--fail-above", "relmse=1", "--fail-above",
+        "mean_error=4e-1"},
+       1,
+       "phlux: rmse is 1.0: must be at most 0.99\nphlux: mean_error is 0.5: must be at most 0.4\n"},
+      {{"black.exr", "black.exr", "--fail-above", "mean_error=1e300"},
+       1,
+       "phlux: mean_error is undefined: must be at most 1e+300\n"},
+      {{"a.exr", "black.exr", "--fail-above", "mean_error=1e300"},
+       1,
+       "phlux: mean_error is infinite: must be at most 1e+300\n"},
+      {{"nan.exr", "b.exr", "--fail-above", "nonfinite=1"}, 0, left_out},
+      {{"nan.exr", "b.exr", "--fail-above", "rmse=1"}, 1, left_out},
+      {{"nan.exr", "b.exr", "--fail-above", "nonfinite=0"},
+       1,
+       left_out + "phlux: nonfinite is 1: must be at most 0\n"},
+  };
+  for (auto [arguments, exit_code, errors] : cases) {
+    arguments.insert(arguments.begin(), "compare");
+    arguments.emplace_back("--json");
+    const Outcome outcome = run({arguments, folder.path(), {}, {}});
+    CAPTURE(arguments);
+    CHECK(outcome.exit_code == exit_code);
+    CHECK(outcome.err == errors);
+    CHECK(nlohmann::json::accept(outcome.out));
+  }
+  const Outcome no_variance =
+      run({{"compare", "a.exr", "b.exr", "--fail-above", "max_z=5"}, folder.path(), {}, {}});
+  CHECK(no_variance.exit_code == 2);
+  CHECK(no_variance.is_one_line_error());
+  CHECK_THAT(no_variance.err, Catch::Contains("--moments, or use one of mean_error, rmse, relmse, "
+                                              "relmse_trimmed, nonfinite\n"));
+  CHECK(no_variance.out.empty());
+}
+
+TEST_CASE("phlux compare --png writes a picture, and never over an image") {
+  const TemporaryFolder folder;
+  write_exr(folder / "a.exr", constant(2, 2, 3.0F));
+  write_exr(folder / "b.exr", constant(2, 3, 2.0F));
+  std::filesystem::create_symlink("a.exr", folder / "link.png");
+  const auto compare = [&](const std::string& reference, const std::string& picture) {
+    return run({{"compare", "a.exr", reference, "--png", picture}, folder.path(), {}, {}});
+  };
+  CHECK(compare("a.exr", "picture.png").exit_code == 0);
+  CHECK_THAT(TemporaryFolder::read(folder / "picture.png"), Catch::StartsWith("\x89PNG"));
+  struct Case {
+    std::string reference, picture;
+    int exit_code;
+    std::string message;
+  };
+  for (const auto& [reference, picture, exit_code, message] :
+       std::vector<Case>{{"a.exr", "link.png", 2, "--png link.png: is one of the images to compare"},
+                         {"a.exr", "a.exr", 2, "--png a.exr: the picture is a PNG file, such as a.png"},
+                         {"a.exr", "new.jpg", 2, "such as new.png"},
+                         {"a.exr", "missing/new.png", 5, "missing/new.png: cannot be written"},
+                         {"b.exr", "new.png", 3, "only images of one size can be compared"}}) {
+    const Outcome outcome = compare(reference, picture);
+    CAPTURE(picture);
+    CHECK(outcome.exit_code == exit_code);
+    CHECK(outcome.is_one_line_error());
+    CHECK_THAT(outcome.err, Catch::Contains(message));
+    CHECK(outcome.out.empty());
+  }
+  CHECK(phlux::files::read_exr(folder / "a.exr").width == 2);
+  CHECK(folder.names() == std::set<std::string>{"a.exr", "b.exr", "link.png", "picture.png"});
 }
 
 TEST_CASE("phlux devices lists every device and marks the default") {

@@ -66,6 +66,11 @@ const std::vector<Wrong> wrong_usage = {
      "--png a.jpg: the preview is a PNG file, such as a.png; none"},
     {{"render", "scene.xml", "--png", "a.exr"}, "--png a.exr: the preview is a PNG file"},
     {{"compare", "a.exr"}, "B.exr"},
+    {{"compare", "a.exr", "b.exr", "--fail-above", "psnr=30"}, "where METRIC is one of mean_error, rmse, "},
+    {{"compare", "a.exr", "b.exr", "--fail-above", "rmse"}, "--fail-above rmse: must be METRIC=VALUE"},
+    {{"compare", "a.exr", "b.exr", "--fail-above", "rmse=1%"}, "and VALUE a number of 0 or more"},
+    {{"compare", "a.exr", "b.exr", "--fail-above", "rmse=nan"}, "and VALUE a number of 0 or more"},
+    {{"compare", "a.exr", "b.exr", "--png", ""}, "--png '': must be a file name"},
     {{"devices", "now"}, "now: one argument too many"},
 };
 

@@ -1,5 +1,6 @@
 #include "files/compare.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -36,11 +37,33 @@ TEST_CASE("Known figures of two constant images") {
   CHECK(result.mean_a == 3.0);
   CHECK(result.mean_b == 2.0);
   CHECK(result.mean_ratio == 1.5);
+  CHECK(result.mean_error == 0.5);
   CHECK(result.rmse == 1.0);
   CHECK(result.relmse == Approx(1.0 / 4.0001));
   CHECK(result.relmse_trimmed == Approx(result.relmse));
   CHECK_FALSE(result.max_z.has_value());
   CHECK(result.nonfinite == 0);
+}
+
+TEST_CASE("Channels have means of their own") {
+  Image a = constant(2, 1, 1.0F), b = constant(2, 1, 2.0F);
+  a.channels["R"] = {1.0F, 2.0F};
+  b.channels["B"] = {0.0F, 8.0F};
+  const Comparison result = compare(a, b, "a", "b");
+  CHECK(result.mean_a_rgb == std::array{1.5, 1.0, 1.0});
+  CHECK(result.mean_b_rgb == std::array{2.0, 2.0, 4.0});
+  CHECK(result.mean_error == Approx(1.0 - 3.5 / 8.0));
+}
+
+TEST_CASE("PSNR is that of what a screen shows, exposed as the reference is") {
+  const float brightness = GENERATE(1e-3F, 1.0F, 1e6F);
+  const Image b = constant(4, 2, 2.0F * brightness);
+  // b is exposed to 0.18 and a to 0.27: -20 log10(0.5563... - 0.4613...) by IEC 61966-2-1
+  CHECK(compare(constant(4, 2, 3.0F * brightness), b, "a", "b").psnr == Approx(20.4421).epsilon(1e-4));
+  CHECK(std::isinf(compare(b, b, "b", "b").psnr));
+  Image spot = b; // 1 of 24 values burns out: from 0.4613... to 1
+  spot.channels["G"][3] = 1e9F * brightness;
+  CHECK(compare(spot, b, "a", "b").psnr == Approx(19.1761).epsilon(1e-4));
 }
 
 TEST_CASE("The trimmed figure leaves the largest 0.1% of pixels out") {
@@ -75,6 +98,8 @@ TEST_CASE("Without noise, rounding alone is not significant and a difference is"
   CHECK(*compare(a, a, "a", "a").max_z == 0.0);
   b.channels["R"][0] = 1.1F;
   CHECK(*compare(a, b, "a", "b").max_z > 1000.0);
+  add_variance(b, -1.0F); // of another program
+  CHECK(*compare(a, b, "a", "b").max_z > 1000.0);
 }
 
 TEST_CASE("Values that are not finite are counted and their pixels left out") {
@@ -101,16 +126,20 @@ TEST_CASE("Images of different sizes or without R, G, B cannot be compared") {
 
 TEST_CASE("The JSON has the contract's keys, and null for what is undefined") {
   Image a = constant(1, 1, 1.0F);
-  const std::set<std::string> always = {"mean_a", "mean_b",         "mean_ratio", "rmse",
-                                        "relmse", "relmse_trimmed", "nonfinite"};
+  const std::set<std::string> always = {"mean_a",     "mean_b",         "mean_ratio", "rmse",
+                                        "relmse",     "relmse_trimmed", "nonfinite",  "psnr",
+                                        "mean_error", "mean_a_rgb",     "mean_b_rgb"};
   CHECK(keys(to_json(compare(a, a, "a", "a"))) == always);
   add_variance(a, 1.0F);
   std::set<std::string> with_z = always;
   with_z.insert({"max_z", "z_share_over_3"});
   CHECK(keys(to_json(compare(a, a, "a", "a"))) == with_z);
+  for (const char* name : metric_names) CHECK(with_z.contains(name));
 
   const Image black = constant(1, 1, 0.0F);
   const auto json = nlohmann::json::parse(json_text(to_json(compare(black, black, "a", "b"))));
   CHECK(json["mean_ratio"].is_null());
+  CHECK(json["psnr"].is_null());
+  CHECK(json["mean_a_rgb"] == nlohmann::json{0.0, 0.0, 0.0});
   CHECK(json["rmse"] == 0.0);
 }
