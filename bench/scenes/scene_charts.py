@@ -26,12 +26,27 @@ class Method:
 
     @property
     def label(self):
-        return self.name if self.sound else f"{self.name} ({self.verdict})"
+        note = self.verdict if not self.sound else self.row.rank if self.row.rank in ("best", "tied") else ""
+        return f"{self.name} ({note})" if note else self.name
 
     @property
     def cost(self):
-        """Microseconds to unit variance; a lower bound if the variance is suspect."""
-        return 1e6 * self.row.variance_measured * self.row.seconds_per_sample
+        """Microseconds to unit variance, by the clock of the row; a lower bound if the variance is suspect."""
+        return 1e6 * self.row.cost
+
+    @property
+    def ratio(self):
+        """The cost relative to the best method: value, low and high end of its interval; NaN for biased methods."""
+        return self.row.cost_ratio, self.row.cost_ratio_low, self.row.cost_ratio_high
+
+    @property
+    def seconds(self):
+        """Seconds per sample by the clock of the row: median, least and most over the rounds."""
+        row = self.row
+        if row.clock == "processor":
+            return (row.processor_seconds_per_sample, row.processor_seconds_per_sample_least,
+                    row.processor_seconds_per_sample_most)
+        return row.seconds_per_sample, row.seconds_per_sample_least, row.seconds_per_sample_most
 
     def color(self, theme):
         return theme.color(self.variant_number)
@@ -48,9 +63,9 @@ class Method:
 
 
 def plain_log(axis, values):
-    """Labels a logarithmic axis 0.1, 1, 10, 1000, 1e+05; below two decades also at 2 and 5."""
+    """Labels a logarithmic axis 0.1, 1, 10, 1000, 1e+05; below two decades also at 2 and 5, and at more below one."""
     if max(values) < 100 * min(values):
-        axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        axis.set_major_locator(LogLocator(subs=(1, 2, 3, 4, 5, 7) if max(values) < 10 * min(values) else (1, 2, 5)))
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axis.set_minor_formatter(NullFormatter())
 
@@ -107,11 +122,11 @@ def draw_efficiency(scene, methods, theme):
     axes.set_title(f"{scene}: speed and accuracy")
     shown = [method for method in methods if not method.refused and method.row.variance_measured > 0]
     for method in shown:
-        row = method.row
-        rate, variance = 1e-6 / row.seconds_per_sample, row.variance_measured
+        row, (seconds, least, most) = method.row, method.seconds
+        rate, variance = 1e-6 / seconds, row.variance_measured
         error = min(row.variance_measured_standard_error, 0.9 * variance)
         axes.errorbar(rate, variance, yerr=[[error], [row.variance_measured_standard_error]],
-                      xerr=[[rate - 1e-6 / row.seconds_per_sample_most], [1e-6 / row.seconds_per_sample_least - rate]],
+                      xerr=[[rate - 1e-6 / most], [1e-6 / least - rate]],
                       color=method.color(theme), linestyle="", elinewidth=0.9, markersize=7, label=method.label,
                       **method.marker(theme))
         if method.verdict == "suspect":
@@ -135,7 +150,7 @@ def draw_efficiency(scene, methods, theme):
     axes.set_xlim(left, right)
     axes.set_ylim(bottom, top)
     plain_log(axes.xaxis, (left, right))
-    axes.set_xlabel("million samples per second")
+    axes.set_xlabel(f"million samples per second of {methods[0].row.clock} time")
     axes.set_ylabel("relative variance per sample")
     legend_beside(axes)
     return figure
@@ -145,6 +160,7 @@ def draw_times(scene, methods, theme):
     figure, axes = chart(0.95 + 0.32 * len(methods), left=0.15)
     axes.set_title(f"{scene}: time to unit variance")
     costs = [method.cost for method in methods if not method.refused]
+    best = next((method.cost for method in methods if method.row.rank == "best"), None)
     left = min(costs) / 3
     for i, method in enumerate(methods):
         if method.refused:
@@ -153,9 +169,15 @@ def draw_times(scene, methods, theme):
         style_of = {"color": method.color(theme)} if method.sound else {
             "facecolor": theme.paper, "edgecolor": method.color(theme), "hatch": "////", "linewidth": 1}
         axes.barh(i, method.cost - left, left=left, height=0.62, **style_of)
-        note = "" if method.sound else " (suspect)" if method.verdict == "suspect" else " (biased)"
+        end = method.cost
+        if best and method.row.rank != "best" and np.isfinite(method.ratio).all():
+            low, high = (best * ratio for ratio in method.ratio[1:])
+            axes.plot([max(low, left), high], [i, i], color=theme.ink, linewidth=1.1, marker="|", markersize=6)
+            end = max(end, high)
+        note = f" ({method.row.rank})" if method.row.rank in ("best", "tied") else ""
+        note = note if method.sound else f" ({method.verdict})"
         at_least = "at least " if method.verdict == "suspect" else ""
-        axes.text(method.cost * 1.06, i, f"{at_least}{short(method.cost)} µs{note}", va="center", fontsize=8)
+        axes.text(end * 1.06, i, f"{at_least}{short(method.cost)} µs{note}", va="center", fontsize=8)
     axes.set_yticks(range(len(methods)), [method.name for method in methods])
     axes.set_ylim(len(methods) - 0.4, -0.6)
     axes.set_xscale("log")
@@ -163,5 +185,5 @@ def draw_times(scene, methods, theme):
     plain_log(axes.xaxis, axes.get_xlim())
     axes.tick_params(axis="y", length=0)
     axes.grid(True, axis="x")
-    axes.set_xlabel("microseconds to unit variance of a pixel")
+    axes.set_xlabel(f"microseconds of {methods[0].row.clock} time to unit variance of a pixel")
     return figure

@@ -18,16 +18,19 @@ def draw_overview(scenes, theme):
         shown = [method for method in methods if not method.refused and method.row.variance_measured > 0]
         best = best_of(methods)
         if best is None:
-            axes.text(1, i, "no method is sound", va="center", ha="center", fontsize=8, color=theme.muted)
+            axes.text(0.02, i, "too little time to tell", transform=axes.get_yaxis_transform(), va="center", fontsize=8,
+                      color=theme.muted)
             continue
         axes.axhline(i, color=theme.grid, linewidth=0.8, zorder=0)
         for method in shown:
             if method.verdict == "biased":
                 continue
             apart = 0.09 * (method.variant_number - 3) + 0.05 * method.strategy_number
-            axes.plot(method.cost / best.cost, i + apart, linestyle="", markersize=6, **method.marker(theme))
+            value, low, high = method.ratio
+            axes.plot([low, high], [i + apart] * 2, color=method.color(theme), linewidth=1)
+            axes.plot(value, i + apart, linestyle="", markersize=6, **method.marker(theme))
             labelled.setdefault(method.name, method)
-            ratios.append(method.cost / best.cost)
+            ratios += [low, high]
     axes.set_yticks(range(len(scenes)), list(scenes))
     axes.set_ylim(len(scenes) - 0.4, -0.6)
     axes.set_xscale("log")
@@ -40,51 +43,60 @@ def draw_overview(scenes, theme):
                           **{**method.marker(theme), "markerfacecolor": method.color(theme)}) for method in entries]
     handles.append(plt.Line2D([], [], linestyle="", markersize=6, marker="o", markerfacecolor=theme.paper,
                               markeredgecolor=theme.muted, markeredgewidth=1.3))
-    legend_beside(axes, handles, [method.name for method in entries] + ["hollow: suspect,\na lower bound"])
+    legend_beside(axes, handles, [method.name for method in entries] + ["hollow: suspect\nor undecided"])
     return figure
 
 
+def ranked(methods, rank):
+    """The methods of this rank, the least cost first."""
+    return sorted((method for method in methods if method.row.rank == rank), key=lambda method: method.cost)
+
+
 def best_of(methods):
-    """The sound method with the least time to unit variance; None if no method is sound."""
-    return min((method for method in methods if method.sound), key=lambda method: method.cost, default=None)
+    """The sound method with the least cost; None if no method is sound."""
+    return next(iter(ranked(methods, "best")), None)
 
 
-def names_of(methods, verdict):
-    return ", ".join(method.name for method in methods if method.verdict == verdict)
+def names_of(methods):
+    return ", ".join(method.name for method in methods)
+
+
+def ratio_text(method):
+    value, low, high = method.ratio
+    return "1" if method.row.rank == "best" else f"{value:.3g} ({low:.3g} to {high:.3g})"
 
 
 def summary(scenes):
     rows = []
     for scene, methods in scenes.items():
-        best = best_of(methods)
-        if best is None:
-            rows.append([scene, "none is sound", None, "", None, None, names_of(methods, "suspect"),
-                         names_of(methods, "biased"), names_of(methods, "refused")])
-            continue
-        second = best_of([method for method in methods if method is not best])
+        first = ranked(methods, "best") + ranked(methods, "tied")
+        following = next(iter(ranked(methods, "slower")), None)
         default = next((method for method in methods if method.variant == "path mis" and method.sound), None)
-        rows.append([scene, best.name, round(best.cost, 6), second.name if second else "",
-                     second.cost / best.cost if second else None, default.cost / best.cost if default else None,
-                     names_of(methods, "suspect"), names_of(methods, "biased"), names_of(methods, "refused")])
-    return {"columns": ["scene", "best", "µs to unit variance", "second best", "its time / best", "time of path mis / best",
-                        "suspect variance", "biased", "refused"],
+        open_ones = ranked(methods, "open")
+        rows.append([scene, names_of(first) or "none is known to be right", round(first[0].cost, 6) if first else None,
+                     following.name if following else "", ratio_text(following) if following else "",
+                     ratio_text(default) if default and first else "", names_of(open_ones),
+                     names_of(method for method in methods if method.verdict == "biased"),
+                     names_of(method for method in methods if method.refused)])
+    return {"columns": ["scene", "least time (several: tied)", "µs to unit variance", "the next", "its time / least",
+                        "time of path mis / least", "too little time to tell", "biased", "refused"],
             "rows": rows,
-            "note": "Best: the sound method with the least time to unit variance (variance per sample times seconds per sample). "
-                    "An image of N pixels reaches relative MSE e after N / e times that time."}
+            "note": "Time: variance per sample times seconds per sample. An image of N pixels reaches relative MSE e after N / e "
+                    "times that time. In brackets: interval; all intervals of a scene are right together with probability 95%. "
+                    "Methods are tied if their interval reaches 1."}
 
 
 TEXT = [
     "Every method renders each scene for the same total time. The methods alternate, and each round has a new seed. The "
     "variance is that of one sample per pixel, relative to the reference as in phlux compare: squared error / (reference² + "
-    "0.0001), averaged over pixels and channels. A sample is one path; for light, one light path per pixel of the image. The "
-    "variance is estimated from whole renders with different seeds, and its standard error by a jackknife over them. Variance "
-    "per sample times seconds per sample is the time to unit variance: the most efficient method has the least.",
-    "A variance is suspect, that is possibly infinite, if its standard error is above a quarter of it; or above a tenth while "
-    "the largest 0.1% of the errors of single samples hold more than 30% of the squared error; or if the variance from renders "
-    "with many samples is at least twice that from renders with one sample. The table then leaves the variance empty, and the "
-    "charts show the measured value as a hollow marker, which is a lower bound. A method is biased if it is known to be, or if "
-    "its mean, or the part of its error that the variance does not explain, differs significantly from the reference "
-    "(p < 0.0001).",
+    "0.0001), averaged over pixels and channels. A sample is one path; for light, one light path per pixel of the image. "
+    "Variance per sample times seconds per sample is the time to unit variance: the most efficient method has the least. On CPUs "
+    "processor time counts, which excludes other programs. The intervals of the ratios are bootstrapped over the rounds.",
+    "A variance is suspect, that is possibly infinite, if its standard error is above a tenth of it while the largest 0.1% of "
+    "the errors of single samples hold more than 30% of the squared error; or if the variance from renders with many samples is "
+    "at least twice that from renders with one sample. Its measured value is a lower bound. A method is biased if it is known "
+    "to be, or if its mean or its pixels differ from the reference by 4.5 standard errors of all that is uncertain, the "
+    "reference included. It is undecided if its variance is known to less than 25% or a bias of 10% would not be found.",
     "The reference is rendered by the method with the least time to unit variance in a trial. The dashed line in the "
     "convergence charts is the error of the reference: measured errors near it or below are not meaningful.",
 ]
@@ -105,7 +117,8 @@ def scene_charts(folder, scene, methods, points):
          "caption": f"Mean and range over {row.rounds:.0f} seeds, {row.image} pixels. Reference: {row.reference_by}, "
                     f"{row.reference_seconds:.3g} s."},
         {"svg": f"scenes-{scene}-times.svg", "title": f"{scene}: time to unit variance",
-         "caption": "Variance per sample times seconds per sample; less is better."},
+         "caption": "Variance per sample times seconds per sample; less is better. Black lines: interval of the ratio to the best "
+                    "method."},
     ]
     more_drawings, more_charts = sheets(folder, scene, methods)
     return drawings + more_drawings, charts + more_charts
@@ -144,8 +157,8 @@ def main():
         folder, "scenes", title="Rendering methods by scene", order=10, text=TEXT, summary=summary(scenes), charts=charts,
         tables=[{"csv": "scenes.csv", "title": "Every method on every scene",
                  "columns": ["scene", "integrator", "strategy", "connect_or_weights", "verdict", "variance_per_sample",
-                             "variance_standard_error", "top_share", "seconds_per_sample", "variance_times_seconds",
-                             "relmse", "seconds", "samples_per_pixel", "mean_bias_sigma", "reason"]},
+                             "variance_standard_error", "top_share", "seconds_per_sample", "clock", "cost", "cost_ratio_low",
+                             "cost_ratio_high", "rank", "relmse", "seconds", "samples_per_pixel", "mean_bias_sigma", "reason"]},
                 {"csv": "scenes-convergence.csv", "title": "Error against render time"}])
 
 

@@ -9,7 +9,7 @@ from functools import partial
 import chart_style as style
 import numpy as np
 from stability_maps import draw_best, draw_costs, panels_of
-from stability_results import SMALLEST_MARGIN, Grid, exponent_text
+from stability_results import Grid, exponent_text
 
 
 def image_file(folder, cell):
@@ -71,9 +71,9 @@ def map_charts(grid):
     drawings = [("stability-best", partial(draw_best, grid)), ("stability-cost", partial(draw_costs, grid))]
     charts = [
         {"svg": "stability-best.svg", "title": "The best method",
-         "caption": "Upper number: time of the second best method over that of the best; pale if it is below "
-                    f"{SMALLEST_MARGIN:g} or not significant (two standard errors), or if a suspect method may be faster. Lower "
-                    "number: the same for the best method of another integrator; ≥: a lower bound, its variance is suspect."},
+         "caption": "Upper number: time of the second best method over that of the best; pale if they are tied, or if a suspect "
+                    "or undecided method may need less time. Lower number: the same for the best method of another integrator; "
+                    "≥: a lower bound, its variance is suspect."},
         {"svg": "stability-cost.svg", "title": "Each method",
          "caption": "Microseconds to unit variance. Hatched: the variance is suspect and the number is a lower bound; ?: no "
                     "sample found light. Crossed: biased, the image differs from the reference by more than its variance "
@@ -94,8 +94,8 @@ def main():
         folder, "stability", title="Where methods fail", order=50, text=TEXT, summary=summary(grid), charts=charts,
         tables=[{"csv": "stability.csv", "title": "Every method in every cell",
                  "columns": ["exponent", "light_radius", "integrator", "strategy", "connect_or_weights", "verdict",
-                             "variance_per_sample", "variance_standard_error", "top_share", "processor_seconds_per_sample",
-                             "variance_times_seconds", "variance_measured", "mean_bias_sigma", "reference_relmse", "reason"]}])
+                             "variance_per_sample", "variance_standard_error", "top_share", "cost", "cost_ratio_low",
+                             "cost_ratio_high", "rank", "variance_measured", "mean_bias_sigma", "reference_relmse", "reason"]}])
 
 
 if __name__ == "__main__":

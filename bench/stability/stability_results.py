@@ -3,8 +3,6 @@ import math
 
 import chart_style as style
 
-SMALLEST_MARGIN = 1.05  # ratios below count as a tie, whatever the standard errors
-
 
 class Result:
     """A row of stability.csv: one method in one cell."""
@@ -15,19 +13,14 @@ class Result:
         self.method = self.variant if len(strategies) == 1 else f"{self.variant}, {row.strategy}"
         self.cell = (row.exponent, row.light_radius)
         self.sound = row.verdict == "sound"
-        self.suspect = row.verdict == "suspect"
+        self.suspect = row.verdict in ("suspect", "undecided")
         self.refused = row.verdict == "refused"
         self.number = style.VARIANTS.index(self.variant) + len(style.VARIANTS) * strategies.index(row.strategy)
 
     @property
     def cost(self):
         """Microseconds to unit variance; a lower bound if the variance is suspect, and 0 if no sample found light."""
-        seconds = self.row.processor_seconds_per_sample if self.row.clock == "processor" else self.row.seconds_per_sample
-        return 1e6 * self.row.variance_measured * seconds
-
-    @property
-    def relative_error(self):
-        return self.row.variance_measured_standard_error / self.row.variance_measured
+        return 1e6 * self.row.cost
 
 
 class Grid:
@@ -50,7 +43,7 @@ class Grid:
                       key=lambda result: result.cost)
 
     def suspects(self, cell):
-        """The suspect methods of a cell whose lower bound is above 0, the least first."""
+        """The suspect and undecided methods of a cell whose lower bound is above 0, the least first."""
         return sorted((result for result in self.results if result.cell == cell and result.suspect and result.cost > 0),
                       key=lambda result: result.cost)
 
@@ -63,14 +56,12 @@ class Grid:
 
 
 def margin_of(ranked, suspects):
-    """Time of the second best method over that of the best, and whether it is significant: above two standard errors, and no
-    suspect method has a lower bound below the time of the best."""
-    undecided = any(result.cost < ranked[0].cost for result in suspects)
+    """Time of the second best method over that of the best, and whether the best is known: the second is not tied with it, and
+    no suspect or undecided method may need less time."""
+    known = not any(result.row.rank == "open" for result in suspects)
     if len(ranked) < 2:
-        return math.inf, not undecided
-    margin = ranked[1].cost / ranked[0].cost
-    error = math.hypot(ranked[0].relative_error, ranked[1].relative_error)
-    return margin, margin > SMALLEST_MARGIN and math.log(margin) > 2 * error and not undecided
+        return math.inf, known
+    return ranked[1].row.cost_ratio, known and ranked[1].row.rank == "slower"
 
 
 def best_of_another_integrator(ranked, suspects):

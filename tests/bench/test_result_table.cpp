@@ -32,8 +32,8 @@ MethodResult result_with(Verdict verdict) {
   MethodResult result;
   result.verdict = verdict;
   result.variance = {2, .1};
-  result.seconds_per_sample = .5;
-  result.processor_seconds_per_sample = .25;
+  result.wall.median = .5;
+  result.processor.median = .25;
   result.convergence.push_back({});
   return result;
 }

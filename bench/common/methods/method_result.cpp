@@ -29,6 +29,13 @@ double mean_samples(const ImageEstimate& image) {
          static_cast<double>(image.samples.size());
 }
 
+SampleTime sample_time(const std::vector<RoundCost>& rounds, double RoundCost::*member) {
+  std::vector<double> seconds;
+  for (const RoundCost& round : rounds) seconds.push_back(round.*member);
+  const auto [least, most] = std::ranges::minmax(seconds);
+  return {measure::median(seconds), least, most};
+}
+
 } // namespace
 
 const char* word_of(Verdict verdict) {
@@ -139,19 +146,12 @@ MethodResult MethodRenders::result(const Method& method, const ReferenceImage& r
   MethodResult result{.method = method};
   result.rounds = costs_;
   const std::vector<double> variances = variances_per_sample(images_, reference.image);
-  std::vector<double> seconds, processor_seconds;
-  for (std::size_t i = 0; i < costs_.size(); ++i) {
-    result.rounds[i].variance = variances[i];
-    seconds.push_back(costs_[i].seconds);
-    processor_seconds.push_back(costs_[i].processor_seconds);
-  }
+  for (std::size_t i = 0; i < costs_.size(); ++i) result.rounds[i].variance = variances[i];
   result.variance = mean_of(variances);
   result.top_share = top_share(one_sample_images_, reference.image);
   result.mean = mean_of(image_means(images_));
-  result.seconds_per_sample = measure::median(seconds);
-  result.processor_seconds_per_sample = measure::median(processor_seconds);
-  const auto [least, most] = std::ranges::minmax(seconds);
-  result.seconds_per_sample_least = least, result.seconds_per_sample_most = most;
+  result.wall = sample_time(costs_, &RoundCost::seconds);
+  result.processor = sample_time(costs_, &RoundCost::processor_seconds);
   result.convergence = convergence();
   result.first_image = images_.front();
   judge(result, reference);

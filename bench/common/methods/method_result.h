@@ -34,6 +34,11 @@ struct RoundCost {
   double variance = 0, seconds = 0, processor_seconds = 0;
 };
 
+/// Seconds per sample over the rounds.
+struct SampleTime {
+  double median = 0, least = 0, most = 0;
+};
+
 struct MethodResult {
   Method method;
   Verdict verdict = Verdict::sound;
@@ -42,8 +47,7 @@ struct MethodResult {
   double top_share = 0;
   Estimate mean{};            ///< of the image
   double mean_bias_sigma = 0; ///< (mean - mean of the reference) / standard error of the difference
-  double seconds_per_sample = 0, seconds_per_sample_least = 0, seconds_per_sample_most = 0;
-  double processor_seconds_per_sample = 0; ///< over all threads; median
+  SampleTime wall{}, processor{}; ///< processor time over all threads
   /// How many times as long a measurement would have to be to decide; of undecided and suspect methods.
   double times_longer = 0;
   std::vector<RoundCost> rounds{};

@@ -146,7 +146,7 @@ std::string answer_of(const std::vector<MethodResult>& results, const std::vecto
   std::erase_if(order, [&](std::size_t i) { return std::isnan(costs[i].cost); });
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return costs[i].cost; });
   std::vector<std::string> fastest, slower, open;
-  double longer = 2;
+  double soonest = INFINITY, longest = 2; // factors of the time
   for (const std::size_t i : order) {
     const std::string name = options_of(results[i].method);
     const Rank rank = costs[i].rank;
@@ -155,16 +155,19 @@ std::string answer_of(const std::vector<MethodResult>& results, const std::vecto
     if (rank == Rank::slower) slower.push_back(name + ", needs " + factor(costs[i]) + " times as long");
     if (rank == Rank::open) {
       open.push_back(name);
-      longer = std::max(longer, results[i].times_longer);
+      soonest = std::min(soonest, std::max(2.0, results[i].times_longer));
+      longest = std::max(longest, results[i].times_longer);
     }
   }
   if (fastest.empty() && open.empty()) return "no method is right";
+  if (fastest.empty())
+    return fmt::format("too little time to tell which method is best: --seconds {:.2g} or more",
+                       seconds * soonest);
   std::string text;
   if (!open.empty())
     text = fmt::format(
         "too little time to tell whether {} {} less time for the same error: --seconds {:.2g} or more",
-        list_of(open), open.size() == 1 ? "needs" : "need", seconds * longer);
-  if (fastest.empty()) return text;
+        list_of(open), open.size() == 1 ? "needs" : "need", seconds * longest);
   if (!open.empty()) text += "; of the others, ";
   const std::string what = open.empty() ? "the least time for the same error" : "the least time";
   text += fastest.size() == 1 ? fmt::format("{} needs {}", fastest[0], what)

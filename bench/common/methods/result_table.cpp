@@ -73,6 +73,8 @@ const std::vector<std::string>& result_columns() {
                                                    "seconds_per_sample_least",
                                                    "seconds_per_sample_most",
                                                    "processor_seconds_per_sample",
+                                                   "processor_seconds_per_sample_least",
+                                                   "processor_seconds_per_sample_most",
                                                    "clock",
                                                    "cost",
                                                    "cost_ratio",
@@ -108,15 +110,16 @@ std::vector<std::string> result_values(const MethodResult& result, const RankedC
   add(result.variance.value, variance_known);
   add(result.variance.standard_error, variance_known);
   add(result.top_share);
-  add(result.seconds_per_sample);
-  add(result.variance.value * result.seconds_per_sample, sound);
+  add(result.wall.median);
+  add(result.variance.value * result.wall.median, sound);
   row.emplace_back(word_of(result.verdict));
   row.push_back(csv_value(result.reason));
   add(result.variance.value);
   add(result.variance.standard_error);
-  add(result.seconds_per_sample_least);
-  add(result.seconds_per_sample_most);
-  add(result.processor_seconds_per_sample);
+  add(result.wall.least);
+  add(result.wall.most);
+  for (const double value : {result.processor.median, result.processor.least, result.processor.most})
+    add(value);
   row.emplace_back(word_of(common.clock));
   add(cost.cost);
   for (const double value : {cost.ratio, cost.low, cost.high}) add(value);
