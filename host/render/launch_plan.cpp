@@ -43,10 +43,10 @@ std::size_t record_words(const Parts& parts) {
   return parts.techniques ? RECORD_TECHNIQUE + 1 : RECORD_VALUE + 3;
 }
 
-Planner::Planner(const device::DeviceInfo& device, const Parts& parts)
-    : device_(device), parts_(parts), local_size_(device::group_size(parts.lanes)),
-      units_(device.compute_units), first_items_(std::max(work_items(device) / 64, units_)),
-      items_(work_items(device)) {}
+Planner::Planner(const device::DeviceInfo& device, const Parts& parts, double launch_seconds)
+    : device_(device), parts_(parts), launch_seconds_(launch_seconds),
+      local_size_(device::group_size(parts.lanes)), units_(device.compute_units),
+      first_items_(std::max(work_items(device) / 64, units_)), items_(work_items(device)) {}
 
 int Planner::batch_jobs(int block_samples) const {
   return parts_.lanes * least_lane_jobs(parts_.lanes, block_samples);

@@ -28,10 +28,10 @@ struct LaunchPlan {
 /// Plans launches from the measurements of earlier ones.
 class Planner {
 public:
-  Planner(const device::DeviceInfo& device, const Parts& parts);
+  /// Launches should last about `launch_seconds`.
+  Planner(const device::DeviceInfo& device, const Parts& parts, double launch_seconds);
 
-  /// Launches should last about `seconds`.
-  void set_launch_seconds(double seconds) { launch_seconds_ = seconds; }
+  void set_launch_seconds(double launch_seconds) { launch_seconds_ = launch_seconds; }
 
   /// The number of jobs of the next launch when `left` are left.
   [[nodiscard]] std::int64_t wanted_jobs(std::int64_t left, int block_samples) const;
@@ -48,7 +48,7 @@ private:
 
   device::DeviceInfo device_;
   Parts parts_;
-  double launch_seconds_ = 0;
+  double launch_seconds_;
   std::size_t local_size_;
   std::size_t units_;             // compute units
   std::size_t first_items_;       // work-items of the first launch

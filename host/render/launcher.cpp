@@ -1,6 +1,7 @@
 #include "render/launcher.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
@@ -27,7 +28,8 @@ double seconds_of(const cl::Event& kernel_done) {
 Launcher::Launcher(const device::Device& device, const device::BuiltProgram& program, const HostScene& scene,
                    const Parts& parts, const Settings& settings)
     : device_(device), scene_(device, scene, parts), parts_(parts),
-      kernel_(program, settings::info_of(parts.integrator).kernel), planner_(device.info, parts),
+      kernel_(program, settings::info_of(parts.integrator).kernel),
+      planner_(device.info, parts, settings.launch_seconds),
       pixels_(static_cast<std::int64_t>(scene.camera.width) * scene.camera.height) {
   scene_.bind(kernel_);
   kernel_.set("pixel_count", static_cast<cl_int>(pixels_));
@@ -41,7 +43,8 @@ Launcher::Launcher(const device::Device& device, const device::BuiltProgram& pro
 void Launcher::begin(const Settings& settings) {
   kernel_.set("seed",
               cl_uint2{{static_cast<cl_uint>(settings.seed), static_cast<cl_uint>(settings.seed >> 32)}});
-  planner_.set_launch_seconds(settings.launch_seconds);
+  // Two launches are in flight when the time is over.
+  planner_.set_launch_seconds(std::min(settings.launch_seconds, settings.time_limit.value_or(INFINITY) / 40));
 }
 
 Launcher::~Launcher() {

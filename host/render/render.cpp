@@ -1,7 +1,7 @@
 #include "render/render.h"
 
 #include <algorithm>
-#include <chrono>
+#include <cmath>
 #include <deque>
 #include <exception>
 #include <limits>
@@ -15,6 +15,7 @@
 #include "clock.h"
 #include "device/program.h"
 #include "errors.h"
+#include "render/error_target.h"
 #include "render/launcher.h"
 
 namespace phlux::render {
@@ -46,7 +47,10 @@ public:
         schedule_(static_cast<std::int64_t>(film.pixels().size()),
                   open_ended_ ? std::nullopt : std::optional<std::int64_t>(settings.samples_per_pixel),
                   from.position),
-        counts_(from), ended_(from.paths > 0 && precise_enough()) {}
+        counts_(from), started_paths_(from.paths) {
+    if (settings.target_error) target_.emplace(*settings.target_error, film.pixels().size());
+    ended_ = from.paths > 0 && precise_enough();
+  }
 
   // Runs one device until the work is done or ended; reports progress after each launch.
   void run(Launcher& launcher) {
@@ -84,9 +88,13 @@ private:
   bool take(Launcher& launcher) {
     const std::lock_guard lock(mutex_);
     if (ended_ || (settings_.time_limit && seconds() >= *settings_.time_limit)) return false;
-    auto launch =
-        schedule_.next([&](std::int64_t left, int samples) { return launcher.wanted_jobs(left, samples); });
+    if (target_ && launcher.in_flight() > 0 && paths_left() <= 0) return false;
+    auto launch = schedule_.next([&](std::int64_t left, int samples) {
+      if (target_) left = std::clamp<std::int64_t>(paths_left() / samples, 1, left);
+      return launcher.wanted_jobs(left, samples);
+    });
     if (!launch) return false;
+    started_paths_ += static_cast<std::uint64_t>(launch->jobs * launch->block_samples);
     in_flight_[&launcher].push_back(*launch);
     launch->first_sample += settings_.first_sample;
     launcher.enqueue(*launch);
@@ -104,27 +112,27 @@ private:
     return events_.progress(progress);
   }
 
-  // Computes the film's error at most five times a second and for at most 2% of the time.
-  bool precise_enough() {
-    if (!settings_.target_error || Clock::now() < next_check_) return false;
-    const Clock::time_point begin = Clock::now();
-    const bool reached = film_.relative_standard_error() <= *settings_.target_error;
-    next_check_ =
-        Clock::now() + std::max<Clock::duration>(std::chrono::milliseconds(200), 50 * (Clock::now() - begin));
-    return reached;
+  bool precise_enough() { return target_ && target_->reached(film_, counts_.paths); }
+
+  // Until the requested error, as far as is known.
+  [[nodiscard]] std::int64_t paths_left() const {
+    return static_cast<std::int64_t>(
+        std::ceil(target_->wanted_paths() - static_cast<double>(started_paths_)));
   }
 
   const Settings& settings_;
   film::Film& film_;
   const Events& events_;
-  Clock::time_point begin_, next_check_{};
+  Clock::time_point begin_;
   double seconds_before_;
   bool open_ended_;
   Schedule schedule_;
   std::map<const Launcher*, std::deque<Launch>> in_flight_;
   std::mutex mutex_;
   Counts counts_;
-  bool ended_;
+  std::uint64_t started_paths_;
+  std::optional<ErrorTarget> target_;
+  bool ended_ = false;
 };
 
 void check(const Settings& settings) {

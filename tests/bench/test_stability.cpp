@@ -93,8 +93,6 @@ TEST_CASE("With a tiny light, hitting it by chance is suspect and next-event est
 TEST_CASE("A method with a worse strategy has more variance in a cell") {
   const Method plain{"path", "uniform", "none"};
   const auto results = measured(stability_scene(10, .3, 8), {none, plain}, 2);
-  CHECK_FALSE(results[0].verdict == Verdict::suspect_variance);
-  CHECK_FALSE(results[0].verdict == Verdict::biased);
   const Estimate a = results[0].variance, b = results[1].variance;
   CAPTURE(a.value, a.standard_error, b.value, b.standard_error);
   CHECK(b.value - a.value > 4 * std::hypot(a.standard_error, b.standard_error));
