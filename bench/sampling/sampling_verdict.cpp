@@ -141,10 +141,13 @@ std::string on_all(const std::vector<Ranking>& rankings, const std::string& opti
   for (auto entry = order.begin() + 1; entry != order.end(); ++entry)
     others.push_back(fmt::format("{} ({}, {})", entry->first, entry->second.best, entry->second.tied));
   const auto& [answer, count] = order.front();
-  const std::string slowest = count.slowest > largest_factor ? fmt::format("over {:.0f}", largest_factor)
-                                                             : fmt::format("at most {:.3g}", count.slowest);
-  return fmt::format("{}{} {}: best in {} and tied in {} of {} cases, and {} times the time of the best{}{}",
-                     option, answer, condition, count.best, count.tied, rankings.size(), slowest,
+  std::string slowest;
+  if (count.slowest > 1)
+    slowest = fmt::format(", and {} times the time of the best",
+                          count.slowest > largest_factor ? fmt::format("over {:.0f}", largest_factor)
+                                                         : fmt::format("at most {:.3g}", count.slowest));
+  return fmt::format("{}{} {}: best in {} and tied in {} of {} cases{}{}{}", option, answer, condition,
+                     count.best, count.tied, rankings.size(), slowest,
                      others.empty() ? "" : "; then (best, tied) ", fmt::join(others, ", "));
 }
 
