@@ -41,14 +41,14 @@ def counts_summary(rankings):
     columns, lines = ["strategy"], {strategy: [strategy] for strategy in STRATEGIES}
     for condition in CONDITIONS:
         name = "roulette" if condition else "no roulette"
-        columns += [f"best, {name}", f"tied, {name}", "90th percentile of the factor"]
+        columns += [f"best, {name}", f"tied, {name}", f"factor, {name}"]
         for strategy, line in lines.items():
             rows = [row for (_, roulette, *_), some in rankings.items() if roulette == condition
                     for row in some if row.strategy == strategy and row.compared]
             line += [sum(row.verdict == "best" for row in rows), sum(row.verdict == "tied" for row in rows),
-                     factor_text(np.quantile([min(row.factor, 2 * LARGEST_FACTOR) for row in rows], 0.9)) if rows else ""]
-    note = ("Best and tied: in how many cases of material, angle and light. Factor: variance × cost over that of the best of "
-            "the case (≫: over 1000).")
+                     float(np.quantile([min(row.factor, LARGEST_FACTOR) for row in rows], 0.9)) if rows else ""]
+    note = ("Best and tied: in how many cases of material, angle and light. Factor: 90th percentile over the cases of variance × "
+            f"cost over that of the best of the case, where {LARGEST_FACTOR} stands for more too.")
     return columns, [line for line in lines.values() if any(line[1:])], note
 
 

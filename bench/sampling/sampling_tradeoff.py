@@ -9,10 +9,12 @@ from matplotlib.ticker import FixedLocator, MaxNLocator, NullLocator
 from sampling_ranking import CONDITIONS, CONSTANT, LIGHTS, STRATEGIES, WINNERS, number_text, result_text
 
 PANEL, LABELS = (2.5, 2.7), 1.7  # inches: a panel, and the column of labels at its right
-MARGINS = {"left": 0.7, "right": 0.05, "top": 0.9, "bottom": 0.5}
+MARGINS = {"left": 0.8, "right": 0.05, "top": 0.9, "bottom": 0.5}
 GAP = (0.45, 1.05)
 INTERVAL = 1.96  # standard errors of a 95% interval
-FRAMED = 12  # a strategy is in the frame if it takes at most this many times the time of the best that has variance
+# A strategy is in the frame if its variance x cost and its cost are at most these multiples of those of the best that has
+# variance.
+FRAMED, FRAMED_COST = 8, 2.5
 LEAST_SPAN = 1.3  # of an axis: largest over smallest value
 LABEL_HEIGHT = 0.135  # inches
 MULTIPLES = (1, 1.02, 1.05, 1.1, 1.2, 1.5, 2, 3, 5, 10, 20, 50, 100)
@@ -28,8 +30,9 @@ def product(row):
 
 def frame_of(rows):
     """Limits of the two axes that contain the error bars of the strategies that are not outliers."""
-    best = min(map(product, rows))
-    inside = [row for row in rows if product(row) <= FRAMED * best]
+    best = min(rows, key=product)
+    inside = [row for row in rows
+              if product(row) <= FRAMED * product(best) and row.cost_ns <= FRAMED_COST * best.cost_ns]
     limits = []
     for value, error in (("cost_ns", "cost_standard_error"), ("relative_variance", "relative_variance_standard_error")):
         lows = [getattr(row, value) - INTERVAL * getattr(row, error) for row in inside]
@@ -117,18 +120,18 @@ def draw_panel(axes, entries, theme):
             axes.errorbar(x, y, INTERVAL * row.relative_variance_standard_error, INTERVAL * row.cost_standard_error,
                           color=theme.color(i), lw=1, capsize=1.5, capthick=0.8)
         axes.plot(x, y, color=theme.color(i), marker=style.MARKERS[i], ls="none", clip_on=False, zorder=3)
-        height = axes.transAxes.inverted().transform(axes.transData.transform((x, y)))[1]
-        labels.append((height, label_of(row, x, y), (x, y), theme.color(i), row.verdict in WINNERS))
+        place = axes.transAxes.inverted().transform(axes.transData.transform((x, y)))
+        labels.append((place[1], label_of(row, x, y), place, theme.color(i), row.verdict in WINNERS))
     labels += [(-0.1, f"{row.strategy}: {row.verdict.split()[0]}", None, theme.muted, False)
                for row in entries if not row.compared]
     labels.sort(key=lambda label: -label[0])
     heights = spread([label[0] for label in labels], LABEL_HEIGHT / PANEL[1])
-    for (_, text, point, color, wins), height in zip(labels, heights):
-        line = {"arrowstyle": "-", "color": color, "lw": 0.5, "alpha": 0.55, "shrinkA": 1, "shrinkB": 3,
-                "relpos": (0, 0.5)}
-        axes.annotate(text, point or (1.06, height), (1.06, height), xycoords="data" if point else "axes fraction",
-                      textcoords="axes fraction", va="center", fontsize=7, color=color, annotation_clip=False,
-                      fontweight="bold" if wins else "normal", arrowprops=line if point else None)
+    for (_, text, place, color, wins), height in zip(labels, heights):
+        if place is not None:
+            axes.plot((place[0], 1.05), (place[1], height), color=color, lw=0.5, alpha=0.55, transform=axes.transAxes,
+                      clip_on=False, zorder=1)
+        axes.text(1.06, height, text, transform=axes.transAxes, va="center", fontsize=7, color=color,
+                  fontweight="bold" if wins else "normal")
 
 
 def draw_tradeoff(rows, cases, light, theme):

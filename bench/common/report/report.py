@@ -37,6 +37,7 @@ table { border-collapse: collapse; font-size: .86rem; font-variant-numeric: tabu
 th, td { padding: .25rem .7rem .25rem 0; text-align: left; vertical-align: top; }
 th { font-weight: 600; border-bottom: 1px solid var(--line); }
 td { border-bottom: 1px solid var(--wash); }
+@media (max-width: 60rem) { table { font-size: .78rem; } th, td { padding-right: .4rem; } }
 .number { text-align: right; } td.number { white-space: nowrap; }
 summary { cursor: pointer; color: var(--link); margin: .6rem 0; }
 code { white-space: nowrap; }
