@@ -76,7 +76,8 @@ class Theme:
 
     def parameters(self):
         return {
-            "font.size": 9, "font.family": "DejaVu Sans", "axes.titlesize": 10, "axes.labelsize": 9,
+            "font.size": 9, "font.family": "sans-serif", "font.sans-serif": ["DejaVu Sans"],
+            "axes.titlesize": 10, "axes.labelsize": 9,
             "xtick.labelsize": 8, "ytick.labelsize": 8, "legend.fontsize": 8, "legend.frameon": False,
             "axes.edgecolor": self.axis, "axes.labelcolor": self.ink, "axes.titlecolor": self.ink,
             "axes.facecolor": self.paper, "axes.linewidth": 0.8, "axes.grid": False, "axes.axisbelow": True,
