@@ -10,8 +10,9 @@ import chart_style as style
 import matplotlib.pyplot as plt
 from sampling_ranking import read, read_verdict
 
+COST = "nanoseconds per sample, ray included"
 PANELS = (("relative variance of one sample", lambda row: row.relative_variance),
-          ("nanoseconds per sample, ray included", lambda row: row.cost_ns),
+          (COST, lambda row: row.cost_ns),
           ("variance × cost, ns", lambda row: row.relative_variance * row.cost_ns))
 
 
@@ -27,7 +28,11 @@ def draw(ranking, theme):
         for i, strategy in enumerate(sorted({row.strategy for row in rows})):
             points = sorted((row.theta_deg, value(row)) for row in rows if row.strategy == strategy)
             axes.plot(*zip(*points), label=strategy, **theme.series(i))
-        axes.set(title=title, xlabel="angle of incidence, degrees", yscale="log")
+        axes.set(title=title, xlabel="angle of incidence, degrees")
+        if title != COST:
+            axes.set_yscale("log")
+        else:
+            axes.set_ylim(0, 1.1 * axes.get_ylim()[1])
         axes.grid(True)
     panels[0].legend()
     return figure
