@@ -23,8 +23,8 @@ namespace phlux::bench {
 /// has weight 1 / e, so the variance diverges like the integral of 1 / e if this density is not 0.
 [[nodiscard]] double printed_density_at_horizon(const Case& one);
 
-/// Whether the strategy uses Russian roulette (CW 197, 3.3.2): all but those that ignore the lobe. A model's
-/// own sampling does.
+/// Whether the strategy absorbs by Russian roulette (CW 197, 3.3.2) in sampling.csv: all but those that
+/// ignore the lobe, which absorb in renders only (sampling-plain-roulette.csv). A model's own sampling does.
 [[nodiscard]] bool has_roulette(const std::string& strategy);
 
 /// What one row of the table estimates: an integral, with or without roulette.

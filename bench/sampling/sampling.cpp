@@ -1,7 +1,6 @@
 #include "bench/sampling/sampling.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -15,9 +14,12 @@
 #include "bench/common/tables/provenance.h"
 #include "bench/common/tables/resume.h"
 #include "bench/common/tables/saved_table.h"
+#include "bench/sampling/sampling_ranking.h"
 #include "bench/sampling/sampling_summary.h"
 #include "bench/sampling/sampling_table.h"
+#include "bench/sampling/sampling_verdict.h"
 #include "clock.h"
+#include "files/output.h"
 #include "render/render.h"
 
 namespace phlux::bench {
@@ -33,8 +35,23 @@ std::string name_of(const SamplingOptions& options) {
   return options.material ? "sampling-" + options.material->model->name : "sampling";
 }
 
-std::array<std::string, 2> tables_of(const SamplingOptions& options) {
-  return {name_of(options) + ".csv", name_of(options) + "-no-roulette.csv"};
+// With roulette in those strategies that have_roulette(), and without it; of the Phong model, the others with
+// it.
+std::vector<std::string> tables_of(const SamplingOptions& options) {
+  std::vector<std::string> tables = {name_of(options) + ".csv", name_of(options) + "-no-roulette.csv"};
+  if (!options.material) tables.push_back(name_of(options) + "-plain-roulette.csv");
+  return tables;
+}
+
+bool is_in_table(const std::string& strategy, std::size_t table) {
+  return table == 0 || has_roulette(strategy) == (table == 1);
+}
+
+std::vector<SavedTable> read_tables(const SamplingOptions& options) {
+  std::vector<SavedTable> tables;
+  for (const std::string& name : tables_of(options))
+    tables.emplace_back(options.folder, name, sampling_columns());
+  return tables;
 }
 
 lobes::ModelPointer model_of(const SamplingOptions& options) {
@@ -113,15 +130,15 @@ std::vector<PendingRow> pending_rows(std::vector<Sampler>& samplers, const Integ
   const double reflected = options.material ? samplers.front().reflectivity_of(integral.one)
                                             : reflected_radiance(integral.one, integral.light);
   std::vector<PendingRow> pending;
-  for (const std::size_t table : {0u, 1u})
+  for (std::size_t table = 0; table < tables_of(options).size(); ++table)
     for (Sampler& sampler : samplers) {
       const std::string& strategy = sampler.strategy();
-      const bool absorbs = has_roulette(strategy);
-      if (is_left_out(strategy, integral.one) || (table == 1 && !absorbs)) continue;
+      if (is_left_out(strategy, integral.one) || !is_in_table(strategy, table)) continue;
+      const bool absorbs = has_roulette(strategy) ? table == 0 : table == 2;
       const std::uint64_t wanted = samples_of(options, strategy, integral.one);
       const cl_uint2 seed = {
           {options.seed, integral.number * most_rows + static_cast<cl_uint>(pending.size())}};
-      const Subject subject{integral.one, integral.light, absorbs && table == 0, reflected, seed};
+      const Subject subject{integral.one, integral.light, absorbs, reflected, seed};
       pending.push_back({&sampler,
                          table,
                          {subject, strategy, {}, {}, {}},
@@ -167,27 +184,26 @@ std::string integral_text(const Integral& integral) {
 
 std::size_t rows_of(const Integral& integral, const std::vector<std::string>& strategies, std::size_t table) {
   return static_cast<std::size_t>(std::ranges::count_if(strategies, [&](const std::string& strategy) {
-    return !is_left_out(strategy, integral.one) && (table == 0 || has_roulette(strategy));
+    return !is_left_out(strategy, integral.one) && is_in_table(strategy, table);
   }));
 }
 
 // Removes the leading integrals whose rows are all saved, and returns these rows for each table.
-std::array<std::vector<std::string>, 2> take_finished(std::vector<Integral>& integrals,
-                                                      const std::vector<std::string>& strategies,
-                                                      const SamplingOptions& options) {
-  const auto saved_rows = [&](std::size_t table) {
-    return rows_by_integral(SavedTable(options.folder, tables_of(options).at(table), sampling_columns()));
-  };
-  std::array<RowsByIntegral, 2> saved = {saved_rows(0), saved_rows(1)};
-  std::array<std::vector<std::string>, 2> lines;
+std::vector<std::vector<std::string>> take_finished(std::vector<Integral>& integrals,
+                                                    const std::vector<std::string>& strategies,
+                                                    const SamplingOptions& options) {
+  std::vector<RowsByIntegral> saved;
+  for (const SavedTable& table : read_tables(options)) saved.push_back(rows_by_integral(table));
+  std::vector<std::vector<std::string>> lines(saved.size());
   std::size_t finished = 0;
   for (; finished < integrals.size(); ++finished) {
     const Integral& integral = integrals[finished];
     const std::string text = integral_text(integral);
-    if (saved[0][text].size() != rows_of(integral, strategies, 0) ||
-        saved[1][text].size() != rows_of(integral, strategies, 1))
-      break;
-    for (const std::size_t table : {0u, 1u})
+    bool complete = true;
+    for (std::size_t table = 0; table < saved.size(); ++table)
+      complete = complete && saved[table][text].size() == rows_of(integral, strategies, table);
+    if (!complete) break;
+    for (std::size_t table = 0; table < saved.size(); ++table)
       for (const SavedTable::Row& row : saved[table][text])
         lines[table].push_back(fmt::format("{}", fmt::join(row, ",")));
   }
@@ -231,6 +247,7 @@ std::string command_of(const SamplingOptions& options) {
   for (const Light light : options.lights)
     command += " --integrand " + light_names()[static_cast<std::size_t>(light)];
   if (options.samples) command += fmt::format(" --samples {}", *options.samples);
+  if (options.ray_ns) command += fmt::format(" --ray-cost {}", *options.ray_ns);
   if (options.lanes != 0) command += fmt::format(" --width {}", options.lanes);
   return command + fmt::format(" --seed {}", options.seed);
 }
@@ -252,6 +269,13 @@ std::vector<Sampler> build_samplers(const device::Device& device, const sources:
     (void)samplers.back().run(any, 1); // the first launch may compile
   }
   return samplers;
+}
+
+// A sentence on each case that was asked for, with an empty line between, or one on the grid.
+std::string verdict_of(const SamplingOptions& options, const std::vector<Ranking>& rankings,
+                       const VerdictConditions& conditions) {
+  if (options.cases.empty()) return verdict_on_grid(rankings, conditions);
+  return fmt::format("{}", fmt::join(verdicts_on_cases(rankings, conditions), "\n\n"));
 }
 
 } // namespace
@@ -287,12 +311,13 @@ bool write_sampling_tables(const SamplingOptions& options) {
   const auto settings =
       settings_of(options, device, lanes, strategies, integrals,
                   Sampler::kernels_fingerprint(files, strategies, lanes, model_of(options)));
-  std::array<std::vector<std::string>, 2> saved;
-  if (can_resume(options.folder, name_of(options), {tables.begin(), tables.end()}, settings, options.fresh))
+  std::vector<std::vector<std::string>> saved(tables.size());
+  if (can_resume(options.folder, name_of(options), tables, settings, options.fresh))
     saved = take_finished(integrals, strategies, options);
   const std::string header = fmt::format("{}", fmt::join(sampling_columns(), ","));
-  std::array<CsvFile, 2> csv = {CsvFile(options.folder, tables[0], header, saved[0]),
-                                CsvFile(options.folder, tables[1], header, saved[1])};
+  std::vector<CsvFile> csv;
+  for (std::size_t table = 0; table < tables.size(); ++table)
+    csv.emplace_back(options.folder, tables[table], header, saved[table]);
   if (integrals.size() < all)
     fmt::print("resumes an earlier run: {} of {} measurements are there\n", all - integrals.size(), all);
   if (integrals.empty()) return true;
@@ -313,11 +338,19 @@ bool measure_sampling(const SamplingOptions& options) {
   if (!write_sampling_tables(options)) return false;
   const device::Device device = device::open_devices(options.devices).front();
   const int lanes = options.lanes_on(device.info);
-  const auto tables = tables_of(options);
-  fmt::print("{}, WIDTH {}\n", device.info.name, lanes);
-  print_sampling_summary(strategies_of(options), SavedTable(options.folder, tables[0], sampling_columns()));
+  const std::vector<SavedTable> tables = read_tables(options);
+  const double ray_ns = options.ray_ns.value_or(default_ray_cost(tables.front()));
+  const std::vector<Ranking> rankings = rankings_of(tables, ray_ns);
+  const std::string name = fmt::format("{}, WIDTH {}", device.info.name, lanes);
+  fmt::print("{}\n", name);
+  print_sampling_summary(strategies_of(options), tables.front(), rankings);
   print_left_out(strategies_of(options), cases_of(options));
-  for (const std::string& table : tables) fmt::print("{}\n", (options.folder / table).string());
+  for (const SavedTable& table : tables) fmt::print("{}\n", table.path().string());
+  write_rankings(options.folder, name_of(options) + ".ranking.csv", rankings, ray_ns);
+  const std::string verdict =
+      verdict_of(options, rankings, {ray_ns, name, options.material ? "" : "--strategy "});
+  files::write_file(options.folder / (name_of(options) + ".verdict.txt"), verdict + "\n");
+  fmt::print("\n{}\n", verdict);
   std::fflush(stdout);
   write_provenance(options.folder, name_of(options),
                    {command_of(options), device.info, lanes,

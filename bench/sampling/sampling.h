@@ -24,6 +24,7 @@ struct SamplingOptions : CommonOptions {
   bool fresh = false;                   ///< do not resume an earlier run
   std::optional<std::uint64_t> samples; ///< per row; default: 2^19, or 2^18 if quick; fewer for `rejection`
                                         ///< where it needs many proposals
+  std::optional<double> ray_ns;         ///< cost of a ray for the ranking; default: default_ray_cost()
   std::uint32_t seed = 1;
   std::function<bool()> interrupted; ///< called before each case; may be empty
 };
@@ -38,16 +39,18 @@ inline constexpr double most_proposals = 1000;
 /// Angles of incidence, in degrees, at which a material of another model than the Phong model is measured.
 inline constexpr double model_angles[] = {0, 30, 60, 75, 85};
 
-/// Writes sampling.csv, with Russian roulette in those strategies that have it, and sampling-no-roulette.csv,
-/// these strategies without roulette. The strategies alternate, so that other load on the machine affects all
-/// alike. Resumes an interrupted run with the same settings. Returns false if interrupted. For a given
-/// material the tables are sampling-MODEL.csv and sampling-MODEL-no-roulette.csv: the model's own sampling,
-/// cosine and uniform, under constant light, against the reflectivity by quadrature.
+/// Writes sampling.csv, with Russian roulette in those strategies that have_roulette();
+/// sampling-no-roulette.csv, these strategies without it; and sampling-plain-roulette.csv, the others with
+/// it. The strategies alternate, so that other load on the machine affects all alike. Resumes an interrupted
+/// run with the same settings. Returns false if interrupted. For a given material the tables are
+/// sampling-MODEL.csv and sampling-MODEL-no-roulette.csv: the model's own sampling, cosine and uniform, under
+/// constant light, against the reflectivity by quadrature.
 /// @throws UsageError, DeviceError, WriteError
 [[nodiscard]] bool write_sampling_tables(const SamplingOptions& options);
 
-/// Writes the tables, prints a summary, and writes the charts and the section of the report. @throws as the
-/// above; WriteError also if the charts cannot be drawn, when the tables are complete
+/// Writes the tables, ranks the strategies (NAME.ranking.csv), prints a summary and the verdict
+/// (sampling_verdict.h; NAME.verdict.txt), and writes the charts and the section of the report. @throws as
+/// the above; WriteError also if the charts cannot be drawn, when the tables are complete
 [[nodiscard]] bool measure_sampling(const SamplingOptions& options);
 
 } // namespace phlux::bench

@@ -1,4 +1,4 @@
-"""Draws the charts of `phlux bench sampling` from its two tables; writes its section of the report.
+"""Draws the charts of `phlux bench sampling` from its rankings; writes its section of the report.
 
     python3 sampling.py FOLDER
 """
@@ -7,60 +7,85 @@ from functools import partial
 
 import chart_style as style
 import numpy as np
-from sampling_charts import draw_heat, draw_tradeoff, draw_winners
-from sampling_efficiency import (COST_MODELS, LIGHTS, RAY_COST, STRATEGIES, materials_of, read_rows, relative_products,
-                                 relative_times)
+from sampling_charts import draw_heat, draw_winners
+from sampling_ranking import (CONDITIONS, LARGEST_FACTOR, LIGHTS, STRATEGIES, factor_text, groups_of, materials_of, read,
+                              read_verdict)
+from sampling_tradeoff import draw_tradeoff
+
+MOST_RANKINGS = 6  # of which the summary shows every factor
 
 
-def summary_of(rows, lights):
-    times = relative_times(rows)
-    results = {light: relative_products([row for row in rows if row.integrand == light], COST_MODELS[1]) for light in lights}
-    lines = []
-    for strategy in STRATEGIES:
-        of_strategy = [row for row in rows if row.strategy == strategy]
-        if not of_strategy:
-            continue
-        line = [strategy, float(np.median(times[strategy])) if times[strategy] else ""]
-        for light in lights:
-            ratios, wins = results[light]
-            if ratios[strategy]:
-                line += [wins[strategy], *map(float, np.quantile(ratios[strategy], (0.5, 0.9)))]
-            else:
-                line += ["", "", ""]
-        line += [sum(bool(row.marks) for row in of_strategy), len(of_strategy)]
-        lines.append(line)
-    columns = ["strategy", "time"]
-    for light in lights:
-        columns += [f"{light}: best in", "median ratio", "90th percentile"]
-    note = ("time: median of the time per sample over that of lobe-ks. ratio: variance × cost over that of the best strategy in "
-            "the same case, with roulette where the strategy has it, and with a ray that costs "
-            f"{RAY_COST} samples of lobe-ks. Marked rows (biased, suspected of infinite variance, or too few samples) are left out.")
-    return {"columns": columns + ["marked", "of"], "rows": lines, "note": note}
+def factor_cell(row):
+    if row is None or not row.compared:
+        return row.verdict.split()[0] if row else ""
+    if row.factor == 1:
+        return row.verdict
+    if row.factor > LARGEST_FACTOR:
+        return f"over {LARGEST_FACTOR}"
+    interval = f"{factor_text(row.factor)} ({factor_text(row.factor_least)} to {factor_text(row.factor_most)})"
+    return f"tied, {interval}" if row.verdict == "tied" else interval
 
 
-def write_section(folder, rows, lights, charts):
+def factors_summary(rankings):
+    """A row per strategy: variance x cost over that of the best in each ranking."""
+    columns = ["strategy"] + [f"{light}, {'roulette' if roulette else 'no roulette'}" for light, roulette, *_ in rankings]
+    of_strategies = [{row.strategy: row for row in rows} for rows in rankings.values()]
+    lines = [[strategy] + [factor_cell(rows.get(strategy)) for rows in of_strategies] for strategy in STRATEGIES]
+    note = ("Variance × cost over that of the best strategy, which is the ratio of the times to the same error, with its 95% "
+            "interval, corrected for the number of strategies. Strategies are tied if the interval reaches 1.")
+    return columns, [line for line in lines if any(line[1:])], note
+
+
+def counts_summary(rankings):
+    """A row per strategy: how often it is the best or tied, and how far it is from the best."""
+    columns, lines = ["strategy"], {strategy: [strategy] for strategy in STRATEGIES}
+    for condition in CONDITIONS:
+        name = "roulette" if condition else "no roulette"
+        columns += [f"best, {name}", f"tied, {name}", f"factor, {name}"]
+        for strategy, line in lines.items():
+            rows = [row for (_, roulette, *_), some in rankings.items() if roulette == condition
+                    for row in some if row.strategy == strategy and row.compared]
+            line += [sum(row.verdict == "best" for row in rows), sum(row.verdict == "tied" for row in rows),
+                     float(np.quantile([min(row.factor, LARGEST_FACTOR) for row in rows], 0.9)) if rows else ""]
+    note = ("Best and tied: in how many cases of material, angle and light. Factor: 90th percentile over the cases of variance × "
+            f"cost over that of the best of the case, where {LARGEST_FACTOR} stands for more too.")
+    return columns, [line for line in lines.values() if any(line[1:])], note
+
+
+def summary_of(folder, rows):
+    rankings = groups_of(rows, lambda row: (row.integrand, row.roulette, row.material, row.cell))
+    few = len(rankings) <= MOST_RANKINGS
+    columns, lines, note = factors_summary(rankings) if few else counts_summary(rankings)
+    note += f" Cost: the sampler and {rows[0].ray_ns:.3g} ns for each ray that is traced on."
+    return {"text": read_verdict(folder, "sampling"), "columns": columns, "rows": lines, "note": note}
+
+
+def write_section(folder, rows, charts):
     text = [
-        "Each strategy samples a direction and estimates the reflected radiance of one material for one direction. Strategies "
-        "with Russian roulette trace fewer rays, so their variance must be compared at equal cost. The best strategy has the "
-        "least variance × cost. The cost is the time of the sampler alone, as if rays were free, or that time plus the cost of "
-        "the rays that are traced on.",
+        "Each strategy samples a direction and estimates the reflected radiance of one material for one direction. The best "
+        "strategy has the least variance × cost, which is the time to a given error. The cost is the time of the sampler and "
+        f"of a ray for each sample that is traced on, {rows[0].ray_ns:.3g} ns. By default that is about what a ray through half "
+        "a million triangles takes; --ray-cost sets it.",
+        "A renderer samples without roulette before edge 5 (--rr-depth), and with it from there on. The variances with and "
+        "without roulette differ by orders of magnitude, and so may the best strategy.",
         "lobe-estimate-printed is the estimate as CW 197 prints it. It is biased: it loses the part of the lobe that its own "
         "sample finds below the surface. Its variance is infinite as well, but diverges only logarithmically (a sample that is "
         "drawn with probability e has weight 1/e, and e can be arbitrarily small), so its variance is left empty and it is not "
         "compared. A row is unresolved if the standard error of its variance is above a third of it, that is, if too few "
         "samples hit the lobe.",
     ]
-    style.section(folder, "sampling", title="Sampling strategies", order=20, text=text,
-                  summary=summary_of(rows, lights), charts=charts,
-                  tables=[{"csv": "sampling.csv", "title": "All results",
-                           "columns": ["strategy", "kd", "ks", "n", "theta_deg", "integrand", "samples", "mean", "exact",
-                                       "bias_sigma", "variance", "variance_standard_error", "rays_per_sample",
-                                       "ns_per_sample", "ns_least", "ns_most", "variance_times_cost", "marks"]}])
+    columns = ["strategy", "kd", "ks", "n", "theta_deg", "integrand", "bias_sigma", "variance", "variance_standard_error",
+               "rays_per_sample", "ns_per_sample", "marks"]
+    tables = {"sampling.csv": "With roulette in the strategies that sample the lobe",
+              "sampling-no-roulette.csv": "These strategies without roulette",
+              "sampling-plain-roulette.csv": "The other strategies with roulette"}
+    style.section(folder, "sampling", title="Sampling strategies", order=20, text=text, summary=summary_of(folder, rows),
+                  charts=charts, tables=[{"csv": name, "title": title, "columns": columns} for name, title in tables.items()])
 
 
 def main():
     folder = sys.argv[1]
-    rows, no_roulette = read_rows(folder)
+    rows = read(folder, "sampling")
     grids = materials_of(rows)
     lights = [light for light in LIGHTS if any(row.integrand == light for row in rows)]
     cases = list(dict.fromkeys((row.material, row.cell) for row in rows))[:4]
@@ -72,23 +97,25 @@ def main():
 
     if grids:
         for light in lights:
-            chart(f"sampling-winners-{light}", partial(draw_winners, (rows, no_roulette), grids, light),
-                  f"Best strategy under {LIGHTS[light]}",
-                  "The number is variance × cost of the second best strategy over that of the best (≫: 1000 or more). "
-                  "Pale cells without a number: the difference is not significant.")
+            chart(f"sampling-winners-{light}", partial(draw_winners, rows, grids, light),
+                  f"Best strategy in {LIGHTS[light]}",
+                  "The number is variance × cost of the second best strategy over that of the best (≫: over 1000). "
+                  "Pale cells without a number: the best is tied with others.")
     for light in lights:
         chart(f"sampling-tradeoff-{light}", partial(draw_tradeoff, rows, cases, light),
-              f"Variance against speed under {LIGHTS[light]}",
-              "Strategies on one grey line are equally efficient; right and down is better. Hollow: biased.")
+              f"Variance against cost in {LIGHTS[light]}",
+              "Bars: 95% intervals. On a grey line the time to a given error is the same: the multiple of that of the best "
+              "strategy that has variance. Strategies outside the frame are at its edge, with their number after an arrow. "
+              "Bold: the best, or tied with it.")
     if grids:
         material = (0.4, 0.4) if (0.4, 0.4) in grids else next(iter(grids))
         for light in lights:
             chart(f"sampling-cost-{light}", partial(draw_heat, rows, material, *grids[material], light),
-                  f"Cost of each strategy under {LIGHTS[light]}",
-                  "Nanoseconds of sampling until the variance of the mean equals the square of the mean. ∞: the variance is "
-                  "suspected to be infinite; b: biased; ?: too few samples; –: not measured, too many proposals.")
+                  f"Time of each strategy without roulette in {LIGHTS[light]}",
+                  "Nanoseconds until the variance of the mean equals the square of the mean. ∞: the variance is suspected to "
+                  "be infinite; b: biased; ?: too few samples; –: not measured, too many proposals.")
     style.save_all(folder, drawings)
-    write_section(folder, rows, lights, charts)
+    write_section(folder, rows, charts)
 
 
 if __name__ == "__main__":

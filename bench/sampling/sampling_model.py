@@ -8,9 +8,12 @@ import sys
 
 import chart_style as style
 import matplotlib.pyplot as plt
+from sampling_ranking import read, read_verdict
 
-PANELS = (("variance", "variance of one sample"), ("ns_per_sample", "nanoseconds per sample"),
-          ("variance_times_cost", "variance × time"))
+COST = "nanoseconds per sample, ray included"
+PANELS = (("relative variance of one sample", lambda row: row.relative_variance),
+          (COST, lambda row: row.cost_ns),
+          ("variance × cost, ns", lambda row: row.relative_variance * row.cost_ns))
 
 
 def models_of(folder):
@@ -18,37 +21,43 @@ def models_of(folder):
     return [name[1] for name in names if name]
 
 
-def draw(rows, theme):
+def draw(ranking, theme):
     figure, panels = plt.subplots(1, len(PANELS), figsize=(9, 3), layout="constrained")
-    for axes, (column, title) in zip(panels, PANELS):
-        for i, strategy in enumerate(dict.fromkeys(row.strategy for row in rows)):
-            points = [(row.theta_deg, getattr(row, column)) for row in rows if row.strategy == strategy]
+    rows = [row for row in ranking if not row.roulette]
+    for axes, (title, value) in zip(panels, PANELS):
+        for i, strategy in enumerate(sorted({row.strategy for row in rows})):
+            points = sorted((row.theta_deg, value(row)) for row in rows if row.strategy == strategy)
             axes.plot(*zip(*points), label=strategy, **theme.series(i))
-        axes.set(title=title, xlabel="angle of incidence, degrees", yscale="log")
+        axes.set(title=title, xlabel="angle of incidence, degrees")
+        if title != COST:
+            axes.set_yscale("log")
+        else:
+            axes.set_ylim(0, 1.1 * axes.get_ylim()[1])
         axes.grid(True)
     panels[0].legend()
     return figure
 
 
-def write_section(folder, model, rows):
+def write_section(folder, model, ranking):
     table = f"sampling-{model}.csv"
     columns = ["strategy", "theta_deg", "samples", "mean", "exact", "bias_sigma", "variance", "variance_standard_error",
                "rays_per_sample", "ns_per_sample", "variance_times_cost", "marks"]
-    text = [f"The model {model} sampled by itself, with Russian roulette, and the same function sampled by the cosine and "
-            "uniformly. exact is the reflectivity by quadrature of the function; bias_sigma is the difference of the mean from "
-            "it in standard errors."]
-    chart = {"svg": f"sampling-{model}.svg", "title": "Variance and time of a sample",
-             "caption": "Roulette that absorbs adds variance, and saves the rays that are not traced."}
-    style.section(folder, f"sampling-{model}", title=f"Sampling {model}", order=21, text=text, charts=[chart],
+    text = [f"The model {model} sampled by itself, and the same function sampled by the cosine and uniformly. In the table, "
+            "exact is the reflectivity by quadrature of the function, and bias_sigma is the difference of the mean from it in "
+            "standard errors."]
+    chart = {"svg": f"sampling-{model}.svg", "title": "Variance and cost of a sample without roulette",
+             "caption": f"The cost is the time of the sampler and {ranking[0].ray_ns:.3g} ns for each ray that is traced on."}
+    style.section(folder, f"sampling-{model}", title=f"Sampling {model}", order=21, charts=[chart],
+                  text=read_verdict(folder, f"sampling-{model}") + text,
                   tables=[{"csv": table, "title": "All results", "columns": columns}])
 
 
 def main():
     folder = sys.argv[1]
     for model in models_of(folder):
-        rows = style.read(folder, f"sampling-{model}.csv")
-        style.save(folder, f"sampling-{model}", lambda theme, rows=rows: draw(rows, theme))
-        write_section(folder, model, rows)
+        ranking = read(folder, f"sampling-{model}")
+        style.save(folder, f"sampling-{model}", lambda theme, ranking=ranking: draw(ranking, theme))
+        write_section(folder, model, ranking)
 
 
 if __name__ == "__main__":

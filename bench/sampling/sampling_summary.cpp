@@ -14,7 +14,7 @@ namespace {
 
 struct Summary {
   double largest_bias = 0; // in standard errors
-  int defects = 0, rows = 0, marked = 0, best = 0;
+  int defects = 0, rows = 0, marked = 0;
   std::vector<double> relative_times; // to lobe-ks in the same case
 };
 
@@ -26,7 +26,6 @@ std::map<std::string, Summary> summaries_of(const SavedTable& table) {
   for (const auto& [integral, rows] : rows_by_integral(table)) {
     const auto lobe_ks =
         std::ranges::find_if(rows, [](const SavedTable::Row& row) { return row.front() == "lobe-ks"; });
-    const SavedTable::Row* best = nullptr;
     for (const SavedTable::Row& row : rows) {
       Summary& summary = summaries[row.front()];
       const double bias = number(row, "bias_sigma");
@@ -37,30 +36,32 @@ std::map<std::string, Summary> summaries_of(const SavedTable& table) {
       ++summary.rows;
       if (lobe_ks != rows.end())
         summary.relative_times.push_back(number(row, "ns_per_sample") / number(*lobe_ks, "ns_per_sample"));
-      if (!marks.empty())
-        ++summary.marked;
-      else if (best == nullptr || number(row, "variance_times_cost") < number(*best, "variance_times_cost"))
-        best = &row;
+      if (!marks.empty()) ++summary.marked;
     }
-    if (best != nullptr) ++summaries[best->front()].best;
   }
   return summaries;
 }
 
 } // namespace
 
-void print_sampling_summary(const std::vector<std::string>& strategies, const SavedTable& table) {
+void print_sampling_summary(const std::vector<std::string>& strategies, const SavedTable& table,
+                            const std::vector<Ranking>& rankings) {
   const auto summaries = summaries_of(table);
-  fmt::print("{:<22} {:>6} {:>7} {:>20} {:>8} {:>24} {:>26}\n", "strategy", "rows", "marked",
-             "largest bias / sigma", "defects", "time / lobe-ks (median)", "least variance x time in");
+  const auto wins = [&](const std::string& strategy, bool roulette) {
+    const WinCount& count = count_wins(rankings, roulette)[strategy];
+    return fmt::format("{} + {}", count.best, count.tied);
+  };
+  fmt::print("{:<22} {:>6} {:>7} {:>20} {:>8} {:>24} {:>24} {:>14}\n", "strategy", "rows", "marked",
+             "largest bias / sigma", "defects", "time / lobe-ks (median)", "best + tied: no roulette",
+             "with roulette");
   for (const std::string& strategy : strategies) {
     const auto found = summaries.find(strategy);
     if (found == summaries.end()) continue;
     const Summary& s = found->second;
-    fmt::print("{:<22} {:>6} {:>7} {:>20.2f} {:>8} {:>24} {:>26}\n", strategy, s.rows, s.marked,
+    fmt::print("{:<22} {:>6} {:>7} {:>20.2f} {:>8} {:>24} {:>24} {:>14}\n", strategy, s.rows, s.marked,
                s.largest_bias, s.defects,
                s.relative_times.empty() ? "" : fmt::format("{:.2f}", measure::median(s.relative_times)),
-               s.best);
+               wins(strategy, false), wins(strategy, true));
   }
 }
 

@@ -19,9 +19,8 @@ constexpr double least_share = 1e-10;
 constexpr double most_relative_error = 1.0 / 3;
 constexpr double most_sigmas = 4;
 constexpr double least_lobe_samples = 32;
-// Relative errors: of a mean, by float32 and the table of reflectivities; of a constant, by float32.
+// Relative error of a mean, by float32 and the table of reflectivities.
 constexpr double arithmetic_error = 1e-5;
-constexpr double rounding = 1e-6;
 
 // Expected number of samples in the lobe, for strategies that ignore the lobe: solid angle of the lobe,
 // 2 pi / (n + 1), times the density on its axis.
@@ -86,7 +85,7 @@ Marks marks_of(const SamplingRow& row) {
   const double exact = row.subject.reflected;
   const bool far = !(std::abs(bias_in_sigmas(m, exact)) < most_sigmas) &&
                    !(std::abs(m.mean - exact) < arithmetic_error * exact);
-  const bool constant = std::sqrt(m.variance) < rounding * exact;
+  const bool constant = std::sqrt(m.variance) < float_rounding * exact;
   Marks marks;
   if (row.strategy == "lobe-estimate-printed") {
     marks.biased = printed_loss(row.subject.one) > least_share;
@@ -104,14 +103,15 @@ std::string case_text(const Case& one) {
   return fmt::format("{},{},{},{}", one.diffuse, one.specular, one.exponent, one.degrees);
 }
 
+std::string case_of_row(const SavedTable& table, const SavedTable::Row& row) {
+  return fmt::format("{},{},{},{}", table.value(row, "kd"), table.value(row, "ks"), table.value(row, "n"),
+                     table.value(row, "theta_deg"));
+}
+
 RowsByIntegral rows_by_integral(const SavedTable& table) {
   RowsByIntegral rows;
-  for (const SavedTable::Row& row : table.rows()) {
-    std::vector<std::string> integral;
-    for (const char* column : {"kd", "ks", "n", "theta_deg", "integrand"})
-      integral.push_back(table.value(row, column));
-    rows[fmt::format("{}", fmt::join(integral, ","))].push_back(row);
-  }
+  for (const SavedTable::Row& row : table.rows())
+    rows[case_of_row(table, row) + "," + table.value(row, "integrand")].push_back(row);
   return rows;
 }
 

@@ -18,6 +18,9 @@ struct SamplingRow {
   std::vector<double> nanoseconds, wall_nanoseconds; ///< per sample, of each round
 };
 
+/// Relative standard deviation that float32 rounding gives a constant estimate.
+inline constexpr double float_rounding = 1e-6;
+
 /// The columns of the contract, then those about the measurement; the last one is the kind of light.
 [[nodiscard]] const std::vector<std::string>& sampling_columns();
 
@@ -43,6 +46,9 @@ struct Marks {
 
 /// The columns kd, ks, n, theta_deg as text; the first three are empty for a material of another model.
 [[nodiscard]] std::string case_text(const Case& one);
+
+/// The same of a row of a saved table.
+[[nodiscard]] std::string case_of_row(const SavedTable& table, const SavedTable::Row& row);
 
 /// The rows of a saved table by the text of case and light: "kd,ks,n,theta_deg,integrand".
 using RowsByIntegral = std::map<std::string, std::vector<SavedTable::Row>>;

@@ -206,6 +206,14 @@ void add_sampling(CLI::App& bench, std::optional<Command>& command) {
                options->lights.push_back(
                    static_cast<bench::Light>(settings::choice("--integrand", text, bench::light_names())));
              });
+  add_value(
+      app, "--ray-cost", "NS",
+      "nanoseconds that each ray adds to the time of the sampler when strategies are ranked; default: the "
+      "time of 20 samples by lobe-ks, about what a ray through half a million triangles takes",
+      [options](const std::string& text) {
+        constexpr double most = 1e6;
+        options->ray_ns = settings::number_within("--ray-cost", text, 0, most);
+      });
   add_own_lobe(app, options);
   add_seed(app, "the random numbers", options->seed);
   measure_by(bench::measure_sampling, app, command, options);

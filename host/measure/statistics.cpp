@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <boost/math/special_functions/erf.hpp>
 #include <boost/math/special_functions/gamma.hpp>
 
 namespace phlux::measure {
@@ -13,6 +14,10 @@ double chi_square_tail(double statistic, double degrees) {
 
 double normal_p(double sigmas) {
   return std::erfc(std::abs(sigmas) / std::sqrt(2.0));
+}
+
+double normal_sigmas(double p) {
+  return std::sqrt(2.0) * boost::math::erfc_inv(p);
 }
 
 double chi_square_p(const std::vector<double>& observed, const std::vector<double>& expected) {

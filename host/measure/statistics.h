@@ -28,5 +28,7 @@ namespace phlux::measure {
 
 /// Two-sided p-value of a mean that differs from its expectation by so many standard errors.
 [[nodiscard]] double normal_p(double sigmas);
+/// The inverse: the number of standard errors with this two-sided p-value, in (0, 1].
+[[nodiscard]] double normal_sigmas(double p);
 
 } // namespace phlux::measure

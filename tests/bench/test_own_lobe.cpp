@@ -105,4 +105,5 @@ TEST_CASE("The tables of a model have its name, and no kd, ks or n") {
   CHECK(table.rows()[2].front() == "uniform");
   const SavedTable bare(folder.path(), "sampling-retro-no-roulette.csv", sampling_columns());
   CHECK(bare.rows().size() == std::size(model_angles)); // its own sampling alone
+  CHECK_FALSE(folder.names().contains("sampling-retro-plain-roulette.csv"));
 }

@@ -134,6 +134,17 @@ TEST_CASE("A less efficient strategy has more variance and more variance x cost"
       CHECK(cosine > 30 * exact);
       CHECK(exact > number(row_of(bare, "exact", light), column)); // roulette costs variance
     }
+  // With roulette, which renders use with every strategy, those that ignore the lobe have more variance too.
+  const auto plain = rows_of(folder, "sampling-plain-roulette.csv");
+  CHECK(plain.size() == 2 * light_names().size());
+  for (const std::string& light : light_names())
+    for (const char* strategy : {"uniform", "cosine"}) {
+      const CsvRow row = row_of(plain, strategy, light);
+      CHECK(row.at("roulette") == "1");
+      CHECK(number(row, "rays_per_sample") == Approx(0.79).margin(0.02)); // the reflectivity
+      CHECK(number(row, "variance") > number(row_of(rows, strategy, light), "variance"));
+      CHECK(std::abs(number(row, "bias_sigma")) < 4.5); // of 6, one is further off in 1 of 25,000 runs
+    }
   // A sample of `exact` takes about twice as long; other load on the machine changes that by a factor
   // below 15.
   for (const std::string& light : light_names())
@@ -163,7 +174,7 @@ TEST_CASE("An interrupted run resumes and ends with the same rows as a whole run
   options.interrupted = {};
   REQUIRE(write_sampling_tables(options));
   CHECK_THAT(TemporaryFolder::read(stopped / "sampling.csv"), Catch::StartsWith(kept));
-  for (const char* table : {"sampling.csv", "sampling-no-roulette.csv"}) {
+  for (const char* table : {"sampling.csv", "sampling-no-roulette.csv", "sampling-plain-roulette.csv"}) {
     const auto expected = rows_of(whole, table), found = rows_of(stopped, table);
     REQUIRE(found.size() == expected.size());
     for (std::size_t i = 0; i < found.size(); ++i)

@@ -25,12 +25,12 @@ TEST_CASE("phlux bench rays writes the contract's columns") {
 
 TEST_CASE("phlux bench sampling writes the contract's columns, a row for each strategy and case") {
   const TemporaryFolder folder;
-  const Invocation invocation{{"bench", "sampling", "--out", ".", "--samples", "1000", "--strategy", "exact",
-                               "--strategy", "rejection", "--case", ".4,.05,50,30", "--case", "0,1,1e6,89",
-                               "--integrand", "constant"},
-                              folder.path(),
-                              {},
-                              {}};
+  Invocation invocation{{"bench", "sampling", "--out", ".", "--samples", "1000", "--strategy", "exact",
+                         "--strategy", "rejection", "--case", ".4,.05,50,30", "--case", "0,1,1e6,89",
+                         "--integrand", "constant"},
+                        folder.path(),
+                        {},
+                        {}};
   const Outcome outcome = run(invocation);
   CAPTURE(outcome.err);
   if (has_charts(outcome)) {
@@ -51,9 +51,18 @@ TEST_CASE("phlux bench sampling writes the contract's columns, a row for each st
   CHECK(lines_of(TemporaryFolder::read(folder / "sampling-no-roulette.csv")).size() == 4);
   CHECK_THAT(outcome.out, Catch::Contains("rejection is left out of 1 cases"));
 
+  // It ends with the verdict on the case with two strategies. Another cost of a ray needs no new
+  // measurements.
+  const std::string verdict = TemporaryFolder::read(folder / "sampling.verdict.txt");
+  CHECK_THAT(verdict,
+             Catch::StartsWith("--strategy exact without roulette (the default before edge 5): no variance"));
+  CHECK(outcome.out.ends_with("\n\n" + verdict));
+  invocation.arguments.insert(invocation.arguments.end(), {"--ray-cost", "100"});
   const Outcome again = run(invocation);
   CHECK(again.exit_code == outcome.exit_code);
-  CHECK_THAT(again.out, Catch::Contains("2 of 2 measurements are there"));
+  CHECK_THAT(again.out,
+             Catch::Contains("2 of 2 measurements are there") &&
+                 Catch::Contains("(--case 0.4,0.05,50,30; cost: the sampler and 100 ns for each ray"));
 }
 
 TEST_CASE("phlux bench sampling --quick draws maps in light and dark") {
@@ -70,6 +79,7 @@ TEST_CASE("phlux bench sampling --quick draws maps in light and dark") {
     CHECK_THAT(TemporaryFolder::read(chart + ".png"), Catch::StartsWith("\x89PNG"));
     CHECK_THAT(TemporaryFolder::read(chart + "-dark.png"), Catch::StartsWith("\x89PNG"));
     CHECK_THAT(TemporaryFolder::read(chart + ".svg"), Catch::Contains("prefers-color-scheme:dark"));
+    CHECK_THAT(TemporaryFolder::read(chart + ".pdf"), Catch::StartsWith("%PDF"));
   }
 }
 
@@ -178,6 +188,7 @@ TEST_CASE("phlux bench: bad input is one line and its exit code") {
       {{"sampling", "--case", ".4,.7,50,30"}, 2, "at most 1"},
       {{"sampling", "--case", ".4,.05,-1,30"}, 2, "--case -1: must be a number from 0 to"},
       {{"sampling", "--case", ".4,.05,50,90"}, 2, "--case 90"},
+      {{"sampling", "--ray-cost", "-1"}, 2, "--ray-cost -1: must be a number from 0 to"},
       {{"sampling", "--integrand", "moon"}, 2, "--integrand moon: must be one of constant"},
       {{"sampling", "--lobe", "none.cl"}, 3, "none.cl"},
       {{"sampling", "--lobe", "exact.cl"}, 2, "is a strategy"},

@@ -76,7 +76,8 @@ class Theme:
 
     def parameters(self):
         return {
-            "font.size": 9, "font.family": "DejaVu Sans", "axes.titlesize": 10, "axes.labelsize": 9,
+            "font.size": 9, "font.family": "sans-serif", "font.sans-serif": ["DejaVu Sans"],
+            "axes.titlesize": 10, "axes.labelsize": 9,
             "xtick.labelsize": 8, "ytick.labelsize": 8, "legend.fontsize": 8, "legend.frameon": False,
             "axes.edgecolor": self.axis, "axes.labelcolor": self.ink, "axes.titlecolor": self.ink,
             "axes.facecolor": self.paper, "axes.linewidth": 0.8, "axes.grid": False, "axes.axisbelow": True,
@@ -86,7 +87,7 @@ class Theme:
             "xtick.labelcolor": self.ink, "ytick.labelcolor": self.ink,
             "figure.facecolor": self.paper, "savefig.facecolor": self.paper, "legend.labelcolor": self.ink,
             "lines.linewidth": 1.5, "lines.markersize": 4.5,
-            "svg.hashsalt": "phlux", "svg.fonttype": "path",
+            "svg.hashsalt": "phlux", "svg.fonttype": "none", "pdf.fonttype": 42,  # text stays text
         }
 
 
@@ -114,7 +115,7 @@ def write(folder, name, text):
 
 
 def save(folder, name, draw):
-    """Writes NAME.svg, which follows the viewer's theme, NAME.png and NAME-dark.png. draw(theme) returns a figure that uses
+    """Writes NAME.svg, which follows the viewer's theme, NAME.pdf, NAME.png and NAME-dark.png. draw(theme) returns a figure that uses
     colours of the theme and of colour maps only."""
     for theme in (LIGHT, DARK):
         with plt.rc_context(theme.parameters()):
@@ -122,10 +123,11 @@ def save(folder, name, draw):
             suffix = "-dark" if theme.dark else ""
             figure.savefig(os.path.join(folder, f"{name}{suffix}.png"), dpi=DPI, metadata={"Software": None})
             if not theme.dark:
+                figure.savefig(os.path.join(folder, name + ".pdf"), metadata={"CreationDate": None})
                 path = os.path.join(folder, name + ".svg")
                 figure.savefig(path, dpi=DPI, metadata={"Date": None})
                 with open(path, encoding="utf-8") as file:
-                    svg = re.sub(r">\s+<", "><", file.read())  # saves a sixth of the size; text is stored as paths
+                    svg = re.sub(r">\s+<", "><", file.read())  # saves a sixth of the size
                 end = re.search(r"<svg\b[^>]*>", svg).end()
                 write(folder, name + ".svg", f"{svg[:end]}\n <style>{dark_rules(svg)}</style>{svg[end:]}")
             plt.close(figure)

@@ -35,10 +35,12 @@ figcaption b { color: var(--ink); }
 figure svg { display: block; width: 100%; min-width: 36rem; height: auto; }
 table { border-collapse: collapse; font-size: .86rem; font-variant-numeric: tabular-nums; margin: .5rem 0; }
 th, td { padding: .25rem .7rem .25rem 0; text-align: left; vertical-align: top; }
-th { font-weight: 600; border-bottom: 1px solid var(--line); white-space: nowrap; }
+th { font-weight: 600; border-bottom: 1px solid var(--line); }
 td { border-bottom: 1px solid var(--wash); }
-.number { text-align: right; white-space: nowrap; }
+@media (max-width: 60rem) { table { font-size: .78rem; } th, td { padding-right: .4rem; } }
+.number { text-align: right; } td.number { white-space: nowrap; }
 summary { cursor: pointer; color: var(--link); margin: .6rem 0; }
+code { white-space: nowrap; }
 code, pre { font-family: "DejaVu Sans Mono", monospace; font-size: .86rem; }
 pre { background: var(--wash); padding: .7rem .9rem; overflow-x: auto; }
 """
@@ -49,6 +51,11 @@ POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:"
 
 def escape(value):
     return html.escape(str(value))
+
+
+def paragraph(text):
+    """Options of the command line are set as code."""
+    return "<p>" + re.sub(r"(?<![\w-])--[a-z][a-z-]*", r"<code>\g<0></code>", escape(text)) + "</p>"
 
 
 def number_of(value):
@@ -109,21 +116,25 @@ def chart(folder, entry, prefix):
 
 
 def csv_table(folder, entry):
+    """The first rows of a CSV file. What is the same in all rows is in the caption instead of a column."""
     path = os.path.join(folder, entry["csv"])
     if not os.path.exists(path):
         return f'<p class="muted">{escape(entry["csv"])} is not here.</p>'
     with open(path, newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     columns = entry.get("columns") or (list(rows[0]) if rows else [])
+    same = [column for column in columns[1:] if len(rows) > 1 and len({row.get(column, "") for row in rows}) == 1]
+    columns = [column for column in columns if column not in same]
     shown = [[row.get(column, "") for column in columns] for row in rows[:MOST_ROWS]]
-    note = f"{len(rows)} rows, the first {MOST_ROWS} shown" if len(rows) > MOST_ROWS else f"{len(rows)} rows"
-    return (f'<details><summary>{escape(entry.get("title", entry["csv"]))} ({note}; all columns in '
+    notes = [f"{len(rows)} rows" + (f", the first {MOST_ROWS} shown" if len(rows) > MOST_ROWS else "")]
+    notes += [f'{column.replace("_", " ")} {rows[0][column]}' for column in same if rows[0].get(column)]
+    return (f'<details><summary>{escape(entry.get("title", entry["csv"]))} ({escape("; ".join(notes))}; all columns in '
             f'{escape(entry["csv"])})</summary>{table(columns, shown)}</details>')
 
 
 def section(folder, name, content):
     parts = [f'<section id="{escape(name)}"><h2>{escape(content["title"])}</h2>']
-    parts += [f"<p>{escape(paragraph)}</p>" for paragraph in content.get("text", [])]
+    parts += [paragraph(text) for text in content.get("text", [])]
     for i, entry in enumerate(content.get("charts", [])):
         if entry.get("heading"):
             parts.append(f'<h3>{escape(entry["heading"])}</h3>')
@@ -138,6 +149,7 @@ def summaries(sections):
         summary = content.get("summary")
         if summary:
             parts.append(f'<h3><a href="#{escape(name)}">{escape(content["title"])}</a></h3>')
+            parts += [paragraph(text) for text in summary.get("text", [])]
             parts.append(table(summary["columns"], summary["rows"]))
             if summary.get("note"):
                 parts.append(f'<p class="muted">{escape(summary["note"])}</p>')
