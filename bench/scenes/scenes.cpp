@@ -189,7 +189,7 @@ SceneResults measure(const Run& run, const SceneRun& scene, Tables& tables, cons
   settings.report = report;
   settings.notice = notice;
   SceneBench bench(scene.scene, settings);
-  bench.try_methods(run.methods);
+  bench.try_methods(tables.results.with_earlier({scene.name}, run.methods, scene.settings));
   SceneResults measured{reference_of(bench, scene, run.options.folder / "references"), {}, {}};
   measured.methods = bench.measure(measured.reference);
   measured.costs = rank(measured.methods, run.clock());

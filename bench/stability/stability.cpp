@@ -107,7 +107,7 @@ void measure(const Run& run, const CellRun& cell, ResultTable& table, StatusLine
   ReferenceImage reference = reference_of(cell, settings, run.options.folder / "references");
   settings.seconds = std::max(0.0, run.seconds_left - seconds_since(begin));
   SceneBench bench(cell.scene, settings);
-  bench.try_methods(run.methods);
+  bench.try_methods(table.with_earlier(cell.key, run.methods, cell.settings));
   const std::vector<MethodResult> results = bench.measure(reference);
   const std::vector<RankedCost> costs = rank(results, run.common_values().clock);
   write_image(run.options.folder / "stability-images", cell, reference);

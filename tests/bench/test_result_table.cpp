@@ -85,6 +85,8 @@ TEST_CASE("A measurement is complete if every method has a row of the same setti
   CHECK_FALSE(table.has(key, {none, mis, light}, "s"));
   CHECK_FALSE(table.has(key, {mis}, "other settings"));
   CHECK_FALSE(table.has(other_key, {mis}, "s"));
+  CHECK(table.with_earlier(key, {light, mis}, "s") == std::vector<Method>{light, mis, none});
+  CHECK(table.with_earlier(key, {light}, "other settings") == std::vector<Method>{light});
   table.remove(other_key);
   CHECK(table.has(key, {mis}, "s"));
   table.remove(key);

@@ -45,8 +45,8 @@ struct MethodResult {
   std::string reason{}; ///< of the verdict
   Estimate variance{};  ///< per sample
   double top_share = 0;
-  Estimate mean{};            ///< of the image
-  double mean_bias_sigma = 0; ///< (mean - mean of the reference) / standard error of the difference
+  Estimate mean{};                ///< of the image
+  double mean_bias_sigma = 0;     ///< (mean - mean of the reference) / standard error of the difference
   SampleTime wall{}, processor{}; ///< processor time over all threads
   /// How many times as long a measurement would have to be to decide; of undecided and suspect methods.
   double times_longer = 0;

@@ -43,6 +43,14 @@ bool ResultTable::has(const Values& key, const std::vector<Method>& methods,
   });
 }
 
+std::vector<Method> ResultTable::with_earlier(const Values& key, std::vector<Method> methods,
+                                              const std::string& settings) const {
+  for (const SavedTable::Row& row : table_.rows())
+    if (is_of(row, key) && row.back() == settings && std::ranges::count(methods, method_of(row)) == 0)
+      methods.push_back(method_of(row));
+  return methods;
+}
+
 void ResultTable::remove(const Values& key) {
   table_.remove_if([&](const SavedTable::Row& row) { return is_of(row, key); });
 }

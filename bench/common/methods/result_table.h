@@ -26,7 +26,11 @@ public:
   /// Whether every one of the `methods` has a row of this key and these settings.
   [[nodiscard]] bool has(const Values& key, const std::vector<Method>& methods,
                          const std::string& settings) const;
-  /// Removes the rows of this key: methods are only comparable within one measurement.
+  /// `methods`, and others that have rows of this key and these settings. Methods are only comparable within
+  /// one measurement: those that were measured earlier must be measured again with the new ones.
+  [[nodiscard]] std::vector<Method> with_earlier(const Values& key, std::vector<Method> methods,
+                                                 const std::string& settings) const;
+  /// Removes the rows of this key.
   void remove(const Values& key);
   void add(const Values& key, const Method& method, const Values& values, const std::string& settings);
   /// Replaces the file atomically. @throws WriteError
