@@ -13,6 +13,7 @@
 #include <fmt/ranges.h>
 
 #include "measure/moments.h"
+#include "measure/statistics.h"
 
 namespace phlux::bench {
 namespace {
@@ -120,9 +121,8 @@ std::vector<RankedCost> rank(const std::vector<MethodResult>& results, CostClock
       if (has_cost(results[i])) costs[i].rank = Rank::open;
     return costs;
   }
-  const auto comparisons =
-      std::max<double>(1, static_cast<double>(std::ranges::count_if(results, has_cost) - 1));
-  const double level = 1 - std::pow(1 - false_alarm_rate, 1 / comparisons);
+  const auto others = static_cast<std::size_t>(std::ranges::count_if(results, has_cost) - 1);
+  const double level = measure::sidak_limit(false_alarm_rate, std::max<std::size_t>(1, others));
   for (std::size_t i = 0; i < results.size(); ++i) {
     if (!has_cost(results[i])) continue;
     set_ratio(costs[i], results[i], results[*best], clock, level);
