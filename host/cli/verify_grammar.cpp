@@ -19,11 +19,17 @@ void add_amount(CLI::App& app, VerifyOptions& options) {
       app, "--strategy", "NAME|FILE.cl",
       fmt::format(
           "sampling strategy of the phong model: {}, or a kernel file of your own; may be repeated; default: "
-          "all of these",
+          "all of these, and all integrators",
           fmt::join(render::strategy_names(), ", ")),
       [&options](const std::string& text) {
         options.strategies.push_back(settings::strategy("--strategy", text));
       });
+  add_values(app, "--integrator", "NAME",
+             fmt::format("integrator: {}; may be repeated; default: all of these, and all strategies",
+                         fmt::join(settings::integrator_names(), ", ")),
+             [&options](const std::string& text) {
+               options.integrators.push_back(settings::integrator_named(text).name);
+             });
   app.add_flag("--quick", options.quick, "fewer materials, angles and samples: about a third of the time");
   add_value(app, "--samples", "N", "samples per material and angle; default: 16384, or 8192 with --quick",
             [&options](const std::string& text) {

@@ -1,36 +1,30 @@
-// Many renders of one scene by one method with kernels that are built once.
+// render::PreparedRender on the device under test, by the tested kernels.
 #pragma once
 
-#include <cstdint>
+#include <filesystem>
+#include <map>
 
-#include "device/program.h"
-#include "film/film.h"
-#include "render/device_scene.h"
-#include "render/launcher.h"
+#include "render/prepared_render.h"
 
 namespace phlux::test {
 
-/// render::render() on one device, prepared once: for small images, PoCL's look-up of built kernels in its
-/// cache takes longer than rendering.
-class PreparedRender {
+/// Programs are kept for all renders of a test program: variants of a scene have the same kernels.
+class PreparedRender : public render::PreparedRender {
 public:
   /// @throws as render::render()
-  PreparedRender(const scene::Scene& scene, const render::Settings& settings);
-
-  struct Image {
-    film::Film film;
-    std::uint64_t nonfinite = 0;
-  };
-  [[nodiscard]] Image image(std::uint64_t seed, int samples_per_pixel) const;
+  PreparedRender(const scene::Scene& scene, const render::Settings& settings)
+      : render::PreparedRender(programs_by(settings), scene, settings) {}
 
 private:
-  const scene::Scene& scene_;
-  render::Settings settings_;
-  device::Device device_;
-  int lanes_;
-  render::HostScene host_;
-  render::Parts parts_;
-  device::BuiltProgram program_;
+  static render::Programs& programs_by(const render::Settings& settings) {
+    static std::map<std::filesystem::path, render::Programs> kept;
+    const auto found = kept.find(settings.kernel_dir);
+    if (found != kept.end()) return found->second;
+    return kept
+        .try_emplace(settings.kernel_dir, device::open_devices(settings.devices).front(),
+                     sources::KernelFiles(settings.kernel_dir))
+        .first->second;
+  }
 };
 
 } // namespace phlux::test

@@ -1,0 +1,110 @@
+#include "verify/integrators/methods.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace phlux::verify {
+namespace {
+
+using settings::Connect;
+using settings::Weights;
+
+// Samples per pixel and render: for standard errors of about 0.05% of the radiance, and of 0.2% where the
+// variance is large, from the measured variances of one sample.
+constexpr int few = 64, many = 512;
+
+constexpr const char* hits = "hit_light (kernels/transport/eye_subpath.cl)";
+constexpr const char* light_samples = "sample_light (kernels/transport/eye_subpath.cl)";
+constexpr const char* splats = "connect_to_camera (kernels/transport/light_subpath.cl)";
+
+Method path_by(Connect connect, const char* look_at) {
+  Method method;
+  const std::string& name = settings::connect_names()[static_cast<std::size_t>(connect)];
+  method.name = "path " + name;
+  method.variant = "`connect` " + name;
+  method.settings.connect = connect;
+  method.look_at = look_at;
+  method.samples = method.glossy_samples = few;
+  method.quick = connect == settings::Settings().connect;
+  return method;
+}
+
+Method light() {
+  Method method;
+  method.name = method.settings.integrator = "light";
+  method.look_at = splats;
+  method.samples = method.glossy_samples = many;
+  method.quick = true;
+  return method;
+}
+
+Method bidir_by(Weights weights) {
+  Method method;
+  const std::string& name = settings::weights_names()[static_cast<std::size_t>(weights)];
+  method.name = "bidir " + name;
+  method.variant = "`weights` " + name;
+  method.settings.integrator = "bidir";
+  method.settings.weights = weights;
+  method.look_at = "heuristic (kernels/transport/mis_weights.cl)";
+  method.samples = method.glossy_samples = few;
+  if (weights == Weights::uniform) method.samples *= 4;
+  method.quick = weights == settings::Settings().weights;
+  return method;
+}
+
+Method techniques_apart() {
+  Method method = bidir_by(Weights::balance);
+  method.name = "bidir techniques";
+  method.variant = "`contributions`";
+  method.settings.techniques = true;
+  method.settings.max_depth = technique_edges;
+  method.glossy_samples = 0;
+  return method;
+}
+
+} // namespace
+
+const std::vector<Method>& methods() {
+  static const std::vector<Method> list = {
+      path_by(Connect::none, hits),
+      path_by(Connect::light, light_samples),
+      path_by(Connect::mis, "weight_of_sampled_light (kernels/transport/eye_subpath.cl)"),
+      light(),
+      bidir_by(Weights::balance),
+      bidir_by(Weights::power),
+      bidir_by(Weights::uniform),
+      techniques_apart()};
+  return list;
+}
+
+const Method* find_method(const std::string& name) {
+  const auto found = std::ranges::find(methods(), name, &Method::name);
+  return found == methods().end() ? nullptr : &*found;
+}
+
+std::string check_of(const film::Technique& technique) {
+  return fmt::format("s{}-t{}", technique.light_vertices, technique.eye_vertices);
+}
+
+std::string check_of_length(int edges) {
+  return fmt::format("{} edge{}", edges, edges == 1 ? "" : "s");
+}
+
+std::string function_of(const film::Technique& technique) {
+  if (technique.light_vertices == 0) return hits;
+  if (technique == film::Technique{1, 1})
+    return "connect_light_to_camera (kernels/transport/light_subpath.cl)";
+  if (technique.eye_vertices == 1) return splats;
+  if (technique.light_vertices == 1) return light_samples;
+  return "connect (kernels/transport/bidir.cl)";
+}
+
+std::vector<film::Technique> techniques_of(int edges) {
+  std::vector<film::Technique> list;
+  for (int light_vertices = 0; light_vertices <= edges; ++light_vertices)
+    list.push_back({light_vertices, edges + 1 - light_vertices});
+  return list;
+}
+
+} // namespace phlux::verify
