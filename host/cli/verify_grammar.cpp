@@ -1,4 +1,5 @@
 // The grammar of `phlux verify`.
+#include <algorithm>
 #include <memory>
 
 #include <fmt/format.h>
@@ -73,11 +74,20 @@ void require_model_to_set(const VerifyOptions& options) {
       fmt::format("--set {}={}: is for one model: give --lobe FILE.cl or --model NAME too", name, value));
 }
 
+void refuse_integrators_of_models(const VerifyOptions& options) {
+  const bool of_model = !options.lobes.empty() || !options.models.empty() ||
+                        std::ranges::any_of(options.strategies, settings::is_strategy_file);
+  if (of_model && !options.integrators.empty())
+    throw UsageError(
+        fmt::format("--integrator {}: not with --lobe, --model or --strategy FILE.cl, which verify a "
+                    "model without integrators: leave one of them out",
+                    options.integrators.front()));
+}
+
 } // namespace
 
 void add_verify(CLI::App& program, std::optional<Command>& command) {
-  CLI::App& app =
-      *program.add_subcommand("verify", "Checks that the functions of a reflectance model agree on a device");
+  CLI::App& app = *program.add_subcommand("verify", "Checks reflectance models and integrators on a device");
   const auto options = std::make_shared<VerifyOptions>();
   add_one_device(app, options->devices, options->lanes, options->kernel_dir);
   add_models(app, *options);
@@ -90,6 +100,7 @@ void add_verify(CLI::App& program, std::optional<Command>& command) {
              "and .png.");
   app.final_callback([&command, options] {
     require_model_to_set(*options);
+    refuse_integrators_of_models(*options);
     command = [options] { return verify(*options); };
   });
 }

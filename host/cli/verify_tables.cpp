@@ -176,7 +176,7 @@ void print_failures(const Report& report) {
     fmt::print("FAILED {}: {}{:.6g}, must be {}, for {}\n", name_of(result),
                result.note.empty() ? "" : with_options(result.note) + ": ", result.worst, limit_text(result),
                result.where);
-    fmt::print("  it is the {}\n", verify::meaning_of(result));
+    fmt::print("  what it is: {}\n", verify::meaning_of(result));
     if (const std::string function = verify::function_to_look_at(result); !function.empty())
       fmt::print("  look at {}\n", function);
     for (const std::string& file : result.files) fmt::print("  written: {}\n", file);

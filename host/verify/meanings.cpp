@@ -1,7 +1,6 @@
 #include "verify/meanings.h"
 
 #include <algorithm>
-#include <optional>
 #include <span>
 
 #include <fmt/format.h>
@@ -119,14 +118,6 @@ std::string file_of_densities(const Strategy& strategy) {
   return strategy.family == Family::whole ? "kernels/phong/whole.h" : file_of_samples(strategy);
 }
 
-// The technique of a check by check_of; nothing for other checks.
-std::optional<film::Technique> technique_of(const std::string& check) {
-  for (int edges = 1; edges <= technique_edges; ++edges)
-    for (const film::Technique& technique : techniques_of(edges))
-      if (check_of(technique) == check) return technique;
-  return {};
-}
-
 } // namespace
 
 Kind kind_of(const Result& result) {
@@ -138,7 +129,9 @@ Kind kind_of(const Result& result) {
 std::string meaning_of(const Result& result) {
   if (const Meaning* meaning = find(result)) return meaning->text;
   if (technique_of(result.check)) return "mean radiance by one technique alone, without its weight (t-test)";
-  return "mean radiance of such paths by all of their techniques, weighted (t-test)";
+  if (is_length(result.check))
+    return "mean radiance of such paths by all of their techniques, weighted (t-test)";
+  return "";
 }
 
 std::string function_to_look_at(const Result& result) {

@@ -11,7 +11,8 @@ namespace phlux::verify {
 enum class Kind { model, strategy, integrator, lobe };
 [[nodiscard]] Kind kind_of(const Result& result);
 
-/// What the figure of a check is, in words, such as "weight of a sample against float64, relative error".
+/// What the figure of a check is, in words, such as "f_r against float64, relative"; empty for an unknown
+/// check.
 [[nodiscard]] std::string meaning_of(const Result& result);
 
 /// The kernel function to look at if the check fails, with its file, such as "phong_sample

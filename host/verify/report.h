@@ -18,7 +18,9 @@ struct Histogram {
   std::vector<std::string> columns;
   std::vector<std::vector<double>> rows;
   std::size_t side = 0; ///< side of the square grid of which the rows are cells; 0: no grid, no picture
-  std::vector<std::size_t> drawn; ///< columns to draw side by side
+  // With a grid: the first two columns are the cells' coordinates.
+  std::vector<std::size_t> drawn; ///< columns to draw side by side: observed values first, expected ones last
+  std::string quantity{};         ///< what they are
 };
 
 /// A p-value below is worth a closer look: a histogram, a diagnosis.

@@ -154,8 +154,9 @@ private:
     constexpr int longest = 8;
     int edges = 1;
     while (edges <= longest && is_right(room, with_depth(edges))) ++edges;
-    std::string note = edges <= longest ? fmt::format("paths of {} or more are wrong", check_of_length(edges))
-                                        : fmt::format("paths of more than {} edges are wrong", longest);
+    std::string note = fmt::format("it shows with paths of {}",
+                                   edges <= longest ? check_of_length(edges) + " or more"
+                                                    : fmt::format("more than {} edges", longest));
     if (method_.settings.integrator == "bidir" && edges > method_.settings.connections + 2) {
       settings::Settings all_connections = with_depth(-1);
       all_connections.connections = 0;

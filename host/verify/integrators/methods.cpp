@@ -91,6 +91,19 @@ std::string check_of_length(int edges) {
   return fmt::format("{} edge{}", edges, edges == 1 ? "" : "s");
 }
 
+std::optional<film::Technique> technique_of(const std::string& check) {
+  for (int edges = 1; edges <= technique_edges; ++edges)
+    for (const film::Technique& technique : techniques_of(edges))
+      if (check_of(technique) == check) return technique;
+  return {};
+}
+
+bool is_length(const std::string& check) {
+  for (int edges = 1; edges <= technique_edges; ++edges)
+    if (check_of_length(edges) == check) return true;
+  return false;
+}
+
 std::string function_of(const film::Technique& technique) {
   if (technique.light_vertices == 0) return hits;
   if (technique == film::Technique{1, 1})

@@ -1,6 +1,7 @@
 // The integrators and their variants that are verified.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,10 @@ struct Method {
 inline constexpr int technique_edges = 6;                             ///< of the longest paths
 [[nodiscard]] std::string check_of(const film::Technique& technique); ///< "s2-t3": alone, without weights
 [[nodiscard]] std::string check_of_length(int edges); ///< "5 edges": the weighted sum over their techniques
+/// The technique of such a check; nothing for others.
+[[nodiscard]] std::optional<film::Technique> technique_of(const std::string& check);
+/// Whether it is a check of check_of_length.
+[[nodiscard]] bool is_length(const std::string& check);
 /// The kernel function that makes such paths.
 [[nodiscard]] std::string function_of(const film::Technique& technique);
 /// The techniques that make paths of so many edges, by their number of light vertices.

@@ -29,10 +29,11 @@ bool was_verified(const Report& report, const Method& method) {
 }
 
 std::string reason_of(const Result& result) {
-  const std::string text = result.check == "finite"
-                               ? fmt::format("{:g} contributions are not finite", result.worst)
-                               : fmt::format("{}: {}", result.check, result.where);
-  return result.note.empty() ? text : text + "; " + result.note;
+  if (result.check == "finite") return fmt::format("{:g} contributions are not finite", result.worst);
+  if (technique_of(result.check)) return fmt::format("technique {} is {}", result.check, result.where);
+  if (is_length(result.check)) return fmt::format("paths of {} are {}", result.check, result.where);
+  return fmt::format("the {} is {}{}{}", result.check, result.where, result.note.empty() ? "" : "; ",
+                     result.note);
 }
 
 } // namespace
