@@ -24,7 +24,8 @@ constexpr const char *sampling = "phong_sample ({0})", *density = "phong_density
 constexpr Meaning of_strategies[] = {
     {"directions", "sampled directions against the density, over cells of the sphere (chi-square)", sampling},
     {"means", "mean weight of the samples against the reflectivity, per channel", sampling},
-    {"pooled means", "the same over all cases together, in standard errors", sampling},
+    {"pooled means", "mean weights over all cases together against the reflectivity, in standard errors",
+     sampling},
     {"mean, long", "mean weight over more samples of four materials, in standard errors", sampling},
     {"variance", "variance of a weight against its closed form, in standard errors", sampling},
     {"weights", "weight of a sample against f_r cos / (density x survival), relative", sampling},
@@ -42,14 +43,15 @@ constexpr Meaning of_strategies[] = {
      "phong_reflectivity (kernels/phong/phong.cl)"},
     {"loss as derived", "energy that is lost against its closed form, in standard errors",
      "one_sample_estimate (kernels/phong/estimate.h)"},
-    {"loss as known", "that closed form against published figures, in units of their last digit", ""}};
+    {"loss as known", "closed form of that loss against published figures, in units of their last digit",
+     ""}};
 
 constexpr Meaning of_model[] = {
     {"reflectivity", "reflectivity function against quadrature, relative", lobe_sum},
     {"energy", "largest reflectivity where kd + ks = 1", lobe_sum},
     {"reciprocity", "f_r with its directions exchanged, relative", lobe_value},
     {"value", "f_r against float64, relative", lobe_value},
-    {"value at edge", "the same near alpha = 90 degrees, in units of float32's error", lobe_value},
+    {"value at edge", "f_r near alpha = 90 degrees against float64, in units of float32's error", lobe_value},
     {"below", "f_r of directions below the surface, which is 0",
      "material_evaluate (kernels/lobes/material.cl)"},
     {"known values", "f_r against figures in closed form", "phong_value (kernels/phong/phong.cl)"},

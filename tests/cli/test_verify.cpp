@@ -16,7 +16,8 @@ TEST_CASE("phlux verify: a table, and every figure as JSON") {
   CHECK(outcome.out.find("WIDTH") != std::string::npos);
   CHECK(outcome.out.find("lobe-estimate-printed: loss as derived: biased, as printed in CW 197") !=
         std::string::npos);
-  CHECK(outcome.out.find("  jacobian          density against finite differences of the sampler") !=
+  CHECK(outcome.out.find("  directions  ") != std::string::npos);
+  CHECK(outcome.out.find("sampled directions against the density, over cells of the sphere (chi-square)") !=
         std::string::npos);
   CHECK(outcome.out.find("passed: ") != std::string::npos);
   CHECK(folder.names() == std::set<std::string>{"v.json"});

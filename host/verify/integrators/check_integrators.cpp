@@ -118,7 +118,7 @@ private:
       const double beyond = std::max(0.0, std::abs(off) - float_error);
       const double t = beyond == 0 ? 0 : beyond / error; // infinite where all means are equal and wrong
       tests.push_back({measure::student_p(t, static_cast<double>(means.size() - 1)),
-                       fmt::format("{:.2g}% +- {:.2g}% too {} in channel {}", 100 * std::abs(off),
+                       fmt::format("{:.3g}% +- {:.2g}% too {} in channel {}", 100 * std::abs(off),
                                    100 * error, off < 0 ? "dark" : "bright", "RGB"[channel])});
     }
     return tests;

@@ -56,7 +56,7 @@ Method bidir_by(Weights weights) {
 Method techniques_apart() {
   Method method = bidir_by(Weights::balance);
   method.name = "bidir techniques";
-  method.variant = "`contributions`";
+  method.variant.clear();
   method.settings.techniques = true;
   method.settings.max_depth = technique_edges;
   method.glossy_samples = 0;

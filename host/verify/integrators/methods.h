@@ -14,11 +14,11 @@ namespace phlux::verify {
 struct Method {
   std::string name;            ///< in the report: "path mis", "light", "bidir balance"
   settings::Settings settings; ///< integrator, variant and depth
-  std::string variant;         ///< the settings that choose it among the integrator's methods, in words
-  std::string look_at;         ///< the kernel function that is most likely wrong if this method is
-  int samples = 0;             ///< per pixel and render of the furnace
-  int glossy_samples = 0;      ///< of the glossy furnace; 0: it is not rendered
-  bool quick = false;          ///< verified with Settings::quick too
+  std::string variant;    ///< the setting that a user chooses it by, such as "`connect` none"; may be empty
+  std::string look_at;    ///< the kernel function that is most likely wrong if this method is
+  int samples = 0;        ///< per pixel and render of the furnace
+  int glossy_samples = 0; ///< of the glossy furnace; 0: it is not rendered
+  bool quick = false;     ///< verified with Settings::quick too
 };
 
 /// All variants that have programs of their own. The last one has each technique of bidir apart.

@@ -48,8 +48,11 @@ std::vector<std::string> integrators_not_to_use(const Report& report) {
       if (method.settings.integrator != integrator || !was_verified(report, method)) continue;
       const Result* failure = failure_of(report, method);
       if (failure) wrong.push_back(method.variant);
-      all &= failure || method.settings.techniques; // no variant of images
       if (failure && (!reason || rank(*failure) > rank(*reason))) reason = failure;
+      if (method.settings.techniques)
+        all |= failure != nullptr; // every variant uses the techniques
+      else
+        all &= failure != nullptr;
     }
     if (reason)
       lines.push_back(fmt::format("do not use `integrator` {}{} on this device: {}", integrator,
