@@ -1,5 +1,7 @@
 // The integrators pass in rooms of known radiance; faults of a driver, simulated by wrong kernels, are named.
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <string>
 
 #include <catch2/catch.hpp>

@@ -1,6 +1,7 @@
 #include "verify/integrators/check_integrators.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
