@@ -70,7 +70,7 @@ public:
       check_techniques(means);
     else if (compare(room.check, means, furnace_radiance_up_to(-1)) < suspicious_p)
       diagnose(room);
-    if (method_.glossy_samples == 0) return;
+    if (method_.glossy_samples == 0 || thin_) return;
     const Room glossy{"glossy furnace", glossy_furnace(), method_.glossy_samples};
     compare(glossy.check, render(glossy, with_depth(glossy_edges)), glossy_furnace_radiance());
   }
@@ -85,7 +85,7 @@ private:
 
   [[nodiscard]] Means render(const Room& room, const settings::Settings& settings) const {
     const render::PreparedRender prepared(programs_, room.scene, settings);
-    const int renders = thin_ ? 16 : 64;
+    const int renders = thin_ ? 8 : 64;
     Means means;
     std::uint64_t nonfinite = 0;
     for (int i = 0; i < renders; ++i) {
@@ -172,7 +172,7 @@ private:
   const Method& method_;
   render::Programs& programs_;
   int lanes_;
-  bool thin_; // on interpreters
+  bool thin_; // few samples, and one room: on interpreters
   Report& report_;
 };
 
