@@ -47,6 +47,9 @@ verify_on() { # DRIVER
     JUDGE=verdict timed "$1: verify --quick --width $width" "$1-verify-$width" on "$1" ./phlux verify --quick --width "$width" ||
       true
   done
+  # In all variants, of which --quick has some.
+  JUDGE=verdict timed "$1: verify of integrators" "$1-verify-integrators" on "$1" ./phlux verify --integrator path \
+    --integrator light --integrator bidir || true
 }
 verdict() { grep -E '^(passed|FAILED)|^portable lanes' "$1" | head -n 3 | paste -sd ';'; }
 

@@ -52,7 +52,8 @@ struct DevicesOptions {
 
 struct VerifyOptions {
   std::vector<std::string> devices;                            ///< one at most
-  std::vector<std::string> strategies;                         ///< names and kernel files; empty: all names
+  std::vector<std::string> strategies;                         ///< names and kernel files
+  std::vector<std::string> integrators;                        ///< names; empty, as strategies: all of both
   std::vector<std::filesystem::path> lobes;                    ///< kernel files of the user's models
   std::vector<std::string> models;                             ///< names of built-in models
   std::vector<std::pair<std::string, std::string>> parameters; ///< NAME and VALUE

@@ -1,4 +1,5 @@
 // The grammar of `phlux verify`.
+#include <algorithm>
 #include <memory>
 
 #include <fmt/format.h>
@@ -19,12 +20,19 @@ void add_amount(CLI::App& app, VerifyOptions& options) {
       app, "--strategy", "NAME|FILE.cl",
       fmt::format(
           "sampling strategy of the phong model: {}, or a kernel file of your own; may be repeated; default: "
-          "all of these",
+          "all of these, and all integrators",
           fmt::join(render::strategy_names(), ", ")),
       [&options](const std::string& text) {
         options.strategies.push_back(settings::strategy("--strategy", text));
       });
-  app.add_flag("--quick", options.quick, "fewer materials, angles and samples: about a third of the time");
+  add_values(app, "--integrator", "NAME",
+             fmt::format("integrator: {}; may be repeated; default: all of these, and all strategies",
+                         fmt::join(settings::integrator_names(), ", ")),
+             [&options](const std::string& text) {
+               options.integrators.push_back(settings::integrator_named(text).name);
+             });
+  app.add_flag("--quick", options.quick,
+               "fewer materials, angles, samples and variants of integrators: about a third of the time");
   add_value(app, "--samples", "N", "samples per material and angle; default: 16384, or 8192 with --quick",
             [&options](const std::string& text) {
               constexpr std::uint64_t least = 16, most = 1u << 24;
@@ -67,11 +75,20 @@ void require_model_to_set(const VerifyOptions& options) {
       fmt::format("--set {}={}: is for one model: give --lobe FILE.cl or --model NAME too", name, value));
 }
 
+void refuse_integrators_of_models(const VerifyOptions& options) {
+  const bool of_model = !options.lobes.empty() || !options.models.empty() ||
+                        std::ranges::any_of(options.strategies, settings::is_strategy_file);
+  if (of_model && !options.integrators.empty())
+    throw UsageError(
+        fmt::format("--integrator {}: not with --lobe, --model or --strategy FILE.cl, which verify a "
+                    "model without integrators: leave one of them out",
+                    options.integrators.front()));
+}
+
 } // namespace
 
 void add_verify(CLI::App& program, std::optional<Command>& command) {
-  CLI::App& app =
-      *program.add_subcommand("verify", "Checks that the functions of a reflectance model agree on a device");
+  CLI::App& app = *program.add_subcommand("verify", "Checks reflectance models and integrators on a device");
   const auto options = std::make_shared<VerifyOptions>();
   add_one_device(app, options->devices, options->lanes, options->kernel_dir);
   add_models(app, *options);
@@ -84,6 +101,7 @@ void add_verify(CLI::App& program, std::optional<Command>& command) {
              "and .png.");
   app.final_callback([&command, options] {
     require_model_to_set(*options);
+    refuse_integrators_of_models(*options);
     command = [options] { return verify(*options); };
   });
 }

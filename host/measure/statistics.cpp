@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <boost/math/distributions/students_t.hpp>
 #include <boost/math/special_functions/erf.hpp>
 #include <boost/math/special_functions/gamma.hpp>
 
@@ -10,6 +11,16 @@ namespace phlux::measure {
 
 double chi_square_tail(double statistic, double degrees) {
   return boost::math::gamma_q(degrees / 2, statistic / 2);
+}
+
+double student_p(double t, double degrees) {
+  const boost::math::students_t distribution(degrees);
+  return std::isfinite(t) ? 2 * boost::math::cdf(boost::math::complement(distribution, std::abs(t))) : 0;
+}
+
+double student_t(double p, double degrees) {
+  const boost::math::students_t distribution(degrees);
+  return boost::math::quantile(boost::math::complement(distribution, p / 2));
 }
 
 double normal_p(double sigmas) {

@@ -26,6 +26,11 @@ namespace phlux::measure {
 /// Upper tail of the chi-square distribution.
 [[nodiscard]] double chi_square_tail(double statistic, double degrees);
 
+/// Two-sided p-value of Student's t with so many degrees of freedom.
+[[nodiscard]] double student_p(double t, double degrees);
+/// The inverse: t with this two-sided p-value, in (0, 1].
+[[nodiscard]] double student_t(double p, double degrees);
+
 /// Two-sided p-value of a mean that differs from its expectation by so many standard errors.
 [[nodiscard]] double normal_p(double sigmas);
 /// The inverse: the number of standard errors with this two-sided p-value, in (0, 1].

@@ -17,6 +17,7 @@
 #include "errors.h"
 #include "render/error_target.h"
 #include "render/launcher.h"
+#include "render/programs.h"
 
 namespace phlux::render {
 namespace {
@@ -135,7 +136,7 @@ private:
   bool ended_ = false;
 };
 
-void check(const Settings& settings) {
+void check_samples(const Settings& settings) {
   constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max(); // of the kernels' int
   if (settings.samples_per_pixel < 1)
     throw UsageError(fmt::format("{} samples per pixel: at least 1 is needed", settings.samples_per_pixel));
@@ -161,6 +162,11 @@ void check_paths_end(const scene::Scene& scene, const Settings& settings) {
       throw UsageError(
           "`rr-depth` -1 `max-depth` -1: a material reflects everything, and nothing would end a path in a "
           "closed room: give one of the two");
+}
+
+void check(const scene::Scene& scene, const Settings& settings) {
+  check_samples(settings);
+  check_paths_end(scene, settings);
 }
 
 // Warns of valid settings that may surprise with this scene.
@@ -200,14 +206,15 @@ void warn(const scene::Scene& scene, const Settings& settings, const Events& eve
 class WorkerFactory {
 public:
   WorkerFactory(const scene::Scene& scene, const Settings& settings, const Events& events)
-      : scene_(scene), settings_(settings), events_(events), files_(settings.kernel_dir) {}
+      : scene_(scene), settings_(settings), events_(events) {}
 
   // The radiance that is 1 in the devices' sums.
   [[nodiscard]] double unit() const { return host_->lights.unit; }
 
   [[nodiscard]] bool shines() const { return host_->lights.shines(); }
 
-  Worker make(const device::Device& device, Statistics& statistics) {
+  Worker make(Programs& programs, Statistics& statistics) {
+    const device::Device& device = programs.device();
     const int lanes = lanes_for(device.info, settings_);
     const Clock::time_point begin = Clock::now();
     if (!host_ || lanes_ != lanes)
@@ -217,8 +224,7 @@ public:
     worker.parts = find_parts(scene_, host_->geometry, host_->lights, settings_, lanes);
     if (events_.warning) warn(worker.parts);
     statistics.seconds_setup += seconds_since(begin);
-    const device::BuiltProgram built =
-        device::build(device, files_, worker.parts.source(worker.parts.file()), events_.building_kernels);
+    const device::BuiltProgram built = programs.program(worker.parts, events_.building_kernels);
     statistics.kernels_from_cache = built.from_cache;
     statistics.portable_lanes = device::portable_lanes(device);
     worker.launcher = std::make_unique<Launcher>(device, built, *host_, worker.parts, settings_);
@@ -254,21 +260,13 @@ private:
   const scene::Scene& scene_;
   const Settings& settings_;
   const Events& events_;
-  sources::KernelFiles files_;
   std::optional<HostScene> host_;
   int lanes_ = 0;
 };
 
-void describe(Statistics& statistics, const std::vector<device::Device>& devices,
-              const std::vector<Worker>& workers) {
-  for (const device::Device& d : devices) {
-    statistics.device += (statistics.device.empty() ? "" : ", ") + d.info.name;
-    statistics.driver += (statistics.driver.empty() ? "" : ", ") + d.info.driver;
-  }
-  const Parts& parts = workers.front().parts;
-  statistics.lanes = parts.lanes;
-  statistics.traversal = parts.hierarchy ? "bvh" : "brute";
-  statistics.parts = parts.names();
+void add_names(Statistics& statistics, const device::DeviceInfo& device) {
+  statistics.device += (statistics.device.empty() ? "" : ", ") + device.name;
+  statistics.driver += (statistics.driver.empty() ? "" : ", ") + device.driver;
 }
 
 // Runs the first device in the caller's thread and each other in a thread of its own. A failure ends the
@@ -306,21 +304,41 @@ struct Renderer::Ready {
   std::vector<Worker> workers;
   Statistics statistics; // of the set-up
   double unit = 1;       // of the film's sums
+
+  void prepare(const std::vector<Programs*>& devices, const scene::Scene& scene, const Settings& settings,
+               const Events& events) {
+    WorkerFactory factory(scene, settings, events);
+    for (Programs* programs : devices) {
+      workers.push_back(factory.make(*programs, statistics));
+      add_names(statistics, programs->device().info);
+    }
+    const Parts& parts = workers.front().parts;
+    statistics.lanes = parts.lanes;
+    statistics.traversal = parts.hierarchy ? "bvh" : "brute";
+    statistics.parts = parts.names();
+    statistics.shines = factory.shines();
+    unit = factory.unit();
+  }
 };
 
 Renderer::Renderer(const scene::Scene& scene, const Settings& settings, const Events& events)
     : ready_(std::make_unique<Ready>()) {
   reporting_device_errors([&] {
-    check(settings);
-    check_paths_end(scene, settings);
+    check(scene, settings);
     warn(scene, settings, events);
-    const std::vector<device::Device> devices = device::open_devices(settings.devices);
-    WorkerFactory factory(scene, settings, events);
-    for (const device::Device& device : devices)
-      ready_->workers.push_back(factory.make(device, ready_->statistics));
-    describe(ready_->statistics, devices, ready_->workers);
-    ready_->statistics.shines = factory.shines();
-    ready_->unit = factory.unit();
+    std::deque<Programs> of_devices;
+    std::vector<Programs*> devices;
+    for (const device::Device& device : device::open_devices(settings.devices))
+      devices.push_back(&of_devices.emplace_back(device, sources::KernelFiles(settings.kernel_dir)));
+    ready_->prepare(devices, scene, settings, events);
+  });
+}
+
+Renderer::Renderer(Programs& programs, const scene::Scene& scene, const Settings& settings)
+    : ready_(std::make_unique<Ready>()) {
+  reporting_device_errors([&] {
+    check(scene, settings);
+    ready_->prepare({&programs}, scene, settings, {});
   });
 }
 
@@ -329,7 +347,7 @@ Renderer::~Renderer() = default;
 Statistics Renderer::render(const Settings& settings, film::Film& film, const Events& events,
                             const RenderState& from) {
   return reporting_device_errors([&] {
-    check(settings);
+    check_samples(settings);
     set_unit(film, ready_->unit);
     if (settings.clamp) film.set_clamp(*settings.clamp);
     if (settings.techniques) film.use_techniques();

@@ -30,6 +30,8 @@ struct Events {
   std::function<bool(const Progress&)> progress;
 };
 
+class Programs; // render/programs.h
+
 /// A scene that is ready to be rendered: its tables and its program on every device. Renders it several times
 /// without building and copying these again.
 class Renderer {
@@ -37,6 +39,9 @@ public:
   /// `scene` and `settings` are only used here. @throws UsageError for settings that cannot work, SceneError
   /// for a scene that cannot be rendered, DeviceError
   Renderer(const scene::Scene& scene, const Settings& settings, const Events& events);
+  /// On the device of `programs`, with its programs; the devices and the kernel folder of `settings` are
+  /// ignored. @throws as the other constructor
+  Renderer(Programs& programs, const scene::Scene& scene, const Settings& settings);
   ~Renderer();
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;

@@ -87,7 +87,12 @@ double sampled_p(const Partial& partial, std::size_t count, int channel) {
 }
 
 Histogram histogram_of(const DiskGrid& grid, const Partial& partial, int channel) {
-  Histogram histogram{{"x", "y", "sampled", "evaluated", "integrated"}, {}, grid.side(), {2, 3, 4}};
+  Histogram histogram{
+      {"x", "y", "sampled", "evaluated", "integrated"},
+      {},
+      grid.side(),
+      {2, 3, 4},
+      fmt::format("reflectivity through a square of a direction's (x, y), channel {}", channel)};
   for (std::size_t cell = 0; cell < grid.cells(); ++cell)
     histogram.rows.push_back({grid.x(cell), grid.y(cell), partial.sampled[cell][channel],
                               partial.evaluated[cell][channel], partial.integrated[cell][channel]});

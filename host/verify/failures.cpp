@@ -7,6 +7,7 @@
 
 #include "files/output.h"
 #include "files/png.h"
+#include "verify/failure_picture.h"
 #include "verify/verify.h"
 
 namespace phlux::verify {
@@ -25,24 +26,6 @@ std::string csv_of(const Histogram& histogram) {
   return text;
 }
 
-// The drawn columns as grey squares side by side, with one scale; y upwards.
-files::Image picture_of(const Histogram& histogram) {
-  constexpr std::size_t zoom = 8;
-  const std::size_t side = histogram.side, width = side * histogram.drawn.size();
-  files::Image image;
-  image.width = static_cast<int>(width * zoom);
-  image.height = static_cast<int>(side * zoom);
-  std::vector<float> pixels(width * zoom * side * zoom);
-  for (std::size_t y = 0; y < side * zoom; ++y)
-    for (std::size_t x = 0; x < width * zoom; ++x) {
-      const std::size_t row = (side - 1 - y / zoom) * side + x / zoom % side;
-      const double value = histogram.rows[row][histogram.drawn[x / zoom / side]];
-      pixels[y * width * zoom + x] = static_cast<float>(std::max(0.0, value));
-    }
-  for (const char* channel : {"R", "G", "B"}) image.channels[channel] = pixels;
-  return image;
-}
-
 } // namespace
 
 void write_failures(Report& report) {
@@ -53,7 +36,7 @@ void write_failures(Report& report) {
     files::write_file(result.files.back(), csv_of(histogram));
     if (histogram.side == 0) continue;
     result.files.push_back(stem_of(result) + ".png");
-    files::write_png(result.files.back(), picture_of(histogram));
+    files::write_file(result.files.back(), files::encode_png(failure_picture(result)));
   }
 }
 

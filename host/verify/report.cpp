@@ -34,7 +34,6 @@ void Report::record(const std::string& strategy, const std::string& check, doubl
 
 bool Report::record_p(const std::string& strategy, const std::string& check, double p,
                       const std::string& where) {
-  constexpr double suspicious = 1e-4;
   Result& result = at(strategy, check, Sense::probability);
   ++result.seen;
   ++p_values_;
@@ -42,7 +41,7 @@ bool Report::record_p(const std::string& strategy, const std::string& check, dou
   if (counted >= result.worst) return false;
   result.worst = counted;
   result.where = where;
-  return counted < suspicious;
+  return counted < suspicious_p;
 }
 
 void Report::keep(const std::string& strategy, const std::string& check, Histogram histogram) {
@@ -51,6 +50,10 @@ void Report::keep(const std::string& strategy, const std::string& check, Histogr
 
 void Report::note(const std::string& strategy, const std::string& check, const std::string& text) {
   at(strategy, check, Sense::at_most).note = text;
+}
+
+void Report::look_at(const std::string& strategy, const std::string& check, const std::string& function) {
+  at(strategy, check, Sense::at_most).look_at = function;
 }
 
 void Report::judge() {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "verify/checks.h"
+#include "verify/integrators/check_integrators.h"
 
 namespace phlux::verify {
 
@@ -13,8 +14,9 @@ std::size_t samples_of(const device::Device& device, const Settings& settings) {
   return settings.quick ? 8192 : 16384;
 }
 
-Report run(const device::Device& device, const Settings& settings) {
-  Report report;
+namespace {
+
+void check_strategies(const device::Device& device, const Settings& settings, Report& report) {
   const Cases cases = make_cases(settings.quick);
   std::vector<CaseCells> cells;
   for (const Case& one : cases.cases) cells.push_back(cells_of(one.at));
@@ -41,6 +43,15 @@ Report run(const device::Device& device, const Settings& settings) {
                                model_cases.materials);
     check_model(of_model, model_cases, settings.quick, subject.samples / 2, report);
   }
+}
+
+} // namespace
+
+Report run(const device::Device& device, const Settings& settings) {
+  Report report;
+  const bool all = settings.strategies.empty() && settings.integrators.empty();
+  if (all || !settings.strategies.empty()) check_strategies(device, settings, report);
+  if (all || !settings.integrators.empty()) check_integrators(device, settings, report);
   report.judge();
   return report;
 }

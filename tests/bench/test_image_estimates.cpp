@@ -213,7 +213,6 @@ TEST_CASE("P-values are those of Student's t distribution") {
   CHECK(p_value({1.96, 1}, 0) == Approx(0.05).epsilon(1e-3)); // exact: normally distributed
   CHECK(p_value({1, 0}, 1) == 1);
   CHECK(p_value({2, 0}, 1) == 0);
-  CHECK(t_quantile(0.05, 9) == Approx(t_95).epsilon(1e-4));
 }
 
 TEST_CASE("The degrees of freedom of a difference are Welch's") {

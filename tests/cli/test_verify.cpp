@@ -16,6 +16,9 @@ TEST_CASE("phlux verify: a table, and every figure as JSON") {
   CHECK(outcome.out.find("WIDTH") != std::string::npos);
   CHECK(outcome.out.find("lobe-estimate-printed: loss as derived: biased, as printed in CW 197") !=
         std::string::npos);
+  CHECK(outcome.out.find("  directions  ") != std::string::npos);
+  CHECK(outcome.out.find("sampled directions against the density, over cells of the sphere (chi-square)") !=
+        std::string::npos);
   CHECK(outcome.out.find("passed: ") != std::string::npos);
   CHECK(folder.names() == std::set<std::string>{"v.json"});
   const auto json = nlohmann::json::parse(TemporaryFolder::read(folder / "v.json"));
@@ -24,8 +27,9 @@ TEST_CASE("phlux verify: a table, and every figure as JSON") {
   CHECK(json.at("passed") == true);
   CHECK(json.at("p_values").get<int>() > 100);
   CHECK(json.at("results").size() > 20);
+  CHECK(json.at("conclusions").empty());
   for (const auto& result : json.at("results")) {
-    for (const char* key : {"strategy", "check", "figure", "where", "note"})
+    for (const char* key : {"strategy", "check", "figure", "where", "meaning", "look_at", "note"})
       CHECK(result.at(key).is_string());
     for (const char* key : {"worst", "limit", "figures"}) CHECK(result.at(key).is_number());
     CHECK(result.at("passed") == true);
@@ -44,9 +48,30 @@ TEST_CASE("phlux verify: a wrong kernel is named, with histograms as files") {
            {}});
   CHECK(outcome.exit_code == 1);
   CHECK(outcome.out.find("FAILED exact directions") != std::string::npos);
+  CHECK(outcome.out.find("look at phong_sample (kernels/phong/strategies/exact.cl)") != std::string::npos);
   CHECK(outcome.out.find("written: verify-exact-directions.csv") != std::string::npos);
   CHECK(folder.names().contains("verify-exact-directions.csv"));
   CHECK(folder.names().contains("verify-exact-partial.png"));
+}
+
+TEST_CASE("phlux verify: an integrator that must not be used is named") {
+  const TemporaryFolder folder;
+  const KernelCopy wrong("transport/contributions.cl", "pack_lanes(m, c.value.x)",
+                         "pack_lanes(m, 0.99f * c.value.x)");
+  const Outcome outcome = run({{"verify", "--quick", "--integrator", "light", "--json", "v.json",
+                                "--kernel-dir", wrong.folder().string()},
+                               folder.path(),
+                               {},
+                               {}});
+  CHECK(outcome.exit_code == 1);
+  const std::string line = "do not use --integrator light on this device: the furnace is ";
+  CHECK(outcome.out.find("\n" + line) != std::string::npos);
+  const auto json = nlohmann::json::parse(TemporaryFolder::read(folder / "v.json"));
+  CHECK(json.at("conclusions").at(0).get<std::string>().starts_with(line));
+  CHECK(json.at("results").size() == 3);
+  for (const auto& result : json.at("results")) CHECK(result.at("integrator") == "light");
+  CHECK(json.at("results").at(1).at("check") == "furnace");
+  CHECK(json.at("results").at(1).at("passed") == false);
 }
 
 TEST_CASE("phlux verify: wrong usage") {
@@ -54,6 +79,8 @@ TEST_CASE("phlux verify: wrong usage") {
   for (const std::vector<std::string>& arguments : {std::vector<std::string>{"verify", "--strategy", "exakt"},
                                                     {"verify", "--kernel-dir", "nowhere"},
                                                     {"verify", "--width", "3"},
+                                                    {"verify", "--integrator", "paths"},
+                                                    {"verify", "--integrator", "path", "--model", "phong"},
                                                     {"verify", "--samples", "0"}}) {
     const Outcome outcome = run({arguments, folder.path(), {}, {}});
     CAPTURE(arguments.back());

@@ -1,36 +1,50 @@
-// Many renders of one scene by one method with kernels that are built once.
+// render::Renderer on the device under test, for many renders of small images.
 #pragma once
 
-#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
 
-#include "device/program.h"
-#include "film/film.h"
-#include "render/device_scene.h"
-#include "render/launcher.h"
+#include "render/programs.h"
+#include "render/render.h"
 
 namespace phlux::test {
 
-/// render::render() on one device, prepared once: for small images, PoCL's look-up of built kernels in its
-/// cache takes longer than rendering.
+/// Programs are kept for all renders of a test program: variants of a scene have the same kernels.
 class PreparedRender {
 public:
-  /// @throws as render::render()
-  PreparedRender(const scene::Scene& scene, const render::Settings& settings);
+  /// @throws as render::Renderer
+  PreparedRender(const scene::Scene& scene, const render::Settings& settings)
+      : settings_(settings), width_(scene.camera.width), height_(scene.camera.height),
+        renderer_(std::make_unique<render::Renderer>(programs_by(settings), scene, settings)) {}
 
   struct Image {
     film::Film film;
     std::uint64_t nonfinite = 0;
   };
-  [[nodiscard]] Image image(std::uint64_t seed, int samples_per_pixel) const;
+  [[nodiscard]] Image image(std::uint64_t seed, int samples_per_pixel) const {
+    Image image{film::Film(width_, height_)};
+    render::Settings settings = settings_;
+    settings.seed = seed;
+    settings.samples_per_pixel = samples_per_pixel;
+    image.nonfinite = renderer_->render(settings, image.film, {}).nonfinite;
+    return image;
+  }
 
 private:
-  const scene::Scene& scene_;
+  static render::Programs& programs_by(const render::Settings& settings) {
+    static std::map<std::filesystem::path, render::Programs> kept;
+    const auto found = kept.find(settings.kernel_dir);
+    if (found != kept.end()) return found->second;
+    return kept
+        .try_emplace(settings.kernel_dir, device::open_devices(settings.devices).front(),
+                     sources::KernelFiles(settings.kernel_dir))
+        .first->second;
+  }
+
   render::Settings settings_;
-  device::Device device_;
-  int lanes_;
-  render::HostScene host_;
-  render::Parts parts_;
-  device::BuiltProgram program_;
+  int width_, height_;
+  std::unique_ptr<render::Renderer> renderer_;
 };
 
 } // namespace phlux::test

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <boost/math/distributions/students_t.hpp>
-
 #include "images/agreement.h"
+#include "measure/statistics.h"
 
 namespace phlux::test {
 
@@ -15,8 +14,7 @@ double welch_p(double a, double variance_a, double b, double variance_b, int ren
   if (variance <= 0) return 0;
   const double freedom =
       (renders - 1) * variance * variance / (variance_a * variance_a + variance_b * variance_b);
-  const boost::math::students_t distribution(std::max(freedom, 1.0));
-  return 2 * boost::math::cdf(boost::math::complement(distribution, difference / std::sqrt(variance)));
+  return measure::student_p(difference / std::sqrt(variance), std::max(freedom, 1.0));
 }
 
 } // namespace phlux::test

@@ -11,6 +11,8 @@ REDRAWS_PART = """again = uniform_real(words.w);
     }
     again = (again - share_b) / (1.0f - share_b);"""
 
+# Mistakes that `phlux verify --quick` must detect: of the model and its strategies or, with a fifth member, of this
+# integrator.
 MUTANTS = [
     ("n + 1 for n + 2 in f_r", "phong/phong.cl", "fma(m.exponent, (Real)(0.5f), (Real)(1.0f)) * power",
      "fma(m.exponent, (Real)(0.5f), (Real)(0.5f)) * power"),
@@ -91,6 +93,24 @@ MUTANTS = [
      "fma(f.cosine, v.x, -f.sine * v.z)"),
     ("sign of the mirror frame's x", "math/frames.h", "fma(f.cosine, v.z, -f.sine * v.x));",
      "fma(f.cosine, v.z, f.sine * v.x));"),
+    # As a driver's faults may be: small, or in one lane.
+    ("one in fifty of the connections that roulette makes is lost", "transport/bidir.cl",
+     "return uniform_real(further_word(pair->word, pair->step, number)) < connection_probability(pair);",
+     "const Real p = connection_probability(pair);\n"
+     "  return uniform_real(further_word(pair->word, pair->step, number)) < (p < 1.0f ? 0.98f * p : p);", "bidir"),
+    ("a lane of a connection from the wrong light vertex", "transport/bidir.cl",
+     "pairing ? pair.light.first + pair.light_index * ROW_WORDS : (Int)(0));",
+     "pairing & (LANE_NUMBERS > 0) ? pair.light.first + pair.light_index * ROW_WORDS : (Int)(0));", "bidir"),
+    ("weight of light samples 2% low", "transport/mis_weights.cl", "return 1.0f / (1.0f + by_hit + by_light_path);",
+     "return 0.98f / (1.0f + by_hit + by_light_path);", "bidir"),
+    ("green of a light subpath for red", "transport/bidir.cl", "vec_mul(light.throughput, at_light.value));",
+     "vec_mul(vec3(light.throughput.y, light.throughput.y, light.throughput.z), at_light.value));", "bidir"),
+    ("last shadow rays of a batch not traced", "transport/shadow_queue.cl",
+     "if (queue->count > 0) trace_shadow_rays(scene, queue, output);", "", "light"),
+    ("a lane's splats without red", "transport/contributions.cl", "pack_lanes(m, c.value.x)",
+     "pack_lanes(m, LANE_NUMBERS == 0 ? (Real)(0.0f) : c.value.x)", "light"),
+    ("weight of path's hits 1% high", "transport/eye_subpath.cl", "? s->density / (s->density + light_sample)",
+     "? 1.01f * s->density / (s->density + light_sample)", "path"),
 ]
 
 # Mistakes of light tracing and bidirectional path tracing, with the program and the test cases that must detect them.

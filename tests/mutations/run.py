@@ -46,7 +46,7 @@ def caught_by(phlux, options, folder):
     failed = {}
     for entry in json.loads((folder / "v.json").read_text())["results"]:
         if not entry["passed"]:
-            failed.setdefault(entry["check"], []).append(entry["strategy"])
+            failed.setdefault(entry["check"], []).append(entry.get("strategy") or entry["integrator"])
     return [f"{check} ({', '.join(names) if len(names) < 4 else f'{len(names)} strategies'})"
             for check, names in failed.items()]
 
@@ -68,13 +68,14 @@ def failed_tests(program, cases, device, folder):
 def verify_mutants(arguments, survivors):
     phlux = str(pathlib.Path(arguments.phlux).resolve())
     options = ["--device", arguments.device] if arguments.device else []
-    for name, file, old, new in MUTANTS:
+    for name, file, old, new, *integrator in MUTANTS:
         if arguments.only not in name:
             continue
         with tempfile.TemporaryDirectory() as scratch:
             folder = pathlib.Path(scratch)
             mutate(folder / "kernels", file, old, new)
-            chosen = [text for strategy in strategies_of(name) for text in ("--strategy", strategy)]
+            chosen = (["--integrator", *integrator] if integrator else
+                      [text for strategy in strategies_of(name) for text in ("--strategy", strategy)])
             tell(name, caught_by(phlux, options + chosen, folder), survivors)
 
 

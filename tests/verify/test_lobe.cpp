@@ -10,6 +10,7 @@
 #include "temporary_folder.h"
 #include "verify/lobe/contradictions.h"
 #include "verify/lobe/verify_lobe.h"
+#include "verify/meanings.h"
 
 using namespace phlux;
 
@@ -84,6 +85,7 @@ TEST_CASE("verify: a user's own model passes all checks", "[slow]") {
     CAPTURE(check);
     REQUIRE(verified.find(check) != nullptr);
     CHECK(verified.find(check)->seen > 0);
+    CHECK(verify::meaning_of(*verified.find(check)) != "");
   }
 }
 

@@ -6,7 +6,7 @@
 #include <functional>
 #include <numeric>
 
-#include <boost/math/distributions/students_t.hpp>
+#include "measure/statistics.h"
 
 namespace phlux::bench {
 namespace {
@@ -96,10 +96,6 @@ std::vector<double> denoised(const std::vector<double>& radiance, const std::vec
     }
   }
   return result;
-}
-
-double t_tail(double t, double degrees) {
-  return boost::math::cdf(boost::math::complement(boost::math::students_t(degrees), t));
 }
 
 } // namespace
@@ -254,17 +250,13 @@ Estimate difference_of(const Estimate& a, const Estimate& b) {
 double p_value(const Estimate& figure, double expected) {
   const double d = std::abs(figure.value - expected);
   if (!(figure.standard_error > 0)) return d > 0 ? 0 : 1;
-  return std::isfinite(figure.standard_error) ? 2 * t_tail(d / figure.standard_error, figure.degrees) : 1;
+  return measure::student_p(d / figure.standard_error, figure.degrees);
 }
 
 double p_value_above(const Estimate& figure, double expected) {
-  const double d = figure.value - expected;
-  if (!(figure.standard_error > 0)) return d > 0 ? 0 : 1;
-  return std::isfinite(figure.standard_error) ? t_tail(d / figure.standard_error, figure.degrees) : 1;
-}
-
-double t_quantile(double level, double degrees) {
-  return boost::math::quantile(boost::math::complement(boost::math::students_t(degrees), level / 2));
+  const double p = p_value(figure, expected) / 2;
+  if (!(figure.standard_error > 0)) return figure.value > expected ? 0 : 1;
+  return figure.value > expected ? p : 1 - p;
 }
 
 } // namespace phlux::bench

@@ -94,7 +94,4 @@ struct Reference {
 [[nodiscard]] double p_value(const Estimate& figure, double expected);
 [[nodiscard]] double p_value_above(const Estimate& figure, double expected);
 
-/// The distance in standard errors that has the two-sided p-value `level`.
-[[nodiscard]] double t_quantile(double level, double degrees);
-
 } // namespace phlux::bench

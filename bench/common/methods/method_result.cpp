@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "measure/moments.h"
+#include "measure/statistics.h"
 
 namespace phlux::bench {
 namespace {
@@ -125,7 +126,7 @@ void MethodRenders::judge(MethodResult& result, const ReferenceImage& reference)
                                                       unexplained.value));
   const double error = result.variance.standard_error / result.variance.value;
   const double detectable =
-      t_quantile(bias_level, difference.degrees) * difference.standard_error / reference.mean.value;
+      measure::student_t(bias_level, difference.degrees) * difference.standard_error / reference.mean.value;
   if (error > largest_error)
     result.decide(Verdict::undecided, fmt::format("standard error of the variance {:.0f}%", 100 * error),
                   error / largest_error);

@@ -48,7 +48,7 @@ Rounds all_rounds(std::size_t count) {
 // sqrt((n - 1) / n) and has the quantile of the normal distribution instead of Student's.
 double lower_tail(double level, std::size_t rounds) {
   const auto n = static_cast<double>(rounds);
-  return boost::math::cdf(boost::math::normal(), -std::sqrt(n / (n - 1)) * t_quantile(level, n - 1));
+  return boost::math::cdf(boost::math::normal(), -std::sqrt(n / (n - 1)) * measure::student_t(level, n - 1));
 }
 
 // `cost.cost` is set.
