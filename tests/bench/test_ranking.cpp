@@ -81,7 +81,7 @@ TEST_CASE("Methods whose interval reaches 1 are tied, and no sound method means 
 // wrong, and may occur in 5% of the rankings, as may an interval without the true ratio. For random seeds the
 // test fails with probability 1e-3.
 TEST_CASE("In 95 of 100 rankings no equally fast method is called slower") {
-  constexpr int experiments = 200;
+  constexpr int experiments = 100;
   std::mt19937 generator(1);
   int wrong = 0, told_apart = 0;
   for (int i = 0; i < experiments; ++i) {
