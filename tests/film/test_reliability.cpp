@@ -70,9 +70,11 @@ TEST_CASE("Even noise is trusted, and its figures are those of its distribution"
   CHECK(r.variance == Approx(1.0).epsilon(0.08)); // the larger of two noisy means is a little too large
   // (kurtosis - 1) / samples, of the image and of a pixel
   CHECK(r.variance_error == Approx(std::sqrt(8.0 / (256.0 * side * side))).epsilon(0.1));
-  CHECK(r.understated == Approx(8.0 / 256.0 / 8.0).epsilon(0.15));
-  for (const float pixel : reliability_map(film))
-    CHECK(pixel == Approx(1.0 - std::sqrt(8.0 / 256.0)).margin(0.03));
+  // Exponential noise has the squared skewness 4 and the excess kurtosis 6: the coverage that 256 samples
+  // lose is (4 * 1.08 - 6 * .07) * .229 / 256.
+  CHECK(r.coverage == Approx(0.946).margin(0.006));
+  CHECK(r.relative_standard_error == Approx(1.0 / 16).epsilon(0.1));
+  for (const float pixel : reliability_map(film)) CHECK(pixel == Approx(0.94).margin(0.05));
 }
 
 TEST_CASE("The reliability of splats is that of samples") {
@@ -91,9 +93,8 @@ TEST_CASE("An infinite variance is not trusted, whatever the number of samples")
   for (const int samples : {64, 1024}) {
     std::mt19937 random(3);
     const Reliability r = reliability_of(film_of(samples, [&](std::size_t) { return pareto(random, 1.5); }));
-    CAPTURE(samples, r.tail_index.value_or(0.0), r.variance_error);
+    CAPTURE(samples, r.tail_index.value_or(0.0), r.variance_error, r.coverage);
     CHECK_FALSE(r.trusted);
-    CHECK(r.understated > 0.3);
     REQUIRE(r.tail_index);
     CHECK(*r.tail_index == Approx(1.5).epsilon(0.25));
   }
@@ -107,10 +108,11 @@ TEST_CASE("Rare events are not trusted before pixels have met some of them") {
   };
   const Reliability few = rare(64), many = rare(4096);
   CHECK_FALSE(few.trusted);
-  CHECK(few.understated > 0.3); // a quarter of a hit per pixel
+  CHECK(few.coverage == Approx(1.0 - std::exp(-0.25)).margin(0.05)); // a quarter of a hit per pixel
+  CHECK(few.relative_standard_error == Approx(2.0).epsilon(0.35));
   CAPTURE(many.reasons);
   CHECK(many.trusted); // 16 hits per pixel
-  CHECK(many.understated == Approx(1.0 / 16 / 8).epsilon(0.2));
+  CHECK(many.coverage == Approx(0.95 - 0.23 / 16).margin(0.01));
 }
 
 TEST_CASE("A bright lamp's edge does not pass for a firefly") {
