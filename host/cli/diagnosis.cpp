@@ -35,7 +35,7 @@ std::string doubt(const film::Reliability& r, const film::Film& film) {
   if (!(r.variance > 0.0)) return fmt::format("the error is unknown: {}", r.reasons.front());
   const double stated = film.relative_standard_error();
   std::string text =
-      fmt::format("the relative standard error of {:.3g}% may be {:.2g}% ({}", 100.0 * stated,
+      fmt::format("the relative standard error of {:.3g}% may be {:.3g}% ({}", 100.0 * stated,
                   100.0 * std::max(stated, r.relative_standard_error), fmt::join(r.reasons, "; "));
   if (r.worst_share > 0.5)
     text += fmt::format("; most of the variance is near pixel ({}, {})", r.worst_x, r.worst_y);
