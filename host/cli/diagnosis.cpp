@@ -37,7 +37,7 @@ std::string doubt(const film::Reliability& r, const film::Film& film) {
   std::string text =
       fmt::format("the relative standard error of {:.3g}% may be {:.3g}% ({}", 100.0 * stated,
                   100.0 * std::max(stated, r.relative_standard_error), fmt::join(r.reasons, "; "));
-  if (r.worst_share > 0.5)
+  if (r.worst_share > 0.5 && film.evidence().tiles().count() > 2)
     text += fmt::format("; most of the variance is near pixel ({}, {})", r.worst_x, r.worst_y);
   return text + ")";
 }

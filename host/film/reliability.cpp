@@ -22,25 +22,26 @@ constexpr double nominal_coverage = 0.95, interval = 1.96; // in standard errors
 // Edgeworth Expansion, 2.6): 2 z phi(z) ((z^4 + 2 z^2 - 3) / 18 - (z^2 - 3) / 12).
 constexpr double lost_per_variance = 0.23;
 
-// The noise of a pixel, relative to the radiance of the pixel or of its tile, whichever is larger.
+// The noise of a pixel, as radiance, mean over channels.
 struct Noise {
-  double radiance = 0.0;
-  double squares = 0.0; // summed over samples and channels: (standard error x samples)^2 channels
-  double variance_of_squares = 0.0;
-  bool noisy = false;
-  // Relative variance of `squares`, at most 1: 1/k if k samples of equal light bring them.
-  [[nodiscard]] double doubt() const {
-    return noisy ? std::min(1.0, variance_of_squares / (squares * squares)) : 0.0;
-  }
-  // Light of rare samples, in the units of sqrt(squares): that of the one that brings all, k^(-1/4) times
-  // that of each of k.
-  [[nodiscard]] double rare() const { return std::sqrt(squares) * std::pow(doubt(), 0.75); }
+  double radiance = 0.0, error = 0.0; // mean and its standard error
+  double doubt = 0.0; // relative variance of error^2, at most 1: 1/k if k samples of equal light bring it
+  // Light of rare samples: that of the one that brings the error, k^(-1/4) times that of each of k.
+  [[nodiscard]] double rare() const { return error * std::pow(doubt, 0.75); }
 };
 
 // Sums over the pixels of a tile.
 struct Tile {
-  double pixels = 0.0, radiance = 0.0, noisy = 0.0, doubt = 0.0, rare = 0.0;
+  double pixels = 0.0, radiance = 0.0;
+  double rare = 0.0; // Noise::rare() relative to scale()
+  double noisy = 0.0, doubt = 0.0;
+  // Relative to the radiance of the pixel or of the tile, whichever is larger.
   double squares = 0.0, variance_of_squares = 0.0;
+
+  // The radiance to which the rare light of a pixel is in proportion: without that light, which differs.
+  [[nodiscard]] double scale(const Noise& noise) const {
+    return std::max(noise.radiance - noise.rare(), radiance / pixels);
+  }
 };
 
 // What is predicted for a pixel.
@@ -60,16 +61,7 @@ public:
       tile.radiance += film.spread(pixel).mean;
       tile.pixels += 1.0;
     }
-    for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
-      const Noise noise = noise_of(pixel);
-      for (Tile* tile : {&tiles_[index(pixel)], &all_}) {
-        tile->noisy += noise.noisy ? 1.0 : 0.0;
-        tile->doubt += noise.doubt();
-        tile->rare += noise.rare();
-        tile->squares += noise.squares;
-        tile->variance_of_squares += noise.variance_of_squares;
-      }
-    }
+    for (std::size_t pixel = 0; pixel < pixels; ++pixel) add(pixel);
   }
 
   [[nodiscard]] const std::vector<Tile>& tiles() const { return tiles_; }
@@ -77,32 +69,42 @@ public:
   // A pixel has met its own share of the rare light of its tile, and lacks the difference to the mean.
   [[nodiscard]] Prediction predict(std::size_t pixel) const {
     const Tile& tile = tiles_[index(pixel)];
-    const Noise noise = noise_of(pixel);
+    const Noise noise = noise_of(film_.spread(pixel));
     if (!(noise.radiance > 0.0))
       return {.weight = probability_of_no_sample(tile), .coverage = 0.0, .error = 1.0};
-    if (!noise.noisy) return {.weight = 1.0, .coverage = nominal_coverage, .error = 0.0};
-    const double rare = tile.rare / tile.pixels, missing = std::max(0.0, rare - noise.rare());
-    const double bias = missing / std::sqrt(noise.squares);
-    const double in_radiance = 1.0 / (std::sqrt(channels) * samples_);
-    const double radiance = std::max(0.0, noise.radiance - noise.rare() * in_radiance) + rare * in_radiance;
+    if (!(noise.error > 0.0)) return {.weight = 1.0, .coverage = nominal_coverage, .error = 0.0};
+    const double rare = tile.rare / tile.pixels * tile.scale(noise);
+    const double missing = std::max(0.0, rare - noise.rare());
     return {.weight = 1.0,
-            .coverage = std::max(0.0, coverage_with(bias) - lost_per_variance * noise.doubt()),
-            .error = std::sqrt(noise.squares + missing * missing) * in_radiance / radiance};
+            .coverage = std::max(0.0, coverage_with(missing / noise.error) - lost_per_variance * noise.doubt),
+            .error =
+                std::hypot(noise.error, missing) / (std::max(0.0, noise.radiance - noise.rare()) + rare)};
   }
 
 private:
   [[nodiscard]] std::size_t index(std::size_t pixel) const { return film_.evidence().tiles().tile_of(pixel); }
 
-  [[nodiscard]] Noise noise_of(std::size_t pixel) const {
-    const Tile& tile = tiles_[index(pixel)];
-    const Film::Spread own = film_.spread(pixel);
-    const double scale = std::max(own.mean, tile.radiance / tile.pixels);
-    if (!(scale > 0.0)) return {};
-    const double square = scale * scale;
-    return {.radiance = own.mean / scale,
-            .squares = own.squares / square,
-            .variance_of_squares = own.variance_of_squares / (square * square),
-            .noisy = own.squares > rounding * channels * samples_ * own.mean * own.mean};
+  void add(std::size_t pixel) {
+    Tile& tile = tiles_[index(pixel)];
+    const Film::Spread spread = film_.spread(pixel);
+    const double scale = std::max(spread.mean, tile.radiance / tile.pixels), square = scale * scale;
+    if (!(scale > 0.0)) return;
+    const Noise noise = noise_of(spread);
+    tile.rare += noise.rare() / tile.scale(noise);
+    for (Tile* sums : {&tile, &all_}) {
+      sums->noisy += noise.error > 0.0 ? 1.0 : 0.0;
+      sums->doubt += noise.doubt;
+      sums->squares += spread.squares / square;
+      sums->variance_of_squares += spread.variance_of_squares / (square * square);
+    }
+  }
+
+  [[nodiscard]] Noise noise_of(const Film::Spread& spread) const {
+    Noise noise{.radiance = spread.mean};
+    if (spread.squares <= rounding * channels * samples_ * spread.mean * spread.mean) return noise;
+    noise.error = std::sqrt(spread.squares / channels) / samples_;
+    noise.doubt = std::min(1.0, spread.variance_of_squares / (spread.squares * spread.squares));
+    return noise;
   }
 
   // Probability that an interval holds the right value of a mean with this bias, in standard errors.

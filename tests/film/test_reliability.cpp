@@ -54,6 +54,18 @@ Film film_of_splats(int paths_per_pixel, const std::function<double()>& value) {
   return film;
 }
 
+// Share of the pixels that are not black whose 95% intervals hold the mean.
+double coverage(const Film& film, const Draw& mean) {
+  double held = 0.0, lit = 0.0;
+  for (std::size_t pixel = 0; pixel < film.pixels().size(); ++pixel) {
+    if (!(mean(pixel) > 0.0)) continue;
+    const double error = std::sqrt(film.variance_of_mean(pixel)[0]);
+    held += std::abs(film.mean(pixel)[0] - mean(pixel)) <= 1.96 * error;
+    lit += 1.0;
+  }
+  return held / lit;
+}
+
 double pareto(std::mt19937& random, double index) {
   return std::pow(std::uniform_real_distribution<double>(1e-12, 1.0)(random), -1.0 / index);
 }
@@ -97,6 +109,44 @@ TEST_CASE("An infinite variance is not trusted, whatever the number of samples")
     CHECK_FALSE(r.trusted);
     REQUIRE(r.tail_index);
     CHECK(*r.tail_index == Approx(1.5).epsilon(0.25));
+  }
+}
+
+TEST_CASE("The predicted coverage is that of the intervals") {
+  std::mt19937 random(9);
+  std::exponential_distribution<double> noise;
+  const auto hit = [&](double rate) { return std::bernoulli_distribution(rate)(random) ? 1.0 / rate : 0.0; };
+  const auto everywhere = [](double mean) { return [mean](std::size_t) { return mean; }; };
+  const auto one_in = [](std::size_t pixels, double mean, double otherwise) {
+    return [=](std::size_t pixel) { return pixel % pixels == 0 ? mean : otherwise; };
+  };
+  struct Case {
+    const char* name;
+    int samples;
+    Draw draw, mean;
+  };
+  const Case cases[] = {
+      {"even noise", 64, [&](std::size_t) { return noise(random); }, everywhere(1)},
+      {"half a hit in a pixel", 64, [&](std::size_t) { return hit(1.0 / 128); }, everywhere(1)},
+      {"two hits in a pixel", 64, [&](std::size_t) { return hit(1.0 / 32); }, everywhere(1)},
+      {"eight hits in a pixel", 64, [&](std::size_t) { return hit(1.0 / 8); }, everywhere(1)},
+      {"half of the light is rare", 64, [&](std::size_t) { return noise(random) + hit(1.0 / 2048); },
+       everywhere(2)},
+      {"half of the light is rare, one block", 16,
+       [&](std::size_t) { return noise(random) + hit(1.0 / 512); }, everywhere(2)},
+      {"a twentieth of the light is rare", 64,
+       [&](std::size_t) { return noise(random) + hit(1.0 / 4096) / 20.0; }, everywhere(1.05)},
+      {"an eighth of the pixels is noisy", 64,
+       [&](std::size_t pixel) { return pixel % 8 == 0 ? hit(0.5) : 1.0 + 0.01 * noise(random); },
+       one_in(8, 1, 1.01)},
+      {"half of the pixels is black", 64,
+       [&](std::size_t pixel) { return pixel % 2 == 0 ? noise(random) + hit(1e-5) / 100.0 : 0.0; },
+       one_in(2, 1.01, 0)},
+  };
+  for (const Case& of : cases) {
+    CAPTURE(of.name);
+    const Film film = film_of(of.samples, of.draw);
+    CHECK(reliability_of(film).coverage == Approx(coverage(film, of.mean)).margin(0.1));
   }
 }
 
