@@ -122,31 +122,34 @@ TEST_CASE("The predicted coverage is that of the intervals") {
   };
   struct Case {
     const char* name;
+    bool trusted;
     int samples;
     Draw draw, mean;
   };
   const Case cases[] = {
-      {"even noise", 64, [&](std::size_t) { return noise(random); }, everywhere(1)},
-      {"half a hit in a pixel", 64, [&](std::size_t) { return hit(1.0 / 128); }, everywhere(1)},
-      {"two hits in a pixel", 64, [&](std::size_t) { return hit(1.0 / 32); }, everywhere(1)},
-      {"eight hits in a pixel", 64, [&](std::size_t) { return hit(1.0 / 8); }, everywhere(1)},
-      {"half of the light is rare", 64, [&](std::size_t) { return noise(random) + hit(1.0 / 2048); },
+      {"even noise", true, 64, [&](std::size_t) { return noise(random); }, everywhere(1)},
+      {"half a hit in a pixel", false, 64, [&](std::size_t) { return hit(1.0 / 128); }, everywhere(1)},
+      {"two hits in a pixel", false, 64, [&](std::size_t) { return hit(1.0 / 32); }, everywhere(1)},
+      {"eight hits in a pixel", true, 64, [&](std::size_t) { return hit(1.0 / 8); }, everywhere(1)},
+      {"half of the light is rare", false, 64, [&](std::size_t) { return noise(random) + hit(1.0 / 2048); },
        everywhere(2)},
-      {"half of the light is rare, one block", 16,
+      {"half of the light is rare, one block", false, 16,
        [&](std::size_t) { return noise(random) + hit(1.0 / 512); }, everywhere(2)},
-      {"a twentieth of the light is rare", 64,
+      {"a twentieth of the light is rare", true, 64,
        [&](std::size_t) { return noise(random) + hit(1.0 / 4096) / 20.0; }, everywhere(1.05)},
-      {"an eighth of the pixels is noisy", 64,
+      {"an eighth of the pixels is noisy", true, 64,
        [&](std::size_t pixel) { return pixel % 8 == 0 ? hit(0.5) : 1.0 + 0.01 * noise(random); },
        one_in(8, 1, 1.01)},
-      {"half of the pixels is black", 64,
+      {"half of the pixels is black", true, 64,
        [&](std::size_t pixel) { return pixel % 2 == 0 ? noise(random) + hit(1e-5) / 100.0 : 0.0; },
        one_in(2, 1.01, 0)},
   };
   for (const Case& of : cases) {
     CAPTURE(of.name);
     const Film film = film_of(of.samples, of.draw);
-    CHECK(reliability_of(film).coverage == Approx(coverage(film, of.mean)).margin(0.1));
+    const Reliability r = reliability_of(film);
+    CHECK(r.coverage == Approx(coverage(film, of.mean)).margin(0.1));
+    CHECK(r.trusted == of.trusted);
   }
 }
 
