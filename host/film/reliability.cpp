@@ -25,16 +25,17 @@ constexpr double lost_per_variance = 0.23;
 // The noise of a pixel, as radiance, mean over channels.
 struct Noise {
   double radiance = 0.0, error = 0.0; // mean and its standard error
-  double doubt = 0.0; // relative variance of error^2, at most 1: 1/k if k samples of equal light bring it
+  // Relative variance of error^2, at most 1: 1/k if k samples of equal light bring it.
+  double concentration = 0.0;
   // Light of rare samples: that of the one that brings the error, k^(-1/4) times that of each of k.
-  [[nodiscard]] double rare() const { return error * std::pow(doubt, 0.75); }
+  [[nodiscard]] double rare() const { return error * std::pow(concentration, 0.75); }
 };
 
 // Sums over the pixels of a tile.
 struct Tile {
   double pixels = 0.0, radiance = 0.0;
-  double rare = 0.0; // Noise::rare() relative to scale()
-  double noisy = 0.0, doubt = 0.0;
+  double rare = 0.0;                       // Noise::rare() relative to scale()
+  double noisy = 0.0, concentration = 0.0; // number of noisy pixels, sum over them
   // Relative to the radiance of the pixel or of the tile, whichever is larger.
   double squares = 0.0, variance_of_squares = 0.0;
 
@@ -76,7 +77,8 @@ public:
     const double rare = tile.rare / tile.pixels * tile.scale(noise);
     const double missing = std::max(0.0, rare - noise.rare());
     return {.weight = 1.0,
-            .coverage = std::max(0.0, coverage_with(missing / noise.error) - lost_per_variance * noise.doubt),
+            .coverage =
+                std::max(0.0, coverage_with(missing / noise.error) - lost_per_variance * noise.concentration),
             .error =
                 std::hypot(noise.error, missing) / (std::max(0.0, noise.radiance - noise.rare()) + rare)};
   }
@@ -93,7 +95,7 @@ private:
     tile.rare += noise.rare() / tile.scale(noise);
     for (Tile* sums : {&tile, &all_}) {
       sums->noisy += noise.error > 0.0 ? 1.0 : 0.0;
-      sums->doubt += noise.doubt;
+      sums->concentration += noise.concentration;
       sums->squares += spread.squares / square;
       sums->variance_of_squares += spread.variance_of_squares / (square * square);
     }
@@ -103,7 +105,7 @@ private:
     Noise noise{.radiance = spread.mean};
     if (spread.squares <= rounding * channels * samples_ * spread.mean * spread.mean) return noise;
     noise.error = std::sqrt(spread.squares / channels) / samples_;
-    noise.doubt = std::min(1.0, spread.variance_of_squares / (spread.squares * spread.squares));
+    noise.concentration = std::min(1.0, spread.variance_of_squares / (spread.squares * spread.squares));
     return noise;
   }
 
@@ -117,7 +119,7 @@ private:
   // none with probability e^-k. A pixel that has met one expects one more, and so it is relative to that.
   [[nodiscard]] double probability_of_no_sample(const Tile& tile) const {
     const Tile& noisy = tile.noisy > 0.0 ? tile : all_;
-    return noisy.doubt > 0.0 ? std::exp(1.0 - noisy.noisy / noisy.doubt) : 0.0;
+    return noisy.concentration > 0.0 ? std::exp(1.0 - noisy.noisy / noisy.concentration) : 0.0;
   }
 
   const Film& film_;
