@@ -187,7 +187,7 @@ std::vector<std::string> reasons_for_doubt(const Reliability& r, double samples_
   // With infinite variance, the share of a few largest contributions does not decrease with more samples.
   if (!result.empty() && r.tail_index && *r.tail_index <= infinite_variance &&
       r.variance_error > largest_variance_error / 3.0)
-    result.push_back("the variance may be infinite, and more samples may not help");
+    result.push_back("the variance may be infinite");
   return result;
 }
 
