@@ -3,7 +3,7 @@
 // predicts.
 //   PHLUX_COVERAGE_SEEDS=20 PHLUX_COVERAGE_TABLE=coverage.csv test_images "[.coverage]"
 // writes a line for each render and prints the share of the renders that are not trusted, for those whose
-// intervals hold in 93% to 97% of the pixels and for those below 85%. An hour on one core for 50 seeds.
+// intervals hold in 93% to 97% of the pixels and for those below 85%. Two hours on one core for 50 seeds.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
