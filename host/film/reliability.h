@@ -14,7 +14,7 @@ namespace phlux::film {
 /// Per pixel; with fewer, no error estimate is trusted.
 inline constexpr double least_samples = 8.0;
 /// The least coverage of a trusted image. Of the renders of tests/images/coverage_table.cpp it takes 2% of
-/// those whose intervals hold in 93% to 97% of the pixels for unreliable, and 97% of those below 85%.
+/// those whose intervals hold in 93% to 97% of the pixels for unreliable, and 96% of those below 85%.
 inline constexpr double least_coverage = 0.86;
 
 /// Largest Reliability::variance_error of a trusted image: eleven samples bring all of the variance.

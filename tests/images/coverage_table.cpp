@@ -45,14 +45,19 @@ const std::vector<Case> cases = {
     {"point-light", path},
     {"mirror-ball", bidir, {path, bidir}},
     {"two-phong-spheres", path},
+    {"mesh", path},
     {"stability/caustic", light},
     {"stability/corner", path, {path, light, bidir, bidir_uniform, path_hits, path_light_samples}},
     {"stability/corridor", light, {path, light}}, // bidir takes 210 rays a sample
+    {"stability/dark-and-bright", path},
+    {"stability/extremes", path},
+    {"stability/grazing", path_hits, {path, light, bidir, path_hits}},
     {"stability/keyhole", light, {path, light, bidir, bidir_uniform, path_hits}},
     {"stability/mirror", bidir},
     {"stability/mirrored-caustic", bidir},
     {"stability/narrow-view", path},
     {"stability/near-light", path, {path, light, bidir, bidir_uniform, path_hits, path_light_samples}},
+    {"stability/slivers", path},
     {"stability/tiny-light", path, {path, light, bidir, bidir_uniform, path_hits}},
 };
 
@@ -172,6 +177,7 @@ TEST_CASE("renders whose intervals fail are not trusted, and those whose interva
   text += all.text("all");
   std::cout << text;
   INFO(text);
+  if (!only.empty()) return; // a scene may be above the limits for all
   CHECK(all.covered_doubted < 0.02 * all.covered);
   CHECK(all.failed_doubted > 0.95 * all.failed);
 }
