@@ -90,9 +90,9 @@ double Film::equal_blocks_per_pixel() const {
 }
 
 // Variance of the sum s of squares over the samples of a pixel. From k equal blocks with sums q_b it is
-// (sum q_b^2 - s^2 / k) k / (k - 1). A single block does not tell. If a single one of n samples brought s, it
-// would be sqrt(s n / (n - 1)) above the others: its share in the light of the pixel, times s^2, stands for
-// the variance, for want of better; the intervals of tests/images/coverage_table.cpp agree with it.
+// (sum q_b^2 - s^2 / k) k / (k - 1). A single block of n samples does not tell: s^2 times the share of the
+// pixel's light that one sample would have if it brought all of s, sqrt(s n / (n - 1)) above the others, is a
+// guess. tests/images/coverage_table.cpp measures how good it is.
 double Film::variance_of_squares(const Pixel& own, double squares, double mean) const {
   constexpr double least_blocks = 1.9; // two full ones, or a little less
   if (!(squares > 0.0)) return 0.0;
