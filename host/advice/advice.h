@@ -1,4 +1,4 @@
-// Suggests another method where a render's error estimate is unreliable, from short trial renders.
+// Compares the method of a render with others in short trial renders.
 #pragma once
 
 #include <string>
@@ -13,21 +13,23 @@ namespace phlux::advice {
 struct Trial {
   std::string method;  ///< the settings that choose it, such as "`integrator` bidir"
   std::string refusal; ///< why it cannot render the scene; the rest is empty then
-  double cost = 0.0;   ///< relative variance of a sample x seconds per sample
+  double cost = 0.0;   ///< Reliability::relative_standard_error^2 x seconds of the trial
   film::Reliability reliability;
 };
 
 struct Advice {
   std::vector<Trial> trials; ///< the render's own method first
-  std::string words;         ///< the suggestion; empty: none
+  bool found = false;        ///< whether another method is better
+  std::string words;         ///< the answer: that method, or why there is none; never empty
 };
 
 /// The largest number of renders that advise() makes.
 [[nodiscard]] std::size_t trials_of(const scene::Scene& scene);
 
 /// Renders small images of the scene by the settings' method and by the others, each for `seconds` after its
-/// kernels are built. Suggests the most efficient method with a reliable error estimate where it is at least
-/// twice as efficient, and names the light that causes most of the variance, if one does.
+/// kernels are built. Suggests the most efficient method if it is at least twice as efficient. Costs are
+/// corrected for rare light that pixels lack, and methods that lack too much of it are not suggested. Names
+/// the light that causes most of the variance, if one does and the method's own error estimate is unreliable.
 /// @throws DeviceError
 [[nodiscard]] Advice advise(scene::Scene scene, const render::Settings& settings, double seconds);
 

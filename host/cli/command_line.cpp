@@ -91,12 +91,14 @@ void add_files(CLI::App& app, RenderOptions& options) {
       options.resume);
   app.add_flag(
       "--moments", options.moments,
-      "adds the channels variance.R, .G and .B (variance of the mean) and reliability (of that variance)");
+      "adds the channels variance.R, .G and .B (variance of the mean) and reliability (predicted probability "
+      "that mean +- 1.96 standard errors holds the right value)");
   app.add_flag(
       "--advise", options.advise,
-      "where the error estimate is unreliable, tries the other integrators for a second each and suggests a "
-      "better one; without this option only where that takes at most 3% of the render time");
-  app.add_flag("-q,--quiet", options.quiet, "no progress and no summary");
+      "tries the other integrators for a second each and says which is better, if any; without this option "
+      "only where the error estimate is unreliable and that takes at most 3% of the render time");
+  app.add_flag("-q,--quiet", options.quiet,
+               "no progress, no summary and no warning of an unreliable error estimate");
   app.add_flag("--verbose", options.verbose, "also notes: what was ignored, and what was chosen");
 }
 

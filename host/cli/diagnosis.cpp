@@ -11,8 +11,7 @@
 namespace phlux::cli {
 namespace {
 
-constexpr double share_for_trials = 0.03;   // of the render's time
-constexpr double grossly_understated = 0.3; // share of the standard error that is likely to be missing
+constexpr double share_for_trials = 0.03; // of the render's time
 constexpr double longest_trial = 1.0, shortest_trial = 0.2;
 
 // Seconds per trial; 0: no trials.
@@ -23,24 +22,44 @@ double trial_seconds(const render::Statistics& statistics, std::size_t trials, b
   return seconds < shortest_trial ? 0.0 : std::min(seconds, longest_trial);
 }
 
-// Whether the error estimate is unreliable; that of a scene without light is exact.
-bool doubtful(const film::Reliability& reliability, const render::Statistics& statistics) {
-  return !reliability.trusted && statistics.shines;
+std::string remedies(const Diagnosis& diagnosis, const render::Settings& settings) {
+  if (diagnosis.better_found) return diagnosis.advice;
+  const char* clamp = settings.clamp || settings.techniques ? "" : ", or limit bright paths with --clamp";
+  if (diagnosis.advice.empty())
+    return fmt::format("take more samples, let --advise try other integrators{}", clamp);
+  return fmt::format("{}: take more samples{}", diagnosis.advice, clamp);
+}
+
+// The error that the render states, the error that it may have, and why.
+std::string doubt(const film::Reliability& r, const film::Film& film) {
+  if (!(r.variance > 0.0)) return fmt::format("the error is unknown: {}", r.reasons.front());
+  const double stated = film.relative_standard_error();
+  std::string text =
+      fmt::format("the relative standard error of {:.3g}% may be {:.3g}% ({}", 100.0 * stated,
+                  100.0 * std::max(stated, r.relative_standard_error), fmt::join(r.reasons, "; "));
+  if (r.worst_share > 0.5 && film.evidence().tiles().count() > 2)
+    text += fmt::format("; most of the variance is near pixel ({}, {})", r.worst_x, r.worst_y);
+  return text + ")";
 }
 
 } // namespace
 
 Diagnosis diagnose(const film::Film& film, const render::Statistics& statistics,
                    const render::Settings& settings, scene::Scene&& scene, bool insist) {
-  Diagnosis diagnosis{.reliability = film::reliability_of(film), .advice = {}};
-  if (!doubtful(diagnosis.reliability, statistics) || statistics.interrupted) return diagnosis;
-  if (const double seconds = trial_seconds(statistics, advice::trials_of(scene), insist); seconds > 0.0)
-    diagnosis.advice = with_options(advice::advise(std::move(scene), settings, seconds).words);
+  Diagnosis diagnosis;
+  diagnosis.reliability = film::reliability_of(film);
+  if (statistics.interrupted || !statistics.shines || (diagnosis.reliability.trusted && !insist))
+    return diagnosis;
+  if (const double seconds = trial_seconds(statistics, advice::trials_of(scene), insist); seconds > 0.0) {
+    const advice::Advice advice = advice::advise(std::move(scene), settings, seconds);
+    diagnosis.advice = with_options(advice.words);
+    diagnosis.better_found = advice.found;
+  }
   return diagnosis;
 }
 
 void report(const Diagnosis& diagnosis, const film::Film& film, const render::Statistics& statistics,
-            const render::Settings& settings) {
+            const render::Settings& settings, bool quiet) {
   if (const auto& origin = statistics.first_nonfinite)
     spdlog::warn(
         "{} contributions were not finite and count as black: the first is of pixel ({}, {}), sample {}{}, "
@@ -51,16 +70,12 @@ void report(const Diagnosis& diagnosis, const film::Film& film, const render::St
   if (settings.clamp)
     spdlog::warn("--clamp {:g}: the image is biased: {:.3g}% of its light was taken away", *settings.clamp,
                  100.0 * film.clamped_share());
+  if (quiet) return;
   const film::Reliability& r = diagnosis.reliability;
-  if (!doubtful(r, statistics) || film.samples_per_pixel() < film::least_samples) return;
-  const bool nearly =
-      r.reasons.size() == 1 && r.understated > film::most_understated && r.understated < grossly_understated;
-  std::string text = fmt::format("the error estimate is not {}to be trusted: {}", nearly ? "quite " : "",
-                                 fmt::join(r.reasons, "; "));
-  if (r.worst_share > 0.5)
-    text += fmt::format("; most of the variance is near pixel ({}, {})", r.worst_x, r.worst_y);
-  spdlog::warn("{}", text);
-  if (!diagnosis.advice.empty()) spdlog::warn("{}", diagnosis.advice);
+  if (statistics.shines && !r.trusted && film.samples_per_pixel() >= film::least_samples)
+    spdlog::warn("{}: {}", doubt(r, film), remedies(diagnosis, settings));
+  else if (!diagnosis.advice.empty())
+    fmt::print("advice: {}\n", diagnosis.advice);
 }
 
 } // namespace phlux::cli

@@ -10,17 +10,19 @@ namespace phlux::cli {
 
 struct Diagnosis {
   film::Reliability reliability;
-  std::string advice; ///< empty where there is none
+  std::string advice;        ///< empty without trials
+  bool better_found = false; ///< whether the advice is another integrator
 };
 
-/// Estimates the reliability of the film's error, and tries other methods where it is unreliable: for a
-/// second each if `insist`, else only where the trials and the setup together take at most 3% of the render's
+/// Estimates the reliability of the film's error. Tries other methods: for a second each if `insist`, else
+/// only if the error is unreliable and the trials and the setup together take at most 3% of the render's
 /// time.
 [[nodiscard]] Diagnosis diagnose(const film::Film& film, const render::Statistics& statistics,
                                  const render::Settings& settings, scene::Scene&& scene, bool insist);
 
-/// Logs contributions that were not finite or clamped, why the error estimate is unreliable, and the advice.
+/// Logs contributions that were not finite or clamped. Unless `quiet`, also logs the likely error and the
+/// remedy where the error estimate is unreliable, and else prints the advice.
 void report(const Diagnosis& diagnosis, const film::Film& film, const render::Statistics& statistics,
-            const render::Settings& settings);
+            const render::Settings& settings, bool quiet);
 
 } // namespace phlux::cli

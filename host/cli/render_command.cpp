@@ -185,7 +185,7 @@ int render(const RenderOptions& given) {
                       files::json_text(statistics_json(statistics, settings, info, film, diagnosis)));
   if (settings.techniques) write_techniques(options.contributions, film, info);
   if (!options.quiet) fmt::print("{}\n", summary(outputs, film, statistics));
-  report(diagnosis, film, statistics, settings);
+  report(diagnosis, film, statistics, settings, options.quiet);
   if (failure) throw WriteError(*failure);
   return statistics.interrupted ? interrupted_exit_code : 0;
 }

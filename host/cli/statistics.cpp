@@ -18,9 +18,10 @@ nlohmann::ordered_json reliability_json(const film::Reliability& r, const film::
     history.push_back({{"samples", then.samples}, {"largest", then.largest}});
   return {{"trusted", r.trusted},
           {"reasons", r.reasons},
+          {"coverage", r.coverage},
+          {"relative_standard_error", r.relative_standard_error},
           {"variance", r.variance},
           {"variance_error", r.variance_error},
-          {"understated", r.understated},
           {"top_share", r.top_share},
           {"tail_index", value_or_null(r.tail_index)},
           {"growth", value_or_null(r.growth)},

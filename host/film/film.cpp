@@ -48,6 +48,7 @@ void Film::add(std::size_t pixel, const BlockSum& block, std::uint32_t samples) 
   evidence_.add_block(pixel, square, block_sum, samples, mean_before);
   if (clamp_) clamped_ += block.clamped; // not written by the device otherwise
   own_samples_ += samples;
+  squared_block_samples_ += static_cast<double>(samples) * samples;
   ++blocks_;
   if (splats_.empty()) evidence_.note_growth(this->samples());
 }
@@ -81,18 +82,43 @@ double Film::clamped_share() const {
   return clamped > 0.0 ? clamped / (clamped + left) : 0.0;
 }
 
+// Blocks of equal length that say as much about a variance as the blocks of a pixel: (sum of lengths)^2 / sum
+// of squared lengths.
+double Film::equal_blocks_per_pixel() const {
+  const auto pixels = static_cast<double>(pixels_.size()), samples = static_cast<double>(own_samples_);
+  return samples * samples / (pixels * squared_block_samples_);
+}
+
+// Variance of the sum s of squares over the samples of a pixel. From k equal blocks with sums q_b it is
+// (sum q_b^2 - s^2 / k) k / (k - 1). A single block of n samples does not tell: s^2 times the share of the
+// pixel's light that one sample would have if it brought all of s, sqrt(s n / (n - 1)) above the others, is a
+// guess. tests/images/coverage_table.cpp measures how good it is.
+double Film::variance_of_squares(const Pixel& own, double squares, double mean) const {
+  constexpr double least_blocks = 1.9; // two full ones, or a little less
+  if (!(squares > 0.0)) return 0.0;
+  const double blocks = equal_blocks_per_pixel(), n = static_cast<double>(own.samples);
+  if (blocks >= least_blocks)
+    return std::max(0.0, own.sum_of_fourths - squares * squares / blocks) * blocks / (blocks - 1.0);
+  if (n < 2.0) return 0.0;
+  const double light = mean * std::sqrt(channel_count * n * (n - 1.0));
+  return squares * squares * std::min(1.0, std::sqrt(squares) / light);
+}
+
 Film::Spread Film::spread(std::size_t pixel) const {
   const Pixel& own = pixels_[pixel];
   Spread spread;
-  spread.fourths = own.sum_of_fourths;
   for (std::size_t channel = 0; channel < channel_count; ++channel) {
     spread.mean += mean_in_units(pixel, channel) / channel_count;
     if (own.samples > 0)
       spread.squares += std::max(0.0, own.sum_of_squares[channel] - own.sum[channel] * own.sum[channel] /
                                                                         static_cast<double>(own.samples));
-    if (!splats_.empty()) spread.squares += splats_[pixel].sum_of_squares[channel];
   }
-  if (!splats_.empty()) spread.fourths += splats_[pixel].sum_of_fourths;
+  spread.variance_of_squares = variance_of_squares(own, spread.squares, spread.mean);
+  if (splats_.empty()) return spread;
+  // The number of splats is random: the variance of their sum is the sum of their squares.
+  const Splats& splats = splats_[pixel];
+  spread.squares += std::accumulate(splats.sum_of_squares.begin(), splats.sum_of_squares.end(), 0.0);
+  spread.variance_of_squares += splats.sum_of_fourths;
   return spread;
 }
 

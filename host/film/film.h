@@ -134,21 +134,23 @@ public:
   struct Spread {
     double mean = 0.0;    ///< radiance, mean over channels
     double squares = 0.0; ///< sum of squared deviations from the mean: about samples x variance of one
-    double fourths = 0.0; ///< sum of the squares of those
+    double variance_of_squares = 0.0; ///< from 0 to squares^2, which means that one sample brings them
   };
   [[nodiscard]] Spread spread(std::size_t pixel) const;
 
   /// The film's whole state: a film that is read from an archive continues as the written one, bit for bit.
   template<class Archive>
   void serialize(Archive& archive) {
-    archive(width_, height_, unit_, pixels_, splats_, splatting_paths_, own_samples_, blocks_, evidence_,
-            clamp_, clamped_, clamped_of_splats_, techniques_);
+    archive(width_, height_, unit_, pixels_, splats_, splatting_paths_, own_samples_, blocks_,
+            squared_block_samples_, evidence_, clamp_, clamped_, clamped_of_splats_, techniques_);
   }
 
 private:
   void clamp(std::array<double, 3>& value);
   void count_splat(std::size_t pixel, double square, double sum);
   [[nodiscard]] double splatting_paths_per_pixel() const;
+  [[nodiscard]] double equal_blocks_per_pixel() const;
+  [[nodiscard]] double variance_of_squares(const Pixel& own, double squares, double mean) const;
   [[nodiscard]] double mean_in_units(std::size_t pixel, std::size_t channel) const;
   [[nodiscard]] double variance_in_units(std::size_t pixel, std::size_t channel) const;
   template<class Function>
@@ -159,6 +161,7 @@ private:
   std::vector<Pixel> pixels_;
   std::vector<Splats> splats_; ///< empty where nothing splats
   std::uint64_t splatting_paths_ = 0, own_samples_ = 0, blocks_ = 0;
+  double squared_block_samples_ = 0.0; ///< sum over blocks of samples^2
   Evidence evidence_;
   std::optional<double> clamp_; ///< in units
   double clamped_ = 0.0;        ///< of blocks, in units, sum over channels

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -10,53 +11,122 @@ namespace {
 
 constexpr double channels = 3.0;
 constexpr double top_part = 1e-3;
-constexpr double least_tail = 30.0;            // contributions for an index of the tail
-constexpr double largest_variance_error = 0.2; // for a relative error of 10% of the standard error
-constexpr double infinite_variance = 2.0;      // index of the tail
+constexpr double least_tail = 30.0;       // contributions for an index of the tail
+constexpr double infinite_variance = 2.0; // index of the tail
+// Relative variance of a sample below which it is rounding, see Film: 2^-24 times the length of a block.
+constexpr double rounding = 1e-6;
 
-// Sums over the pixels of a tile or of the image, relative to the radiance of each.
-struct Spread {
-  double pixels = 0.0, mean = 0.0, squares = 0.0, fourths = 0.0, variance = 0.0;
-  // Relative variance of `squares`. The number of blocks is not random, so that equal blocks have no
-  // variance.
-  [[nodiscard]] double relative_variance(double blocks) const {
-    if (!(squares > 0.0)) return 0.0;
-    const double of_equal_blocks = blocks > 0.0 ? 1.0 / blocks : 0.0;
-    return std::max(0.0, fourths / (squares * squares) - of_equal_blocks);
+constexpr double nominal_coverage = 0.95, interval = 1.96; // in standard errors
+// What that coverage loses, to first order, per relative variance r = 1/k of a pixel's variance that k rare
+// samples of equal light bring, with z = 1.96 and the normal density phi (Hall 1992, The Bootstrap and
+// Edgeworth Expansion, 2.6): 2 z phi(z) ((z^4 + 2 z^2 - 3) / 18 - (z^2 - 3) / 12).
+constexpr double lost_per_variance = 0.23;
+
+// The noise of a pixel, as radiance, mean over channels.
+struct Noise {
+  double radiance = 0.0, error = 0.0; // mean and its standard error
+  // Relative variance of error^2, at most 1: 1/k if k samples of equal light bring it.
+  double concentration = 0.0;
+  // Light of rare samples: that of the one that brings the error, k^(-1/4) times that of each of k.
+  [[nodiscard]] double rare() const { return error * std::pow(concentration, 0.75); }
+};
+
+// Sums over the pixels of a tile.
+struct Tile {
+  double pixels = 0.0, radiance = 0.0;
+  double rare = 0.0;                       // Noise::rare() relative to scale()
+  double noisy = 0.0, concentration = 0.0; // number of noisy pixels, sum over them
+  // Relative to the radiance of the pixel or of the tile, whichever is larger.
+  double squares = 0.0, variance_of_squares = 0.0;
+
+  // The radiance to which the rare light of a pixel is in proportion: without that light, which differs.
+  [[nodiscard]] double scale(const Noise& noise) const {
+    return std::max(noise.radiance - noise.rare(), radiance / pixels);
   }
 };
 
-std::vector<Spread> spreads_of(const Film& film) {
-  std::vector<Spread> tiles(film.evidence().tiles().count());
-  const std::size_t pixels = film.pixels().size();
-  for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
-    Spread& tile = tiles[film.evidence().tiles().tile_of(pixel)];
-    tile.mean += film.spread(pixel).mean;
-    tile.pixels += 1.0;
-  }
-  const double samples_per_pixel = film.samples_per_pixel();
-  for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
-    Spread& tile = tiles[film.evidence().tiles().tile_of(pixel)];
-    const Film::Spread own = film.spread(pixel);
-    const double scale = std::max(own.mean, tile.mean / tile.pixels);
-    if (!(scale > 0.0)) continue;
-    tile.squares += own.squares / (scale * scale);
-    tile.fourths += own.fourths / (scale * scale * scale * scale);
-    tile.variance += own.squares / (channels * scale * scale * samples_per_pixel);
-  }
-  return tiles;
-}
+// What is predicted for a pixel.
+struct Prediction {
+  double weight = 1.0; // probability that the right value is not 0
+  double coverage = 0.0;
+  double error = 0.0; // standard error / radiance
+};
 
-// Blocks of samples per pixel; 0 with splats, whose number is random.
-double blocks_per_pixel(const Film& film) {
-  if (film.splats()) return 0.0;
-  return static_cast<double>(film.contributors()) / static_cast<double>(film.pixels().size());
-}
+class Tiles {
+public:
+  explicit Tiles(const Film& film)
+      : film_(film), samples_(film.samples_per_pixel()), tiles_(film.evidence().tiles().count()) {
+    const std::size_t pixels = film.pixels().size();
+    for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
+      Tile& tile = tiles_[index(pixel)];
+      tile.radiance += film.spread(pixel).mean;
+      tile.pixels += 1.0;
+    }
+    for (std::size_t pixel = 0; pixel < pixels; ++pixel) add(pixel);
+  }
 
-// Relative variance of a pixel's variance estimate, from all pixels of its tile.
-double pixel_relative_variance(const Spread& tile, double blocks) {
-  return tile.pixels * tile.relative_variance(blocks * tile.pixels);
-}
+  [[nodiscard]] const std::vector<Tile>& tiles() const { return tiles_; }
+  [[nodiscard]] const Tile& all() const { return all_; }
+  // A pixel has met its own share of the rare light of its tile, and lacks the difference to the mean.
+  [[nodiscard]] Prediction predict(std::size_t pixel) const {
+    const Tile& tile = tiles_[index(pixel)];
+    const Noise noise = noise_of(film_.spread(pixel));
+    if (!(noise.radiance > 0.0))
+      return {.weight = probability_of_no_sample(tile), .coverage = 0.0, .error = 1.0};
+    if (!(noise.error > 0.0)) return {.weight = 1.0, .coverage = nominal_coverage, .error = 0.0};
+    const double rare = tile.rare / tile.pixels * tile.scale(noise);
+    const double missing = std::max(0.0, rare - noise.rare());
+    return {.weight = 1.0,
+            .coverage =
+                std::max(0.0, coverage_with(missing / noise.error) - lost_per_variance * noise.concentration),
+            .error =
+                std::hypot(noise.error, missing) / (std::max(0.0, noise.radiance - noise.rare()) + rare)};
+  }
+
+private:
+  [[nodiscard]] std::size_t index(std::size_t pixel) const { return film_.evidence().tiles().tile_of(pixel); }
+
+  void add(std::size_t pixel) {
+    Tile& tile = tiles_[index(pixel)];
+    const Film::Spread spread = film_.spread(pixel);
+    const double scale = std::max(spread.mean, tile.radiance / tile.pixels), square = scale * scale;
+    if (!(scale > 0.0)) return;
+    const Noise noise = noise_of(spread);
+    tile.rare += noise.rare() / tile.scale(noise);
+    for (Tile* sums : {&tile, &all_}) {
+      sums->noisy += noise.error > 0.0 ? 1.0 : 0.0;
+      sums->concentration += noise.concentration;
+      sums->squares += spread.squares / square;
+      sums->variance_of_squares += spread.variance_of_squares / (square * square);
+    }
+  }
+
+  [[nodiscard]] Noise noise_of(const Film::Spread& spread) const {
+    Noise noise{.radiance = spread.mean};
+    if (spread.squares <= rounding * channels * samples_ * spread.mean * spread.mean) return noise;
+    noise.error = std::sqrt(spread.squares / channels) / samples_;
+    noise.concentration = std::min(1.0, spread.variance_of_squares / (spread.squares * spread.squares));
+    return noise;
+  }
+
+  // Probability that an interval holds the right value of a mean with this bias, in standard errors.
+  static double coverage_with(double bias) {
+    const auto above = [](double x) { return 0.5 * std::erfc(x / std::numbers::sqrt2); };
+    return 1.0 - above(interval - bias) - above(interval + bias);
+  }
+
+  // Probability that a pixel is black for want of samples that bring light: of k that are expected there is
+  // none with probability e^-k. A pixel that has met one expects one more, and so it is relative to that.
+  [[nodiscard]] double probability_of_no_sample(const Tile& tile) const {
+    const Tile& noisy = tile.noisy > 0.0 ? tile : all_;
+    return noisy.concentration > 0.0 ? std::exp(1.0 - noisy.noisy / noisy.concentration) : 0.0;
+  }
+
+  const Film& film_;
+  double samples_;
+  std::vector<Tile> tiles_;
+  Tile all_;
+};
 
 // From the largest contributions, as many as the square root of their number: that number goes to infinity,
 // and its share to 0, as Hill's estimate requires. Sizes are squares of contributions, whose index is twice
@@ -77,47 +147,47 @@ std::optional<double> growth_of(const std::vector<Growth>& history) {
          std::log(static_cast<double>(now.samples) / static_cast<double>(then.samples));
 }
 
-void sum_tiles(Reliability& r, const Film& film) {
-  const std::vector<Spread> tiles = spreads_of(film);
-  const double blocks = blocks_per_pixel(film);
-  Spread all;
-  double lit_pixels = 0.0, worst = 0.0;
-  for (std::size_t i = 0; i < tiles.size(); ++i) {
-    const Spread& tile = tiles[i];
-    all.pixels += tile.pixels;
-    all.squares += tile.squares;
-    all.fourths += tile.fourths;
-    all.variance += tile.variance;
-    if (tile.mean > 0.0) {
-      lit_pixels += tile.pixels;
-      r.understated += tile.pixels * std::min(1.0, pixel_relative_variance(tile, blocks) / 8.0);
-    }
-    if (tile.variance <= worst) continue;
-    worst = tile.variance;
-    const auto [x, y] = film.evidence().tiles().centre_of(i);
-    r.worst_x = std::min(x, film.width() - 1);
-    r.worst_y = std::min(y, film.height() - 1);
+void add_variance(Reliability& r, const Tiles& tiles, const Film& film) {
+  const Tile& all = tiles.all();
+  if (!(all.squares > 0.0)) return;
+  r.variance =
+      all.squares / (channels * static_cast<double>(film.pixels().size()) * film.samples_per_pixel());
+  r.variance_error = std::sqrt(all.variance_of_squares) / all.squares;
+  const auto worst = std::ranges::max_element(tiles.tiles(), {}, &Tile::squares);
+  const auto [x, y] =
+      film.evidence().tiles().centre_of(static_cast<std::size_t>(worst - tiles.tiles().begin()));
+  r.worst_x = std::min(x, film.width() - 1);
+  r.worst_y = std::min(y, film.height() - 1);
+  r.worst_share = worst->squares / all.squares;
+}
+
+void add_predictions(Reliability& r, const Tiles& tiles, const Film& film) {
+  double weight = 0.0;
+  for (std::size_t pixel = 0; pixel < film.pixels().size(); ++pixel) {
+    const Prediction p = tiles.predict(pixel);
+    weight += p.weight;
+    r.coverage += p.weight * p.coverage;
+    r.relative_standard_error += p.weight * p.error;
   }
-  r.variance = all.variance / all.pixels;
-  r.variance_error = std::sqrt(all.relative_variance(blocks * all.pixels));
-  if (lit_pixels > 0.0) r.understated /= lit_pixels;
-  if (all.variance > 0.0) r.worst_share = worst / all.variance;
+  if (!(weight > 0.0)) return;
+  r.coverage /= weight;
+  r.relative_standard_error /= weight;
 }
 
 std::vector<std::string> reasons_for_doubt(const Reliability& r, double samples_per_pixel) {
-  std::vector<std::string> result;
   if (samples_per_pixel < least_samples)
     return {fmt::format("{:.3g} samples per pixel are too few to tell", samples_per_pixel)};
   if (!(r.variance > 0.0)) return {"all samples are equal: rare contributions may be missing"};
-  if (r.understated > most_understated)
-    result.push_back(fmt::format("it may be {:.0f}% too small", 100.0 * r.understated));
+  std::vector<std::string> result;
+  if (r.coverage < least_coverage)
+    result.push_back(fmt::format("95% intervals hold in {:.0f}% of the pixels", 100.0 * r.coverage));
   if (r.variance_error > largest_variance_error)
     result.push_back(fmt::format("about {:.2g} samples dominate the variance",
                                  1.0 / (r.variance_error * r.variance_error)));
   // With infinite variance, the share of a few largest contributions does not decrease with more samples.
-  if (r.tail_index && *r.tail_index <= infinite_variance && r.variance_error > 0.5 * largest_variance_error)
-    result.push_back(fmt::format(
-        "the variance may be infinite: the tail of contributions x falls as x^-{:.2g}", *r.tail_index));
+  if (!result.empty() && r.tail_index && *r.tail_index <= infinite_variance &&
+      r.variance_error > largest_variance_error / 3.0)
+    result.push_back("the variance may be infinite");
   return result;
 }
 
@@ -125,7 +195,9 @@ std::vector<std::string> reasons_for_doubt(const Reliability& r, double samples_
 
 Reliability reliability_of(const Film& film) {
   Reliability r;
-  sum_tiles(r, film);
+  const Tiles tiles(film);
+  add_variance(r, tiles, film);
+  add_predictions(r, tiles, film);
   r.top_share =
       film.evidence().sizes().share_of_largest(std::ceil(top_part * static_cast<double>(film.samples())));
   r.tail_index = tail_index(film);
@@ -136,14 +208,10 @@ Reliability reliability_of(const Film& film) {
 }
 
 std::vector<float> reliability_map(const Film& film) {
-  const std::vector<Spread> tiles = spreads_of(film);
-  const double blocks = blocks_per_pixel(film);
+  const Tiles tiles(film);
   std::vector<float> map(film.pixels().size());
-  for (std::size_t pixel = 0; pixel < map.size(); ++pixel) {
-    const Spread& tile = tiles[film.evidence().tiles().tile_of(pixel)];
-    if (tile.mean > 0.0)
-      map[pixel] = static_cast<float>(std::max(0.0, 1.0 - std::sqrt(pixel_relative_variance(tile, blocks))));
-  }
+  for (std::size_t pixel = 0; pixel < map.size(); ++pixel)
+    map[pixel] = static_cast<float>(tiles.predict(pixel).coverage);
   return map;
 }
 

@@ -70,8 +70,8 @@ TEST_CASE("A checkpoint read from its file is complete") {
 }
 
 TEST_CASE("The format is that of its version: who changes one raises the other, and then this length") {
-  CHECK(Saved().bytes.substr(0, 19) == "phlux checkpoint 2 ");
-  CHECK(Saved().bytes.size() == 10007);
+  CHECK(Saved().bytes.substr(0, 19) == "phlux checkpoint 3 ");
+  CHECK(Saved().bytes.size() == 10015);
 }
 
 TEST_CASE("A file that is not a complete checkpoint of this version is refused with the reason") {
@@ -91,7 +91,7 @@ TEST_CASE("A file that is not a complete checkpoint of this version is refused w
   }
   std::string later = saved.bytes;
   later[17] = '9';
-  CHECK_THAT(saved.refusal(later), Contains("is a checkpoint of format 9") && Contains("reads format 2"));
+  CHECK_THAT(saved.refusal(later), Contains("is a checkpoint of format 9") && Contains("reads format 3"));
   CHECK_THROWS_WITH(checkpoint::read(saved / "missing"), Contains("missing: cannot be read: No such file"));
   CHECK_THROWS_WITH(checkpoint::read(saved.path()), Contains("is no file"));
 }

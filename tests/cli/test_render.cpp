@@ -228,6 +228,29 @@ TEST_CASE("Lights beyond what float can square render; variances that a file can
   CHECK(mean(place.image().channels.at("G")) > 1e22);
 }
 
+TEST_CASE("An unreliable error is one line: what it may be, and what helps; --quiet leaves it to --stats") {
+  const Renders place;
+  const std::vector<std::string> rare = {"--connect", "none", "-n", "16", "--stats", "stats.json"};
+  const std::string err = place.render(rare).err;
+  const std::size_t start = err.find("phlux: warning: "); // after a note that kernels are built
+  REQUIRE(start != std::string::npos);
+  CHECK(std::ranges::count(err.substr(start), '\n') == 1);
+  CHECK_THAT(err.substr(start), Catch::StartsWith("phlux: warning: the relative standard error of ") &&
+                                    Catch::Contains("% may be ") &&
+                                    Catch::Contains("95% intervals hold in ") &&
+                                    Catch::Contains("--advise") && Catch::Contains("--clamp"));
+  const nlohmann::json unreliable = place.json("stats.json");
+  CHECK(unreliable["reliability"]["trusted"] == false);
+  CHECK(unreliable["reliability"]["coverage"] < 0.5);
+  CHECK(unreliable["reliability"]["relative_standard_error"] > unreliable["relative_standard_error"]);
+  std::vector<std::string> quiet = rare;
+  quiet.emplace_back("-q");
+  CHECK(place.render(quiet).err.empty());
+  CHECK(place.json("stats.json")["reliability"] == unreliable["reliability"]);
+  CHECK_THAT(place.render({"-n", "64", "--stats", "stats.json"}).err, !Catch::Contains("warning"));
+  CHECK(place.json("stats.json")["reliability"]["trusted"] == true);
+}
+
 TEST_CASE("--png none leaves the preview out") {
   const Renders place;
   place.render({"--png", "none"});

@@ -54,6 +54,18 @@ Film film_of_splats(int paths_per_pixel, const std::function<double()>& value) {
   return film;
 }
 
+// Share of the pixels that are not black whose 95% intervals hold the mean.
+double coverage(const Film& film, const Draw& mean) {
+  double held = 0.0, lit = 0.0;
+  for (std::size_t pixel = 0; pixel < film.pixels().size(); ++pixel) {
+    if (!(mean(pixel) > 0.0)) continue;
+    const double error = std::sqrt(film.variance_of_mean(pixel)[0]);
+    held += std::abs(film.mean(pixel)[0] - mean(pixel)) <= 1.96 * error;
+    lit += 1.0;
+  }
+  return held / lit;
+}
+
 double pareto(std::mt19937& random, double index) {
   return std::pow(std::uniform_real_distribution<double>(1e-12, 1.0)(random), -1.0 / index);
 }
@@ -70,9 +82,11 @@ TEST_CASE("Even noise is trusted, and its figures are those of its distribution"
   CHECK(r.variance == Approx(1.0).epsilon(0.08)); // the larger of two noisy means is a little too large
   // (kurtosis - 1) / samples, of the image and of a pixel
   CHECK(r.variance_error == Approx(std::sqrt(8.0 / (256.0 * side * side))).epsilon(0.1));
-  CHECK(r.understated == Approx(8.0 / 256.0 / 8.0).epsilon(0.15));
-  for (const float pixel : reliability_map(film))
-    CHECK(pixel == Approx(1.0 - std::sqrt(8.0 / 256.0)).margin(0.03));
+  // Exponential noise has the squared skewness 4 and the excess kurtosis 6: the coverage that 256 samples
+  // lose is (4 * 1.08 - 6 * .07) * .229 / 256.
+  CHECK(r.coverage == Approx(0.946).margin(0.006));
+  CHECK(r.relative_standard_error == Approx(1.0 / 16).epsilon(0.1));
+  for (const float pixel : reliability_map(film)) CHECK(pixel == Approx(0.94).margin(0.05));
 }
 
 TEST_CASE("The reliability of splats is that of samples") {
@@ -91,11 +105,51 @@ TEST_CASE("An infinite variance is not trusted, whatever the number of samples")
   for (const int samples : {64, 1024}) {
     std::mt19937 random(3);
     const Reliability r = reliability_of(film_of(samples, [&](std::size_t) { return pareto(random, 1.5); }));
-    CAPTURE(samples, r.tail_index.value_or(0.0), r.variance_error);
+    CAPTURE(samples, r.tail_index.value_or(0.0), r.variance_error, r.coverage);
     CHECK_FALSE(r.trusted);
-    CHECK(r.understated > 0.3);
     REQUIRE(r.tail_index);
     CHECK(*r.tail_index == Approx(1.5).epsilon(0.25));
+  }
+}
+
+TEST_CASE("The predicted coverage is that of the intervals") {
+  std::mt19937 random(9);
+  std::exponential_distribution<double> noise;
+  const auto hit = [&](double rate) { return std::bernoulli_distribution(rate)(random) ? 1.0 / rate : 0.0; };
+  const auto everywhere = [](double mean) { return [mean](std::size_t) { return mean; }; };
+  const auto one_in = [](std::size_t pixels, double mean, double otherwise) {
+    return [=](std::size_t pixel) { return pixel % pixels == 0 ? mean : otherwise; };
+  };
+  struct Case {
+    const char* name;
+    bool trusted;
+    int samples;
+    Draw draw, mean;
+  };
+  const Case cases[] = {
+      {"even noise", true, 64, [&](std::size_t) { return noise(random); }, everywhere(1)},
+      {"half a hit in a pixel", false, 64, [&](std::size_t) { return hit(1.0 / 128); }, everywhere(1)},
+      {"two hits in a pixel", false, 64, [&](std::size_t) { return hit(1.0 / 32); }, everywhere(1)},
+      {"eight hits in a pixel", true, 64, [&](std::size_t) { return hit(1.0 / 8); }, everywhere(1)},
+      {"half of the light is rare", false, 64, [&](std::size_t) { return noise(random) + hit(1.0 / 2048); },
+       everywhere(2)},
+      {"half of the light is rare, one block", false, 16,
+       [&](std::size_t) { return noise(random) + hit(1.0 / 512); }, everywhere(2)},
+      {"a twentieth of the light is rare", true, 64,
+       [&](std::size_t) { return noise(random) + hit(1.0 / 4096) / 20.0; }, everywhere(1.05)},
+      {"an eighth of the pixels is noisy", true, 64,
+       [&](std::size_t pixel) { return pixel % 8 == 0 ? hit(0.5) : 1.0 + 0.01 * noise(random); },
+       one_in(8, 1, 1.01)},
+      {"half of the pixels is black", true, 64,
+       [&](std::size_t pixel) { return pixel % 2 == 0 ? noise(random) + hit(1e-5) / 100.0 : 0.0; },
+       one_in(2, 1.01, 0)},
+  };
+  for (const Case& of : cases) {
+    CAPTURE(of.name);
+    const Film film = film_of(of.samples, of.draw);
+    const Reliability r = reliability_of(film);
+    CHECK(r.coverage == Approx(coverage(film, of.mean)).margin(0.1));
+    CHECK(r.trusted == of.trusted);
   }
 }
 
@@ -107,10 +161,11 @@ TEST_CASE("Rare events are not trusted before pixels have met some of them") {
   };
   const Reliability few = rare(64), many = rare(4096);
   CHECK_FALSE(few.trusted);
-  CHECK(few.understated > 0.3); // a quarter of a hit per pixel
+  CHECK(few.coverage == Approx(1.0 - std::exp(-0.25)).margin(0.05)); // a quarter of a hit per pixel
+  CHECK(few.relative_standard_error == Approx(2.0).epsilon(0.35));
   CAPTURE(many.reasons);
   CHECK(many.trusted); // 16 hits per pixel
-  CHECK(many.understated == Approx(1.0 / 16 / 8).epsilon(0.2));
+  CHECK(many.coverage == Approx(0.95 - 0.23 / 16).margin(0.01));
 }
 
 TEST_CASE("A bright lamp's edge does not pass for a firefly") {

@@ -52,7 +52,7 @@ TEST_CASE("the requested error is reached, and not more than that") {
   }
 }
 
-TEST_CASE("an error is believed from 16 samples per pixel on") {
+TEST_CASE("an error is believed from some samples per pixel on") {
   render::Settings with = settings_for(1);
   with.target_error = 10;
   const Render image = render_of(shipped("cornell-box", 16, 16), with);
