@@ -70,8 +70,7 @@ stumbles_of() {
     sed -n 's/^Remove: /removed: /p' "$root/var/log/apt/history.log" 2>/dev/null; } | sort -u | head -n 5 | paste -sd ';'
 }
 tests_and_left_out() {
-  tests_of "$1"
-  printf ', %s disabled, %s skipped' "$(grep -c '(Disabled)$' "$1")" "$(grep -c '(Skipped)$' "$1")"
+  printf '%s, %s disabled, %s skipped' "$(tests_of "$1")" "$(grep -c '(Disabled)$' "$1")" "$(grep -c '(Skipped)$' "$1")"
 }
 
 commands_in() { # RELEASE USER
