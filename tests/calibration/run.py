@@ -1,0 +1,108 @@
+#!/usr/bin/env python3
+"""Compares the verdicts and rankings of short `phlux bench scenes` runs with those of long ones.
+
+    tests/calibration/run.py PHLUX OUT [--seeds 20] [--seconds 3,10,30] [--truth SECONDS] [--side 48] [SCENE.xml...]
+
+Each scene is measured once for --truth seconds (default: 10 times the longest of --seconds), and for each of --seconds with each
+seed. Prints a Markdown table of all scenes and times. A run resumes from the tables in OUT. Default: scenes/*.xml and
+scenes/stability/*.xml. Columns:
+
+- best, tied, undecided: runs that name one method, several, or say that there was too little time.
+- wrong: of the decided runs, those in which no named method is within 10% of the least cost of the long run.
+- biased: rows with the verdict biased by methods that the long run does not call biased.
+- intervals: of the ratios of cost to the best method, the share that holds the ratio of the long run. Intervals are right
+  together in 95% of the runs, so that each holds more often.
+"""
+import argparse
+import csv
+import os
+import pathlib
+import subprocess
+import tempfile
+from collections import Counter
+
+TRUTH_SEED = 1_000_000
+TOLERANCE = 1.1  # of the least cost: within it a method may be called the best
+
+
+class Runs:
+    def __init__(self, program, out, side):
+        self.program, self.out, self.side = program, out, side
+        # A matplotlib that cannot be imported: no charts are drawn.
+        self.no_charts = tempfile.TemporaryDirectory()
+        package = pathlib.Path(self.no_charts.name, "matplotlib")
+        package.mkdir()
+        (package / "__init__.py").write_text("raise ImportError\n", encoding="utf-8")
+
+    def rows(self, scene, seconds, seed):
+        """The rows of scenes.csv by (integrator, strategy, variant); measures them unless they are there."""
+        folder = self.out / f"{scene.parent.name}-{scene.stem}" / f"{seconds:g}s-seed{seed}"
+        table = folder / "scenes.csv"
+        if not table.exists() or table.read_text(encoding="utf-8").count("\n") < 2:
+            command = [self.program, "bench", "scenes", "--scene", scene, "--seconds", f"{seconds:g}", "--seed", str(seed),
+                       "--side", str(self.side), "--out", folder]
+            subprocess.run(command, env={**os.environ, "PYTHONPATH": self.no_charts.name}, stdout=subprocess.DEVNULL,
+                           stderr=subprocess.DEVNULL, check=False)  # without charts the exit code is 5
+        with open(table, newline="", encoding="utf-8") as file:
+            return {(row["integrator"], row["strategy"], row["connect_or_weights"]): row for row in csv.DictReader(file)}
+
+
+def outcome_of(rows):
+    ranks = Counter(row["rank"] for row in rows.values())
+    return "undecided" if ranks["open"] or not ranks["best"] else "tied" if ranks["tied"] else "best"
+
+
+def compare(rows, truth):
+    """Counts of one run."""
+    counts = Counter({outcome_of(rows): 1, "runs": 1})
+    known = {key: float(row["cost"]) for key, row in truth.items() if row["verdict"] == "sound"}
+    counts["biased"] = sum(row["verdict"] == "biased" and truth[key]["verdict"] != "biased" for key, row in rows.items())
+    named = [key for key, row in rows.items() if row["rank"] in ("best", "tied")]
+    if not counts["undecided"] and known:
+        counts["wrong"] = not any(known.get(key, float("inf")) <= TOLERANCE * min(known.values()) for key in named)
+    best = next((key for key, row in rows.items() if row["rank"] == "best"), None)
+    if best in known:
+        for key, row in rows.items():
+            if key in known and key != best and row["verdict"] == "sound":
+                counts["intervals"] += 1
+                counts["held"] += float(row["cost_ratio_low"]) <= known[key] / known[best] <= float(row["cost_ratio_high"])
+    return counts
+
+
+def row_text(name, seconds, counts):
+    held = f"{100 * counts['held'] / counts['intervals']:.0f}% of {counts['intervals']}" if counts["intervals"] else ""
+    numbers = [counts[column] for column in ("runs", "best", "tied", "undecided", "wrong", "biased")]
+    return f"| {name} | {seconds:g} | " + " | ".join(map(str, numbers)) + f" | {held} |"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program")
+    parser.add_argument("out", type=pathlib.Path)
+    parser.add_argument("scenes", type=pathlib.Path, nargs="*")
+    parser.add_argument("--seeds", type=int, default=20)
+    parser.add_argument("--seconds", default="3,10,30")
+    parser.add_argument("--truth", type=float)
+    parser.add_argument("--side", type=int, default=48)
+    options = parser.parse_args()
+    folder = pathlib.Path(__file__).resolve().parents[2] / "scenes"
+    scenes = options.scenes or sorted(folder.glob("*.xml")) + sorted(folder.glob("stability/*.xml"))
+    times = [float(text) for text in options.seconds.split(",")]
+    runs = Runs(options.program, options.out, options.side)
+    totals = {seconds: Counter() for seconds in times}
+    print("| scene | seconds | runs | best | tied | undecided | wrong | biased | intervals |")
+    print("|---|---|---|---|---|---|---|---|---|")
+    for scene in scenes:
+        truth = runs.rows(scene, options.truth or 10 * max(times), TRUTH_SEED)
+        for seconds in times:
+            counts = Counter()
+            for seed in range(1, options.seeds + 1):
+                counts.update(compare(runs.rows(scene, seconds, seed), truth))
+            totals[seconds].update(counts)
+            print(row_text(f"{scene.parent.name}/{scene.stem}", seconds, counts), flush=True)
+    for seconds in times:
+        print(row_text("all", seconds, totals[seconds]))
+
+
+if __name__ == "__main__":
+    main()
