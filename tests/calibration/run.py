@@ -84,7 +84,7 @@ def main():
     parser.add_argument("--seconds", default="3,10,30")
     parser.add_argument("--truth", type=float)
     parser.add_argument("--side", type=int, default=48)
-    options = parser.parse_args()
+    options = parser.parse_intermixed_args()
     folder = pathlib.Path(__file__).resolve().parents[2] / "scenes"
     scenes = options.scenes or sorted(folder.glob("*.xml")) + sorted(folder.glob("stability/*.xml"))
     times = [float(text) for text in options.seconds.split(",")]

@@ -186,7 +186,7 @@ std::vector<MethodRenders> SceneBench::run_rounds(const std::vector<Trial*>& met
   const double shortest = seconds_since(begin_) + rounds * least;
   if (shortest > tolerated_excess * settings_.seconds && settings_.notice)
     settings_.notice(
-        fmt::format("this takes about {:.0f} s instead of {:.0f} s: {} rounds with one sample per pixel "
+        fmt::format("this takes about {:.2g} s instead of {:.2g} s: {} rounds with one sample per pixel "
                     "or more by each of {} methods",
                     shortest, settings_.seconds, rounds, methods.size()));
   std::vector<MethodRenders> renders(methods.size());

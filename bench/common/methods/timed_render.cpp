@@ -10,7 +10,9 @@
 namespace phlux::bench {
 namespace {
 
-constexpr double longest_launch_seconds = 0.05;
+// Of one length for all renders but the shortest, since a launch has a cost of its own.
+constexpr double launch_seconds = 0.01;
+constexpr double least_launches = 5;
 
 // Pixels of a light-traced image have no samples of their own: there the paths per pixel of the image count.
 bool all_pixels(const film::Film& film, const std::function<bool(double)>& have) {
@@ -20,9 +22,10 @@ bool all_pixels(const film::Film& film, const std::function<bool(double)>& have)
       film.pixels(), [&](const film::Pixel& pixel) { return have(static_cast<double>(pixel.samples)); });
 }
 
-double processor_seconds() {
+// Processor time of the process, or of the calling thread (RUSAGE_THREAD).
+double processor_seconds(int whose = RUSAGE_SELF) {
   rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
+  ::getrusage(whose, &usage);
   const auto seconds = [](const timeval& t) {
     return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
   };
@@ -92,15 +95,15 @@ TimedRender MethodRenderer::render_for(std::uint64_t seed, double seconds, const
   TimedRender result;
   render::Settings settings = settings_;
   settings.seed = seed;
-  settings.time_limit = seconds;
-  settings.launch_seconds = std::min(longest_launch_seconds, times.empty() ? seconds / 8 : times.front() / 2);
+  settings.time_limit = INFINITY; // the callback ends the render
+  settings.launch_seconds = std::min(launch_seconds, seconds / least_launches);
   std::size_t next = 0;
   bool stopped = false;
   Marginal marginal;
   render::Events events;
   events.progress = [&](const render::Progress& progress) {
-    const double callback_begin = processor_seconds();
-    marginal.add_launch(progress, callback_begin);
+    const double callback_begin = processor_seconds(RUSAGE_THREAD);
+    marginal.add_launch(progress, processor_seconds());
     if (!result.one_sample && progress.samples_done == 1.0 && every_pixel_has_one(film))
       result.one_sample = estimate_of(film);
     if (next < times.size() && progress.seconds >= times[next]) {
@@ -109,8 +112,8 @@ TimedRender MethodRenderer::render_for(std::uint64_t seed, double seconds, const
         result.intermediate.push_back({estimate_of(film), progress.seconds, next - 1});
     }
     stopped = interrupted && interrupted();
-    marginal.exclude(processor_seconds() - callback_begin);
-    return !stopped;
+    marginal.exclude(processor_seconds(RUSAGE_THREAD) - callback_begin);
+    return !stopped && progress.seconds < seconds;
   };
   result.statistics = renderer_.render(settings, film, events);
   if (stopped) throw Interrupted{};
