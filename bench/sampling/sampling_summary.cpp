@@ -47,10 +47,8 @@ std::map<std::string, Summary> summaries_of(const SavedTable& table) {
 void print_sampling_summary(const std::vector<std::string>& strategies, const SavedTable& table,
                             const std::vector<Ranking>& rankings) {
   const auto summaries = summaries_of(table);
-  const auto wins = [&](const std::string& strategy, bool roulette) {
-    const WinCount& count = count_wins(rankings, roulette)[strategy];
-    return fmt::format("{} + {}", count.best, count.tied);
-  };
+  auto without = count_wins(rankings, false), with = count_wins(rankings, true);
+  const auto text = [](const WinCount& count) { return fmt::format("{} + {}", count.best, count.tied); };
   fmt::print("{:<22} {:>6} {:>7} {:>20} {:>8} {:>24} {:>24} {:>14}\n", "strategy", "rows", "marked",
              "largest bias / sigma", "defects", "time / lobe-ks (median)", "best + tied: no roulette",
              "with roulette");
@@ -61,7 +59,7 @@ void print_sampling_summary(const std::vector<std::string>& strategies, const Sa
     fmt::print("{:<22} {:>6} {:>7} {:>20.2f} {:>8} {:>24} {:>24} {:>14}\n", strategy, s.rows, s.marked,
                s.largest_bias, s.defects,
                s.relative_times.empty() ? "" : fmt::format("{:.2f}", measure::median(s.relative_times)),
-               wins(strategy, false), wins(strategy, true));
+               text(without[strategy]), text(with[strategy]));
   }
 }
 

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "bench/common/enumeration.h"
 #include "settings/settings.h"
 
 namespace phlux::bench {
@@ -28,14 +29,6 @@ std::string cost_text(const VerdictConditions& conditions) {
   return fmt::format(
       "cost: the sampler and {:.3g} ns for each ray that is traced on; time by the clock of {}",
       conditions.ray_ns, conditions.device);
-}
-
-// "a", "a and b", "a, b and c"
-std::string enumeration(std::vector<std::string> words) {
-  if (words.size() < 2) return words.empty() ? "" : words.front();
-  const std::string last = words.back();
-  words.pop_back();
-  return fmt::format("{} and {}", fmt::join(words, ", "), last);
 }
 
 // A factor with its interval, in as many decimals as the interval leaves certain, and so that no end is

@@ -134,10 +134,9 @@ void write_images(const std::filesystem::path& folder, const scene::Camera& came
       write_array(folder / file_name(result.method), shape, result.first_image.radiance);
 }
 
-std::string text_of_ratio(const RankedCost& cost) {
+std::string ratio_cell(const RankedCost& cost) {
   if (std::isnan(cost.ratio)) return "-";
-  return cost.rank == Rank::best ? "1"
-                                 : fmt::format("{:.3g} ({:.3g} to {:.3g})", cost.ratio, cost.low, cost.high);
+  return cost.rank == Rank::best ? "1" : text_of_ratio(cost);
 }
 
 // The answer comes last, where a terminal shows it.
@@ -159,7 +158,7 @@ void print(const Run& run, const SceneRun& scene, const SceneResults& measured) 
     const bool ranked = r.verdict == Verdict::sound;
     fmt::print("  {:<28} {:>10.4g} {:>8.1f} {:>14} {:>22}  {}{}{}\n", r.method.name(), r.variance.value,
                1e9 * cost.cost / r.variance.value, ranked ? fmt::format("{:.3g} us", 1e6 * cost.cost) : "-",
-               text_of_ratio(cost), ranked ? word_of(cost.rank) : word_of(r.verdict),
+               ratio_cell(cost), ranked ? word_of(cost.rank) : word_of(r.verdict),
                r.reason.empty() ? "" : ": ", r.reason);
   }
   const int roulette = scene.scene.defaults.rr_depth;

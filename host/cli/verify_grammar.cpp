@@ -93,10 +93,7 @@ void add_verify(CLI::App& program, std::optional<Command>& command) {
   add_one_device(app, options->devices, options->lanes, options->kernel_dir);
   add_models(app, *options);
   add_amount(app, *options);
-  add_value(app, "--json", "FILE", "all results, as JSON", [options](const std::string& text) {
-    if (text.empty()) throw UsageError("--json '': must be a file name");
-    options->json = text;
-  });
+  add_file(app, "--json", "FILE", "all results, as JSON", options->json);
   app.footer("Exit code: 0, or 1 when a check failed; expected and observed values are then in verify-*.csv "
              "and .png.");
   app.final_callback([&command, options] {

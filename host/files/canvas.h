@@ -16,6 +16,8 @@ struct Color {
   bool operator==(const Color&) const = default;
 };
 
+inline constexpr Color paper = {246, 246, 246}, ink = {24, 24, 24}; ///< background and text of pictures
+
 /// Coordinates are pixels from the top left corner; what lies outside is not drawn.
 class Canvas {
 public:

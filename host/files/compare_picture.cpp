@@ -14,7 +14,6 @@
 namespace phlux::files {
 namespace {
 
-constexpr Color paper = {246, 246, 246}, ink = {24, 24, 24};
 constexpr Color not_finite = {0, 200, 0};
 constexpr std::size_t outliers_one_in = 20;
 

@@ -12,9 +12,8 @@ namespace phlux::verify {
 namespace {
 
 using files::Canvas;
-using files::Color;
-
-constexpr Color paper = {246, 246, 246}, ink = {24, 24, 24};
+using files::ink;
+using files::paper;
 
 // Sizes in pixels.
 constexpr int text_scale = 2, line = 24; // of text

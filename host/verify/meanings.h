@@ -7,7 +7,7 @@
 
 namespace phlux::verify {
 
-/// What a result is about.
+/// Which part of the program a result checks.
 enum class Kind { model, strategy, integrator, lobe };
 [[nodiscard]] Kind kind_of(const Result& result);
 

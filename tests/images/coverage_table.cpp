@@ -12,13 +12,13 @@
 #include <string>
 #include <vector>
 
-#include <boost/math/distributions/students_t.hpp>
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
 #include "film/reliability.h"
 #include "images/integrators.h"
 #include "images/prepared_render.h"
+#include "measure/statistics.h"
 #include "scene_file/load.h"
 
 using namespace phlux;
@@ -69,7 +69,7 @@ std::string environment(const char* name, const char* otherwise) {
 // Student's t of 95% for the samples of a pixel; 1.96 for splats, which are of many paths.
 double interval_of(const Method& method, int samples) {
   if (method.integrator == "light") return 1.96;
-  return boost::math::quantile(boost::math::students_t(samples - 1.0), 0.975);
+  return measure::student_t(0.05, samples - 1.0);
 }
 
 // Mean of `renders` renders, and the variance of that mean from their differences.

@@ -30,7 +30,7 @@ struct Estimate {
 
 using Repeats = std::span<const ImageEstimate>;
 
-/// What images are compared with. The weight of a squared error is 1 / (radiance^2 + 1e-4).
+/// The image from which errors are measured. A squared error has the weight 1 / (radiance^2 + 1e-4).
 struct Reference {
   std::vector<double> radiance;
   std::vector<double> variance; ///< of the radiance; 0 where it is exact

@@ -82,7 +82,8 @@ Estimate MethodRenders::variance(const Reference& reference) const {
   return mean_of(variances_per_sample(images_, reference));
 }
 
-bool MethodRenders::suspect(MethodResult& result, const ReferenceImage& reference) const {
+bool MethodRenders::suspect(MethodResult& result, const ReferenceImage& reference,
+                            std::span<const double> variances) const {
   const double error = result.variance.standard_error / result.variance.value;
   if (error > tail_error && result.top_share > suspect_top_share) {
     result.decide(Verdict::suspect_variance,
@@ -92,8 +93,7 @@ bool MethodRenders::suspect(MethodResult& result, const ReferenceImage& referenc
                   error / tail_error);
     return true;
   }
-  const Estimate growth = log_growth(variances_per_sample(images_, reference.image),
-                                     variances_per_sample(one_sample_images_, reference.image));
+  const Estimate growth = log_growth(variances, variances_per_sample(one_sample_images_, reference.image));
   if (!(growth.value > std::log(suspect_growth)) || p_value_above(growth, 0) > growth_level) return false;
   result.decide(
       Verdict::suspect_variance,
@@ -102,7 +102,8 @@ bool MethodRenders::suspect(MethodResult& result, const ReferenceImage& referenc
 }
 
 // Rare large samples that most renders lack also look like a bias, so that the variance is judged first.
-void MethodRenders::judge(MethodResult& result, const ReferenceImage& reference) const {
+void MethodRenders::judge(MethodResult& result, const ReferenceImage& reference,
+                          std::span<const double> variances) const {
   const Estimate difference = difference_of(result.mean, reference.mean);
   if (difference.standard_error > 0) result.mean_bias_sigma = difference.value / difference.standard_error;
   const bool mean_differs =
@@ -116,7 +117,7 @@ void MethodRenders::judge(MethodResult& result, const ReferenceImage& reference)
                     "all renders are equal: the samples that carry the light were never drawn");
     return;
   }
-  if (suspect(result, reference)) return;
+  if (suspect(result, reference, variances)) return;
   if (mean_differs)
     return result.decide(Verdict::biased,
                          fmt::format("the image's mean is {:+.2g}% off the reference's ({:+.1f} sigma)",
@@ -155,7 +156,7 @@ MethodResult MethodRenders::result(const Method& method, const ReferenceImage& r
   result.processor = sample_time(costs_, &RoundCost::processor_seconds);
   result.convergence = convergence();
   result.first_image = images_.front();
-  judge(result, reference);
+  judge(result, reference, variances);
   if (!known_bias.empty()) result.decide(Verdict::biased, known_bias);
   return result;
 }

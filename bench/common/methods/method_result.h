@@ -1,6 +1,7 @@
 // The result of one method on one scene: variance, bias and time from its renders, and a verdict.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,7 +30,7 @@ enum class Verdict { sound, suspect_variance, biased, undecided, refused };
 /// "sound", "suspect", "biased", "undecided", "refused".
 [[nodiscard]] const char* word_of(Verdict verdict);
 
-/// Of one round, per sample.
+/// Variance and times per sample in one round.
 struct RoundCost {
   double variance = 0, seconds = 0, processor_seconds = 0;
 };
@@ -79,8 +80,10 @@ private:
   };
   [[nodiscard]] static TimedError error_of(const Snapshot& snapshot, const Reference& reference);
   [[nodiscard]] std::vector<ConvergencePoint> convergence() const;
-  void judge(MethodResult& result, const ReferenceImage& reference) const;
-  [[nodiscard]] bool suspect(MethodResult& result, const ReferenceImage& reference) const;
+  // `variances` are those of the rounds.
+  void judge(MethodResult& result, const ReferenceImage& reference, std::span<const double> variances) const;
+  [[nodiscard]] bool suspect(MethodResult& result, const ReferenceImage& reference,
+                             std::span<const double> variances) const;
 
   std::vector<ImageEstimate> images_, one_sample_images_;
   std::vector<RoundCost> costs_; // without variances, which depend on all images

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "bench/common/enumeration.h"
 #include "measure/moments.h"
 #include "measure/statistics.h"
 
@@ -19,7 +20,7 @@ namespace phlux::bench {
 namespace {
 
 constexpr double false_alarm_rate = 0.05; // of all intervals of a ranking together
-constexpr int resamples = 20'000;
+constexpr std::size_t resample_count = 20'000;
 constexpr std::uint64_t resampling_seed = 1;
 
 using Rounds = std::vector<std::size_t>; // indices, with repetitions
@@ -51,25 +52,30 @@ double lower_tail(double level, std::size_t rounds) {
   return boost::math::cdf(boost::math::normal(), -std::sqrt(n / (n - 1)) * measure::student_t(level, n - 1));
 }
 
-// `cost.cost` is set.
-void set_ratio(RankedCost& cost, const MethodResult& result, const MethodResult& best, CostClock clock,
-               double level) {
-  const std::size_t count = result.rounds.size();
-  if (!(best.variance.value > 0)) { // all its images are exact
-    cost.ratio = cost.low = cost.high = cost.cost > 0 ? INFINITY : 1;
-    return;
-  }
-  cost.ratio = cost.cost / cost_in(best, clock, all_rounds(count));
+// Costs of a method in each of the resamples of the rounds.
+std::vector<double> resampled_costs(const MethodResult& result, CostClock clock,
+                                    const std::vector<Rounds>& resamples) {
+  std::vector<double> costs;
+  for (const Rounds& rounds : resamples) costs.push_back(cost_in(result, clock, rounds));
+  return costs;
+}
+
+std::vector<Rounds> resamples_of(std::size_t rounds) {
   std::mt19937_64 random(resampling_seed);
-  std::vector<double> ratios;
-  Rounds rounds(count);
-  while (ratios.size() < resamples) {
-    for (std::size_t& round : rounds) round = random() % count;
-    ratios.push_back(cost_in(result, clock, rounds) / cost_in(best, clock, rounds));
-  }
-  std::ranges::sort(ratios);
-  const auto below = static_cast<std::size_t>(lower_tail(level, count) * resamples);
-  cost.low = ratios[below], cost.high = ratios[ratios.size() - 1 - below];
+  std::vector<Rounds> resamples(resample_count, Rounds(rounds));
+  for (Rounds& resample : resamples)
+    for (std::size_t& round : resample) round = random() % rounds;
+  return resamples;
+}
+
+// `cost.cost` and `best_cost` are those of all rounds, the vectors those of the resamples.
+void set_ratio(RankedCost& cost, double best_cost, std::vector<double> costs,
+               const std::vector<double>& best_costs, double tail) {
+  cost.ratio = cost.cost / best_cost;
+  std::ranges::transform(costs, best_costs, costs.begin(), std::divides<>());
+  std::ranges::sort(costs);
+  const auto below = static_cast<std::size_t>(tail * static_cast<double>(costs.size()));
+  cost.low = costs[below], cost.high = costs[costs.size() - 1 - below];
 }
 
 bool has_cost(const MethodResult& result) {
@@ -80,17 +86,6 @@ Rank rank_of(const RankedCost& cost, Verdict verdict) {
   const bool slower = cost.low > 1;
   if (verdict == Verdict::sound) return slower ? Rank::slower : Rank::tied;
   return slower ? Rank::none : Rank::open;
-}
-
-std::string factor(const RankedCost& cost) {
-  return fmt::format("{:.3g} ({:.3g} to {:.3g})", cost.ratio, cost.low, cost.high);
-}
-
-// A, B and C
-std::string list_of(const std::vector<std::string>& names) {
-  if (names.size() == 1) return names[0];
-  const std::vector<std::string> first(names.begin(), names.end() - 1);
-  return fmt::format("{} and {}", fmt::join(first, ", "), names.back());
 }
 
 } // namespace
@@ -123,12 +118,23 @@ std::vector<RankedCost> rank(const std::vector<MethodResult>& results, CostClock
   }
   const auto others = static_cast<std::size_t>(std::ranges::count_if(results, has_cost) - 1);
   const double level = measure::sidak_limit(false_alarm_rate, std::max<std::size_t>(1, others));
+  const std::size_t rounds = results[*best].rounds.size();
+  const std::vector<Rounds> resamples = resamples_of(rounds);
+  const std::vector<double> best_costs = resampled_costs(results[*best], clock, resamples);
+  const double tail = lower_tail(level, rounds);
   for (std::size_t i = 0; i < results.size(); ++i) {
     if (!has_cost(results[i])) continue;
-    set_ratio(costs[i], results[i], results[*best], clock, level);
+    if (results[*best].variance.value > 0)
+      set_ratio(costs[i], costs[*best].cost, resampled_costs(results[i], clock, resamples), best_costs, tail);
+    else // all images of the best one are exact
+      costs[i].ratio = costs[i].low = costs[i].high = costs[i].cost > 0 ? INFINITY : 1;
     costs[i].rank = i == *best ? Rank::best : rank_of(costs[i], results[i].verdict);
   }
   return costs;
+}
+
+std::string text_of_ratio(const RankedCost& cost) {
+  return fmt::format("{:.3g} ({:.3g} to {:.3g})", cost.ratio, cost.low, cost.high);
 }
 
 std::string options_of(const Method& method) {
@@ -151,8 +157,9 @@ std::string answer_of(const std::vector<MethodResult>& results, const std::vecto
     const std::string name = options_of(results[i].method);
     const Rank rank = costs[i].rank;
     if (rank == Rank::best) fastest.insert(fastest.begin(), name);
-    if (rank == Rank::tied) fastest.push_back(name + ", " + factor(costs[i]));
-    if (rank == Rank::slower) slower.push_back(name + ", needs " + factor(costs[i]) + " times as long");
+    if (rank == Rank::tied) fastest.push_back(name + ", " + text_of_ratio(costs[i]));
+    if (rank == Rank::slower)
+      slower.push_back(name + ", needs " + text_of_ratio(costs[i]) + " times as long");
     if (rank == Rank::open) {
       open.push_back(name);
       soonest = std::min(soonest, std::max(2.0, results[i].times_longer));
@@ -167,7 +174,7 @@ std::string answer_of(const std::vector<MethodResult>& results, const std::vecto
   if (!open.empty())
     text = fmt::format(
         "too little time to tell whether {} {} less time for the same error: --seconds {:.2g} or more",
-        list_of(open), open.size() == 1 ? "needs" : "need", seconds * longest);
+        enumeration(open), open.size() == 1 ? "needs" : "need", seconds * longest);
   if (!open.empty()) text += "; of the others, ";
   const std::string what = open.empty() ? "the least time for the same error" : "the least time";
   text += fastest.size() == 1 ? fmt::format("{} needs {}", fastest[0], what)

@@ -39,6 +39,9 @@ struct RankedCost {
 /// section 5.4) and corrected for the number of methods (Sidak 1967).
 [[nodiscard]] std::vector<RankedCost> rank(const std::vector<MethodResult>& results, CostClock clock);
 
+/// "1.53 (1.42 to 1.62)": the ratio and its interval.
+[[nodiscard]] std::string text_of_ratio(const RankedCost& cost);
+
 /// "-i path --connect mis --strategy exact": the options of `phlux render`.
 [[nodiscard]] std::string options_of(const Method& method);
 

@@ -10,7 +10,7 @@
 namespace phlux::bench {
 namespace {
 
-// Of one length for all renders but the shortest, since a launch has a cost of its own.
+// Duration of a launch. Each launch has a fixed cost, so only the shortest renders have shorter launches.
 constexpr double launch_seconds = 0.01;
 constexpr double least_launches = 5;
 
@@ -71,6 +71,13 @@ bool every_pixel_has_some(const film::Film& film) {
   return all_pixels(film, [](double samples) { return samples >= 1; });
 }
 
+// Sets what follows from the statistics and the film of a complete render.
+void complete(TimedRender& result, const film::Film& film, std::size_t time, const Marginal& marginal) {
+  result.last = {estimate_of(film), result.statistics.seconds_render, time};
+  result.paths = static_cast<double>(result.statistics.paths);
+  marginal.set(result);
+}
+
 } // namespace
 
 bool runs_to_end(const std::function<void()>& work, const std::function<bool()>& interrupted) {
@@ -122,9 +129,7 @@ TimedRender MethodRenderer::render_for(std::uint64_t seed, double seconds, const
     once.last.time = times.size();
     return once;
   }
-  result.last = {estimate_of(film), result.statistics.seconds_render, times.size()};
-  result.paths = static_cast<double>(result.statistics.paths);
-  marginal.set(result);
+  complete(result, film, times.size(), marginal);
   return result;
 }
 
@@ -141,10 +146,8 @@ TimedRender MethodRenderer::render_one_sample(std::uint64_t seed) {
     return true;
   };
   result.statistics = renderer_.render(settings, film, events);
-  result.last = {estimate_of(film), result.statistics.seconds_render, 0};
+  complete(result, film, 0, marginal);
   result.one_sample = result.last.image;
-  result.paths = static_cast<double>(result.statistics.paths);
-  marginal.set(result);
   return result;
 }
 
