@@ -116,17 +116,20 @@ std::string read_bytes(const MeshRequest& request) {
   return bytes;
 }
 
-scene::Mesh finish_mesh(scene::Mesh mesh, const MeshRequest& request, std::size_t dropped) {
+scene::Mesh finish_mesh(MeshPart part, const MeshRequest& request) {
   const Location file{std::make_shared<const std::string>(request.file.string()), 0};
+  const bool flat = request.face_normals || part.face_normals;
+  Mesh& mesh = part.mesh;
+  std::size_t dropped = part.dropped;
   if (mesh.triangles.empty() && dropped == 0) fail(file, "the mesh has no triangles", "at least one face");
-  if (request.face_normals) mesh.normals.clear();
+  if (flat) mesh.normals.clear();
   transform(mesh, request, file);
   dropped += std::erase_if(mesh.triangles, [&mesh](const Triangle& t) { return !has_area(mesh, t); });
   if (dropped > 0) warn(file, std::to_string(dropped) + " zero-area triangles are dropped");
   if (!mesh.normals.empty()) orient_by_normals(mesh);
-  if (!request.face_normals) compute_missing_normals(mesh);
+  if (!flat) compute_missing_normals(mesh);
   if (request.flip_normals) flip(mesh);
-  return mesh;
+  return std::move(mesh);
 }
 
 } // namespace phlux::scene_file

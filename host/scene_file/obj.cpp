@@ -27,16 +27,14 @@ public:
       : request_(request), bytes_(read_bytes(request)),
         rest_(bytes_), where_{std::make_shared<const std::string>(request.file.string()), 1} {}
 
-  /// In object space. `dropped` counts faces with fewer than three corners.
-  scene::Mesh mesh(std::size_t& dropped) {
+  MeshFile contents() {
     while (!rest_.empty()) {
       read_line();
       where_.line += static_cast<int>(1 + continued_lines_);
       continued_lines_ = 0;
     }
-    dropped = dropped_;
-    if (!any_normal_) mesh_.normals.clear();
-    return std::move(mesh_);
+    if (!part_.mesh.triangles.empty() || part_.dropped > 0 || file_.parts.empty()) keep_part();
+    return std::move(file_);
   }
 
 private:
@@ -77,10 +75,47 @@ private:
     else if (keyword == "f")
       face();
     else if (keyword == "mtllib")
-      warn(where_, "materials of OBJ files are not read; the shape's bsdf is used");
+      file_.material_library = rest_of_line();
+    else if (keyword == "usemtl")
+      begin_material();
+    else if (keyword == "g" && request_.parts == ObjParts::by_groups)
+      end_part();
     while (!word().empty()) {
     }
     skip_to_next_line();
+  }
+
+  /// What follows on the line, which may contain blanks.
+  std::string rest_of_line() {
+    const auto text = rest_.substr(0, rest_.find_first_of("\r\n"));
+    const auto first = std::min(text.find_first_not_of(" \t"), text.size());
+    return std::string(text.substr(first, text.find_last_not_of(" \t") + 1 - first));
+  }
+
+  void begin_material() {
+    const std::string name = rest_of_line();
+    const bool splits = request_.parts >= ObjParts::by_materials ||
+                        (request_.parts == ObjParts::by_library_materials && !file_.material_library.empty());
+    if (splits && (name != part_.material || request_.parts == ObjParts::by_groups)) end_part();
+    part_.material = name;
+  }
+
+  /// Begins a part of the same material, unless this one has no triangles yet.
+  void end_part() {
+    if (part_.mesh.triangles.empty()) return;
+    const std::string material = part_.material;
+    keep_part();
+    part_ = {};
+    part_.material = material;
+  }
+
+  void keep_part() {
+    if (!any_normal_) part_.mesh.normals.clear();
+    file_.parts.push_back(std::move(part_));
+    for (const auto position : touched_) first_use_[position] = none;
+    touched_.clear();
+    uses_.clear();
+    any_normal_ = false;
   }
 
   void skip_to_next_line() {
@@ -134,14 +169,15 @@ private:
     if (corner.normal != none) corner.texture = none;
     first_use_.resize(positions_.size(), none);
     std::uint32_t* link = &first_use_[corner.position];
+    if (*link == none) touched_.push_back(corner.position);
     for (; *link != none; link = &uses_[*link].next)
       if (uses_[*link].texture == corner.texture && uses_[*link].normal == corner.normal) return *link;
     const auto created = static_cast<std::uint32_t>(uses_.size());
     *link = created; // before uses_ is reallocated
     uses_.push_back({corner.texture, corner.normal, none});
-    mesh_.positions.push_back(positions_[corner.position]);
+    part_.mesh.positions.push_back(positions_[corner.position]);
     any_normal_ |= corner.normal != none;
-    mesh_.normals.push_back(corner.normal == none ? glm::vec3(0.0f) : normals_[corner.normal]);
+    part_.mesh.normals.push_back(corner.normal == none ? glm::vec3(0.0f) : normals_[corner.normal]);
     return created;
   }
 
@@ -152,10 +188,10 @@ private:
     for (auto text = word(); !text.empty(); text = word(), ++corners) {
       const std::uint32_t current = vertex(corner(text));
       if (corners == 0) first = current;
-      if (corners >= 2) mesh_.triangles.push_back({first, previous, current});
+      if (corners >= 2) part_.mesh.triangles.push_back({first, previous, current});
       previous = current;
     }
-    if (corners < 3) ++dropped_;
+    if (corners < 3) ++part_.dropped;
   }
 
   struct Use { ///< one of the vertices that share a position
@@ -166,21 +202,21 @@ private:
   std::string bytes_;
   std::string_view rest_;
   Location where_;
-  std::size_t continued_lines_ = 0, texture_coordinates_ = 0, dropped_ = 0;
+  std::size_t continued_lines_ = 0, texture_coordinates_ = 0;
   bool any_normal_ = false;
   std::vector<Vec3> positions_;
   std::vector<glm::vec3> normals_;
   std::vector<std::uint32_t> first_use_; ///< by position: the first of a chain through uses_
   std::vector<Use> uses_;                ///< by vertex of the mesh
-  scene::Mesh mesh_;
+  std::vector<std::uint32_t> touched_;   ///< positions that the part has used
+  MeshPart part_;                        ///< the one that is being read
+  MeshFile file_;
 };
 
 } // namespace
 
-scene::Mesh load_obj(const MeshRequest& request) {
-  std::size_t dropped = 0;
-  scene::Mesh mesh = ObjReader(request).mesh(dropped); // releases the reader's memory
-  return finish_mesh(std::move(mesh), request, dropped);
+MeshFile load_obj(const MeshRequest& request) {
+  return ObjReader(request).contents();
 }
 
 } // namespace phlux::scene_file

@@ -34,6 +34,7 @@ std::string Parameters::substitute(const std::string& text, const Location& wher
     for (const auto& entry : values_)
       if (rest.starts_with(entry.first) && (!longest || entry.first.size() > longest->first.size()))
         longest = &entry;
+    any_unknown_ |= longest == nullptr;
     if (!longest)
       fail(where, "unknown parameter in '" + text + "'",
            "parameters are given by -D name=value or by an earlier <default>; known here: " +

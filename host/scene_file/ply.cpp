@@ -238,14 +238,15 @@ private:
 
 } // namespace
 
-scene::Mesh load_ply(const MeshRequest& request) {
+MeshFile load_ply(const MeshRequest& request) {
   const Location where{std::make_shared<const std::string>(request.file.string()), 0};
-  std::string bytes = read_bytes(request);
+  const std::string bytes = read_bytes(request);
   const PlyHeader header = read_ply_header(bytes, where);
-  std::size_t dropped = 0;
-  scene::Mesh mesh = PlyReader(bytes, header, where).mesh(dropped);
-  std::string().swap(bytes); // releases the memory
-  return finish_mesh(std::move(mesh), request, dropped);
+  MeshPart part;
+  part.mesh = PlyReader(bytes, header, where).mesh(part.dropped);
+  MeshFile file;
+  file.parts.push_back(std::move(part));
+  return file;
 }
 
 } // namespace phlux::scene_file
