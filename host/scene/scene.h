@@ -100,6 +100,9 @@ struct Scene {
   std::vector<SpotLight> spot_lights;
   std::vector<DirectionalLight> directional_lights;
   std::optional<Rgb> constant_radiance; ///< the `constant` emitter
+  /// Mitsuba's strictNormals: directions that lie on different sides of the interpolated and the geometric
+  /// normal carry no light. Otherwise the interpolated normal alone decides on the side.
+  bool strict_normals = false;
   Camera camera;
   RenderDefaults defaults;
 };

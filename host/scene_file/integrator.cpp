@@ -82,7 +82,7 @@ void read_integrator(const Element& integrator, const Document& document, scene:
   read_depths(properties, scene.defaults);
   if (type == "direct") scene.defaults.max_depth = 2; // emission and direct light
   properties.require("hide_emitters", false);
-  properties.require("strict_normals", false);
+  scene.strict_normals = properties.boolean("strict_normals", false);
   properties.require("show_weighted", false);
   if (type == "path" || type == "ptracer" || type == "bdpt")
     properties.pass_over({"light_image", "sample_direct", "granularity", "brute_force", "samples_per_pass",

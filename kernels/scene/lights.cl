@@ -57,6 +57,9 @@ static inline Int choose_light_for(const Scene* scene, Vec3 lit, Vec3 normal, Ui
   return choose_from_tree(scene, lit, normal, word, other_word, by_tree & (LIGHT_INT(scene, light, node) >= 0), light);
 }
 
+// The normal with which a light is chosen for a point: the one that decides which lights can shine on it.
+static inline Vec3 lit_normal(SurfacePoint point) { return SIDES_BY_SHADING ? point.frame.z : point.normal; }
+
 // ---- Points of lights
 
 // A point of a flat light, uniform over its area; its normal is on the side that emits. The lanes of m are on one.
@@ -235,8 +238,8 @@ static inline void aim_to_infinity(LightSample* s, SurfacePosition lit, Vec3 dir
 static inline LightSample light_sample(const Scene* scene, SurfacePoint point, RandomWords words) {
   const SurfacePosition lit = surface_position(point);
   LightSample s;
-  s.light = choose_light_for(scene, lit.position, lit.normal, words.x, words.y);
-  s.choice = probability_for(scene, lit.position, lit.normal, s.light, ALL_LANES);
+  s.light = choose_light_for(scene, lit.position, lit_normal(point), words.x, words.y);
+  s.choice = probability_for(scene, lit.position, lit_normal(point), s.light, ALL_LANES);
   s.ray.origin = lit.position;
   s.ray.direction = lit.normal;
   s.distance = (Real)(0.0f);

@@ -158,8 +158,8 @@ static inline void connect(WorkItem* work, const Pair* pair, StoredVertex eye, S
       vec_mul(vec_mul(eye.throughput, at_eye.value), vec_mul(light.throughput, at_light.value));
   const Real geometry = to_light.z * adjoint_cosine(light.vertex, to_eye, light_cosine) / distance2;
   const Vec3 value = vec_scale(geometry / connection_probability(pair), reflected);
-  const Real light_side = connection_side(light.mis, at_eye.density, at_light.reverse, distance2, light_cosine);
-  const Real eye_side = connection_side(eye.mis, at_light.density, at_eye.reverse, distance2, eye_cosine);
+  const Real light_side = connection_side(light.mis, at_eye.density, at_light.reverse, distance2, size_of_cosine(light_cosine));
+  const Real eye_side = connection_side(eye.mis, at_light.density, at_eye.reverse, distance2, size_of_cosine(eye_cosine));
   add_if_unoccluded(work->scene, &work->queue, &work->output, ray, distance,
               to_own_pixel(pair->path, pair->pixel, value, weight_of_connection(light_side, eye_side),
                            TECHNIQUE(pair->light_index + 2, pair->eye_index + 2)),
