@@ -2,11 +2,12 @@
 
 #include <charconv>
 #include <cmath>
-#include <fstream>
+#include <sstream>
 
 #include <glm/common.hpp>
 #include <glm/gtx/component_wise.hpp>
 
+#include "input_file.h"
 #include "scene_file/properties.h"
 #include "scene_file/spectrum.h"
 #include "scene_file/values.h"
@@ -60,7 +61,7 @@ Spectrum read_pairs(const Element& property) {
 
 /// An .spd file: a wavelength and a value on each line; # begins a comment.
 Spectrum read_file(const std::filesystem::path& path, const Location& named_at) {
-  std::ifstream stream(path);
+  std::istringstream stream(bytes_of(path).value_or(""));
   Location where{std::make_shared<const std::string>(path.string()), 1};
   Spectrum spectrum;
   for (std::string line; std::getline(stream, line); ++where.line) {

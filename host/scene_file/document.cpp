@@ -10,6 +10,9 @@ namespace phlux::scene_file {
 
 namespace {
 
+/// Levels of nesting by references, to bound the recursion; a valid scene has at most 6.
+constexpr std::size_t deepest = 32;
+
 int major_version(const Element& scene) {
   const std::string& version = scene["version"];
   const auto dot = version.find('.');
@@ -69,6 +72,9 @@ void check_references(Document& document, const Element& element, std::vector<co
     if (std::ranges::find(above, &target) != above.end())
       fail(element.where, "reference to '" + element["id"] + "' is circular",
            "an object may not contain itself");
+    if (above.size() > deepest)
+      fail(element.where, "references are nested too deeply",
+           "at most " + std::to_string(deepest) + " levels");
     check_references(document, target, above, checked);
     return;
   }

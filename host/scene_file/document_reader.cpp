@@ -1,12 +1,12 @@
 #include "scene_file/document_reader.h"
 
 #include <algorithm>
-#include <fstream>
 #include <iterator>
 #include <set>
 
 #include <pugixml.hpp>
 
+#include "input_file.h"
 #include "scene_file/parameters.h"
 #include "scene_file/values.h"
 
@@ -74,13 +74,13 @@ class File {
 public:
   File(const std::filesystem::path& path, const Location& named_at)
       : name_(std::make_shared<const std::string>(path.string())) {
-    std::error_code ignored;
-    std::ifstream stream(path, std::ios::binary);
+    auto text = bytes_of(path);
     const bool is_main = named_at.line == 0;
-    if (!stream || std::filesystem::is_directory(path, ignored))
+    if (!text)
       fail(named_at, is_main ? "cannot be read" : "'" + path.string() + "' cannot be read",
            "an existing Mitsuba scene file is needed");
-    text_.assign(std::istreambuf_iterator<char>(stream), {});
+    if (is_utf16(*text)) fail({name_, 1}, "is in UTF-16", "save it as UTF-8");
+    text_ = std::move(*text);
     for (std::size_t i = 0; i < text_.size(); ++i)
       if (text_[i] == '\n') line_ends_.push_back(i);
   }
@@ -200,7 +200,7 @@ private:
     const Element element = without_children(file, node);
     if (element["name"].empty() || !element.has("value"))
       fail(element.where, "<default> without a name or a value", "<default name=\"spp\" value=\"64\"/>");
-    parameters_.set_default(element["name"], element["value"]);
+    parameters_.set_default(element["name"], element["value"], element.where);
   }
 
   Document& document_;

@@ -4,22 +4,23 @@
 
 #include <spdlog/spdlog.h>
 
+#include "printable.h"
+
 namespace phlux::scene_file {
 
 namespace {
 
-/// One line: text from the file may have line ends.
-std::string one_line(std::string text) {
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < ' ') c = '?';
-  return text;
+/// For one line of a terminal, without the end of very long quotations of a file.
+std::string shown(const std::string& text) {
+  constexpr std::size_t longest = 1000;
+  return printable(text.size() <= longest ? text : text.substr(0, longest) + "...");
 }
 
 } // namespace
 
-LocatedError::LocatedError(Location at, std::string what_is_wrong, std::string what_is_right)
-    : SceneError(one_line(at.text() + ": " + what_is_wrong + ": " + what_is_right)), where(std::move(at)),
-      wrong(one_line(std::move(what_is_wrong))), right(one_line(std::move(what_is_right))) {}
+LocatedError::LocatedError(Location at, const std::string& what_is_wrong, const std::string& what_is_right)
+    : SceneError(printable(at.text()) + ": " + shown(what_is_wrong) + ": " + shown(what_is_right)),
+      where(std::move(at)), wrong(shown(what_is_wrong)), right(shown(what_is_right)) {}
 
 std::string Location::text() const {
   return line > 0 ? *file + ":" + std::to_string(line) : *file;

@@ -16,7 +16,7 @@ struct Location {
 
 /// An error at a position: "FILE:LINE: wrong: right".
 struct LocatedError : SceneError {
-  LocatedError(Location where, std::string wrong, std::string right);
+  LocatedError(Location where, const std::string& wrong, const std::string& right);
   Location where;
   std::string wrong, right;
 };

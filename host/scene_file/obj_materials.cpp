@@ -1,9 +1,10 @@
 #include "scene_file/obj_materials.h"
 
-#include <fstream>
+#include <sstream>
 
 #include <glm/common.hpp>
 
+#include "input_file.h"
 #include "lobes/models.h"
 #include "scene_file/color.h"
 #include "scene_file/values.h"
@@ -57,8 +58,9 @@ double number(const std::vector<std::string_view>& words, const Location& where)
 std::map<std::string, scene::Material> read_obj_materials(const std::filesystem::path& file,
                                                           const Location& named_at) {
   std::map<std::string, Entry> entries;
-  std::ifstream stream(file);
-  if (!stream) warn(named_at, "material library '" + file.string() + "' cannot be read; diffuse 0.5 is used");
+  auto bytes = bytes_of(file);
+  if (!bytes) warn(named_at, "material library '" + file.string() + "' cannot be read; diffuse 0.5 is used");
+  std::istringstream stream(bytes.value_or(""));
   Location where{std::make_shared<const std::string>(file.string()), 1};
   Entry* entry = nullptr;
   for (std::string line; std::getline(stream, line); ++where.line) {

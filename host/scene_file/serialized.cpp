@@ -39,11 +39,11 @@ Number little_endian(std::span<const unsigned char> bytes) {
 class SerializedFile {
 public:
   explicit SerializedFile(const MeshRequest& request)
-      : where_{std::make_shared<const std::string>(request.file.string()), 0},
-        stream_(request.file, std::ios::binary) {
+      : where_{std::make_shared<const std::string>(request.file.string()), 0} {
     std::error_code error;
-    size_ = std::filesystem::file_size(request.file, error); // fails unless it is a regular file
-    if (error || !stream_)
+    if (std::filesystem::is_regular_file(request.file, error)) stream_.open(request.file, std::ios::binary);
+    size_ = std::filesystem::file_size(request.file, error);
+    if (error || !stream_.is_open())
       fail(request.named_at, "mesh file '" + request.file.string() + "' cannot be read",
            "an existing file, named relative to the scene's folder");
   }
