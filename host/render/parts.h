@@ -27,7 +27,7 @@ struct Parts {
   bool smooth_normals = false, two_sided = false, black = false;
   std::vector<lobes::ModelPointer> models = {lobes::shipped("diffuse")}; ///< reflectance models
   bool light_planar = false, light_sphere = false, light_point = false, light_spot = false,
-       light_directional = false, light_constant = false;
+       light_directional = false, light_constant = false, environment_map = false;
   bool ambient = false;      ///< a control variate
   bool light_choice = false; ///< more than one light to choose from
   bool light_tree = false;   ///< light samples choose by contribution

@@ -98,6 +98,10 @@ private:
     const auto& [direction, irradiance] = light;
     add(direction, irradiance);
   }
+  void add_one(const EnvironmentMap& map) {
+    const auto& [width, height, texels, to_world, scale] = map;
+    add(width, height, texels, to_world[0], to_world[1], to_world[2], scale);
+  }
   void add_one(const Camera& camera) {
     const auto& [position, left, up, forward, tan_half_fov_x, principal_x, principal_y, width, height] =
         camera;
@@ -111,10 +115,11 @@ private:
 
 std::string digest(const Scene& scene) {
   const auto& [materials, area_emitters, patches, spheres, meshes, point_lights, spot_lights,
-               directional_lights, constant_radiance, camera, defaults] = scene;
+               directional_lights, constant_radiance, environment, camera, defaults] = scene;
   Digest result;
   result.add(materials, area_emitters, patches, spheres, meshes, point_lights, spot_lights,
              directional_lights, constant_radiance, camera);
+  if (environment) result.add(*environment);
   return result.text();
 }
 

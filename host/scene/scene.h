@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
@@ -71,6 +72,16 @@ struct DirectionalLight {
   Rgb irradiance{1.0};     ///< W / m^2 on a surface facing the light
 };
 
+/// Radiance from infinity. Texels are stored row by row from the pole at +y of the map's frame; column
+/// (phi / 2 pi) width, row (theta / pi) height lies towards (sin theta sin phi, cos theta, -sin theta cos phi), as in
+/// Mitsuba. Between their centres the radiance is bilinear.
+struct EnvironmentMap {
+  int width = 0, height = 0;
+  std::vector<glm::vec3> texels; ///< finite and not negative
+  glm::dmat3 to_world{1.0};      ///< orthonormal
+  Rgb scale{1.0};                ///< of the texels
+};
+
 /// A pinhole camera. In its own frame it looks along +z, +y is up and, as in Mitsuba, +x points to the left
 /// of the image.
 struct Camera {
@@ -100,6 +111,7 @@ struct Scene {
   std::vector<SpotLight> spot_lights;
   std::vector<DirectionalLight> directional_lights;
   std::optional<Rgb> constant_radiance; ///< the `constant` emitter
+  std::optional<EnvironmentMap> environment; ///< excludes constant_radiance
   Camera camera;
   RenderDefaults defaults;
 };

@@ -9,11 +9,8 @@
 static inline Ray camera_ray(const Scene* scene, Uint pixel, Real u, Real v) {
   const __global CameraRecord* camera = scene->camera;
   const float width = (float)camera->width, height = (float)camera->height;
-  // A quotient of floats, off by one at most for a film of less than 2^22 rows, and put right.
-  Int row = to_int(uint_to_real(pixel) / width);
-  Int column = uint_to_int(pixel) - row * camera->width;
-  row = column < 0 ? row - 1 : (column >= camera->width ? row + 1 : row);
-  column = uint_to_int(pixel) - row * camera->width;
+  const Int row = row_of(uint_to_int(pixel), camera->width);
+  const Int column = uint_to_int(pixel) - row * camera->width;
   const Real x = (to_real(column) + u) / width + camera->principal_x;
   const Real y = (to_real(row) + v) / height + camera->principal_y;
   Ray ray;

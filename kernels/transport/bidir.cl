@@ -48,7 +48,7 @@ static inline int trace_eye_subpaths(WorkItem* work, Batch batch) {
     const Arrival arrival = next_vertex(scene, &s, work->limits, tracing);
     work->rays += (uint)count_lanes(tracing);
     const Mask leaves_scene = tracing & !arrival.hits;
-    if (HAS_CONSTANT_LIGHT && any_lane(leaves_scene)) {
+    if (HAS_SKY && any_lane(leaves_scene)) {
       const FoundLight sky = hit_sky(scene, &s, work->sky_light, leaves_scene);
       add_contribution(&work->output, found_by(&s, sky, 0), sky.found);
     }

@@ -66,13 +66,20 @@ static inline FoundLight hit_light(const Scene* scene, const Subpath* s, Surface
   return found;
 }
 
-// The constant light, for the subpaths of m whose rays left the scene.
+// The sky, for the subpaths of m whose rays left the scene.
 static inline FoundLight hit_sky(const Scene* scene, const Subpath* s, int sky_light, Mask m) {
   FoundLight found;
   const __global LightRecord* sky = scene->lights + sky_light;
-  found.value = vec_mul(s->throughput, broadcast_vec(sky->radiance));
-  found.weight = weight_of_hit_light(s, sky->probability * s->cosine_density,
-                                     (Real)(0.25f * INV_PI * sky->probability), (Real)(sky->emission_density));
+  Vec3 radiance = broadcast_vec(sky->radiance);
+  Real sampled = s->cosine_density, emitted = (Real)(0.25f * INV_PI), emission = (Real)(sky->emission_density);
+  if (HAS_ENVIRONMENT_MAP) {
+    const Environment here = environment_towards(scene, s->ray.direction);
+    radiance = here.radiance;
+    sampled = emitted = here.density;
+    emission *= here.density;
+  }
+  found.value = vec_mul(s->throughput, radiance);
+  found.weight = weight_of_hit_light(s, sky->probability * sampled, emitted * sky->probability, emission);
   found.found = hits_count(s, m);
   return found;
 }
@@ -81,7 +88,8 @@ static inline FoundLight hit_sky(const Scene* scene, const Subpath* s, int sky_l
 static inline Real weight_of_sampled_light(const Scene* scene, const Subpath* s, LightSample light, LobeValue lobe,
                                            Real cosine) {
   if (IS_BIDIR)
-    return weight_of_light_sample(s->mis, light.density, LIGHT_REAL(scene, light.light, emission_density), lobe.density,
+    return weight_of_light_sample(s->mis, light.density,
+                                  emission_density(scene, light.light, light.density / light.choice), lobe.density,
                                   lobe.reverse, cosine, light.hittable);
   if ((CONNECT != CONNECT_MIS) | !HAS_HITTABLE_LIGHTS) return (Real)(1.0f);
   return light.hittable ? light.density / (light.density + lobe.density) : (Real)(1.0f);
@@ -89,7 +97,7 @@ static inline Real weight_of_sampled_light(const Scene* scene, const Subpath* s,
 
 // A light sample at the vertices of m: unoccluded light along light.ray, before light.distance.
 static inline FoundLight sample_light(const Scene* scene, const Subpath* s, Vertex v, LightSample* light, Mask m) {
-  *light = light_sample(scene, v.point, random_words(s->sequence, DIMENSION_LIGHT_SAMPLE(s->edges), 0));
+  *light = light_sample(scene, v.point, random_draws(s->sequence, DIMENSION_LIGHT_SAMPLE(s->edges)));
   const Vec3 generated = to_frame(v.point.frame, light->ray.direction);
   const Real cosine = vec_dot(v.point.normal, light->ray.direction);
   FoundLight found;

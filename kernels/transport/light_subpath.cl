@@ -63,14 +63,14 @@ static inline void connect_light_to_camera(WorkItem* work, const Subpath* s, Emi
   const Real cosine = -vec_dot(e.origin.normal, view.from_camera);
   Mask faces = e.surface & (cosine > 0.0f);
   Real density = PI * e.density * view.distance2 / cosine; // of the light's point, per solid angle at the camera
-  if (HAS_CONSTANT_LIGHT) {
+  if (HAS_SKY) {
     const Vec3 from_camera = vec_scale((Real)(-1.0f), e.ray.direction);
     view.film = select_film(e.sky, camera_sees(scene, from_camera), view.film);
     ray.origin = vec_select(e.sky, camera, ray.origin);
     ray.direction = vec_select(e.sky, from_camera, ray.direction);
     distance = e.sky ? (Real)(INFINITY) : distance;
     faces = faces | e.sky;
-    density = e.sky ? (0.25f * INV_PI) * light_probability(scene, e.light) : density;
+    density = e.sky ? e.sky_density * light_probability(scene, e.light) : density;
   }
   const Mask seen = m & faces & view.film.seen;
   if (!any_lane(seen)) return;
@@ -112,6 +112,7 @@ static inline Mask start_at_light(WorkItem* work, Batch* batch, Subpath* s, Mask
   s->throughput = vec_scale(1.0f / e.density, e.radiance);
   s->light = e.light;
   s->light_cosine = vec_dot(e.origin.normal, e.ray.direction);
+  if (HAS_ENVIRONMENT_MAP) s->light_cosine = e.sky ? e.sky_density : s->light_cosine;
   const Mask shines = *started & (vec_max(e.radiance) > 0.0f);
   connect_light_to_camera(work, s, e, shines);
   return work->limits.longest > 1 ? shines : NO_LANES;
@@ -129,7 +130,10 @@ static inline Real density_of_start(const Scene* scene, const Subpath* s, Vertex
     density = surface ? light_density(scene, lit, s->light, choice, distance, s->light_cosine) : density;
   }
   if (HAS_POINTLIKE_LIGHTS) density = is_pointlike(kind) ? choice * distance * distance : density;
-  if (HAS_CONSTANT_LIGHT) density = LIGHT_IS(kind, LIGHT_CONSTANT) ? choice * v.fixed.z * INV_PI : density;
+  if (HAS_SKY) {
+    const Real by_sky = HAS_ENVIRONMENT_MAP ? choice * s->light_cosine : choice * v.fixed.z * INV_PI;
+    density = is_sky(kind) ? by_sky : density;
+  }
   return density;
 }
 
@@ -140,7 +144,7 @@ static inline MisQuantities mis_arrived_from_light(const Scene* scene, const Sub
   const Mask first = s->edges == 1;
   if (!any_lane(first)) return later;
   const MisQuantities start =
-      mis_from_light(density_of_start(scene, s, v, distance, first), LIGHT_REAL(scene, s->light, emission_density),
+      mis_from_light(density_of_start(scene, s, v, distance, first), emission_density(scene, s->light, s->light_cosine),
                      cosine, is_hittable(light_kind(scene, s->light)));
   MisQuantities q;
   q.d_vcm = first ? start.d_vcm : later.d_vcm;

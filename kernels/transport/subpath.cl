@@ -25,12 +25,12 @@ typedef struct {
   // Of the vertex where the ray starts, for the weights of what it finds:
   Vec3 normal;         // geometric
   Real density;        // of the ray's direction, per solid angle
-  Real cosine_density; // of the same direction by the cosine, with which a constant light is sampled
+  Real cosine_density; // of the same direction by the cosine, with which a constant sky is sampled
   Mask delta;          // the direction was sampled from a delta distribution
   // Bidirectional path tracing alone:
   MisQuantities mis;
   Int light;         // light subpaths: where they started
-  Real light_cosine; // light subpaths: of the first edge to that light's normal
+  Real light_cosine; // light subpaths: of the first edge to that light's normal; from the sky, its direction's density
 } Subpath;
 
 // Lengths of paths, in edges.
