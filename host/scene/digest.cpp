@@ -103,9 +103,10 @@ private:
     add(width, height, texels, to_world[0], to_world[1], to_world[2], scale);
   }
   void add_one(const Camera& camera) {
-    const auto& [position, left, up, forward, tan_half_fov_x, principal_x, principal_y, width, height] =
-        camera;
-    add(position, left, up, forward, tan_half_fov_x, principal_x, principal_y);
+    const auto& [orthographic, position, left, up, forward, tan_half_fov_x, principal_x, principal_y,
+                 aperture_radius, focus_distance, filter, width, height] = camera;
+    add(orthographic, position, left, up, forward, tan_half_fov_x, principal_x, principal_y, aperture_radius,
+        focus_distance, filter.kind, filter.size);
   }
 
   std::unique_ptr<XXH3_state_t, XXH_errorcode (*)(XXH3_state_t*)> state_;
@@ -118,8 +119,7 @@ std::string digest(const Scene& scene) {
                directional_lights, constant_radiance, environment, camera, defaults] = scene;
   Digest result;
   result.add(materials, area_emitters, patches, spheres, meshes, point_lights, spot_lights,
-             directional_lights, constant_radiance, camera);
-  if (environment) result.add(*environment);
+             directional_lights, constant_radiance, environment, camera);
   return result.text();
 }
 

@@ -14,9 +14,9 @@ namespace {
 using scene::Rgb;
 constexpr double pi = std::numbers::pi;
 
-// Integrals over theta, sin(theta) d theta, of a row's weight in the interpolation that the kernels sample, on either
-// side of its centre, divided by the height of a row: of (1 - |t|) sin(theta_row) / sin(theta) between rows, and of 1
-// in the cap about a pole.
+// Integrals over theta, sin(theta) d theta, of a row's weight in the interpolation that the kernels sample,
+// on either side of its centre, divided by the height of a row: of (1 - |t|) sin(theta_row) / sin(theta)
+// between rows, and of 1 in the cap about a pole.
 struct RowShares {
   RowShares(int row, int height) {
     const double step = pi / height, sine = std::sin((row + 0.5) * step);

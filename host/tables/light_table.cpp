@@ -131,13 +131,6 @@ void add_distant(Collector& to, const scene::Scene& scene, double radius) {
     record.emission_density = static_cast<float>(1 / disk);
     to.add(record, disk * mean(light.irradiance));
   }
-  if (scene.constant_radiance) {
-    to.table.sky = static_cast<int>(to.table.records.size());
-    LightRecord record = record_of(LIGHT_SKY, *scene.constant_radiance);
-    record.area = static_cast<float>(disk);
-    record.emission_density = static_cast<float>(1 / (4 * pi * disk));
-    to.add(record, 4 * pi * disk * mean(*scene.constant_radiance));
-  }
   if (scene.environment) {
     to.table.sky = static_cast<int>(to.table.records.size());
     to.table.environment = environment_table(*scene.environment);
@@ -145,6 +138,12 @@ void add_distant(Collector& to, const scene::Scene& scene, double radius) {
     record.area = static_cast<float>(disk);
     record.emission_density = static_cast<float>(1 / disk);
     to.add(record, disk * to.table.environment.integral);
+  } else if (scene.constant_radiance) {
+    to.table.sky = static_cast<int>(to.table.records.size());
+    LightRecord record = record_of(LIGHT_SKY, *scene.constant_radiance);
+    record.area = static_cast<float>(disk);
+    record.emission_density = static_cast<float>(1 / (4 * pi * disk));
+    to.add(record, 4 * pi * disk * mean(*scene.constant_radiance));
   }
 }
 

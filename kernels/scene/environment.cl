@@ -10,7 +10,7 @@
 #ifndef PHLUX_ENVIRONMENT_CL
 #define PHLUX_ENVIRONMENT_CL
 
-#include "math/angles.h"
+#include "math/directions.h"
 #include "math/random.h"
 #include "scene/scene.cl"
 
@@ -71,12 +71,11 @@ static inline Vec3 sample_environment(const Scene* scene, RandomWords words) {
   const Int row = row_of(texel, width);
   const Int column = texel - row * width;
 
-  const Real u = uniform_real(words.z), v = uniform_real(words.w);
-  const Real across = u < 0.5f ? sqrt(2.0f * u) - 1.0f : 1.0f - sqrt(2.0f - 2.0f * u);
-  const Real around = (to_real(column) + 0.5f + across) / (float)width;
+  const Real around = (to_real(column) + 0.5f + tent_offset(uniform_real(words.z))) / (float)width;
   // Above the texel's centre or below; a row at a pole has a cap on that side.
   const Mask first = row == 0, last = row == height - 1;
   const Real above_share = first ? (Real)(map->cap_share) : (last ? (Real)(1.0f - map->cap_share) : (Real)(0.5f));
+  const Real v = uniform_real(words.w);
   const Mask above = v < above_share;
   const Real within = above ? v / above_share : (1.0f - v) / (1.0f - above_share);
   const Mask cap = (above & first) | ((!above) & last);

@@ -97,13 +97,17 @@ typedef struct {
   int alias;
 } EnvironmentTexel;
 
-// The pinhole: the direction through film position (x, y) in [0, 1]^2, y downwards, is
-// forward + (1 - 2 (x + principal_x)) left + (1 - 2 (y + principal_y)) up, not normalised.
+// The camera. The direction through film position (x, y) in [0, 1]^2, y downwards, is
+// forward + (1 - 2 (x + principal_x)) left + (1 - 2 (y + principal_y)) up, not normalised; HAS_ORTHOGRAPHIC: rays along
+// forward start at position + (1 - 2 (x + principal_x)) left + (1 - 2 (y + principal_y)) up.
 typedef struct {
   float position[3];
-  float forward[3], left[3], up[3]; // left and up carry the tangents of half the fields of view
+  float forward[3], left[3], up[3]; // left and up carry the tangents of half the fields of view, or half the film
   float principal_x, principal_y;
   float film_area; // of the whole film on the plane at distance 1
+  float lens[2];   // HAS_LENS: its radius in lengths of left and up
+  float inv_focus_distance;
+  float filter_size; // pixels: radius of the tent, standard deviation of the Gaussian
   int width, height;
 } CameraRecord;
 

@@ -9,8 +9,8 @@
 
 // Starts a subpath at the camera for its pixel and sample, in every lane.
 static inline void start_at_camera(const Scene* scene, Subpath* s) {
-  const RandomWords words = random_words(s->sequence, (Uint)(0), 0);
-  s->ray = camera_ray(scene, s->sequence.pixel, uniform_real(words.x), uniform_real(words.y));
+  const CameraSample sample = camera_sample(scene, random_words(s->sequence, (Uint)(0), 0));
+  s->ray = camera_ray(scene, s->sequence.pixel, sample);
   s->throughput = vec_all((Real)(1.0f));
   s->edges = (Int)(0);
   s->delta = NO_LANES;
@@ -24,6 +24,13 @@ typedef struct {
   Real weight;
   Mask found;
 } FoundLight;
+
+// The length of an eye subpath's edge by which its density per solid angle becomes one per area: 1 for an edge from an
+// orthographic camera, whose density is per area across its parallel rays.
+static inline Real edge_length(const Subpath* s, Real distance) {
+  if (!HAS_ORTHOGRAPHIC) return distance;
+  return s->edges == 1 ? (Real)(1.0f) : distance;
+}
 
 // Lanes where a light sample at the vertex before could have found what the ray hits: there is such a vertex, and its
 // event was no delta event.
@@ -61,7 +68,8 @@ static inline FoundLight hit_light(const Scene* scene, const Subpath* s, Surface
   const Real choice = probability_for(scene, s->ray.origin, s->normal, light, emits & light_sample_possible(s));
   const Real light_sample = light_density(scene, s->ray.origin, light, choice, distance, cosine);
   found.value = vec_mul(s->throughput, LIGHT_VEC3(scene, light, radiance));
-  found.weight = weight_of_hit_light(s, light_sample, PI * emission * distance * distance / cosine, emission);
+  const Real length = edge_length(s, distance);
+  found.weight = weight_of_hit_light(s, light_sample, PI * emission * length * length / cosine, emission);
   found.found = hits_count(s, emits);
   return found;
 }
@@ -78,6 +86,7 @@ static inline FoundLight hit_sky(const Scene* scene, const Subpath* s, int sky_l
     sampled = emitted = here.density;
     emission *= here.density;
   }
+  if (HAS_ORTHOGRAPHIC) emitted = (Real)(0.0f); // no emission has exactly the direction of the camera's rays
   found.value = vec_mul(s->throughput, radiance);
   found.weight = weight_of_hit_light(s, sky->probability * sampled, emitted * sky->probability, emission);
   found.found = hits_count(s, m);

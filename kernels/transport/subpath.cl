@@ -8,12 +8,14 @@
 #include "transport/mis_weights.cl"
 
 // Dimensions of the random numbers of a path. Eye subpaths: 0 is the position in the pixel, then two for every edge.
-// Light subpaths: two for the first edge, then one for every edge. One for the roulette of connections.
+// Light subpaths: two for the first edge, then one for every edge; one for every splat. One for the roulette of
+// connections.
 #define DIMENSION_SCATTERING(edges) int_to_uint(2 * (edges))
 #define DIMENSION_LIGHT_SAMPLE(edges) int_to_uint(2 * (edges) + 1)
 #define DIMENSION_EMISSION 0x40000000u
 #define DIMENSION_LIGHT_SCATTERING(edges) int_to_uint((edges) + 0x40000001)
 #define DIMENSION_CONNECTIONS 0x60000000u
+#define DIMENSION_SPLAT(edges) int_to_uint((edges) + 0x70000000)
 
 // A subpath and its next ray.
 typedef struct {

@@ -34,7 +34,7 @@ glm::dmat3 turned(double mirror) {
 // Random texels; of 1 x 1; a sun; black rows, also at the poles; a single texel that is lit, at a pole.
 std::vector<EnvironmentMap> maps() {
   Random random(81);
-  std::vector<EnvironmentMap> list = {map_of(7, 5, random), map_of(1, 1, random), map_of(3, 1, random),
+  std::vector<EnvironmentMap> list = {map_of(7, 5, random), map_of(1, 1, random),  map_of(3, 1, random),
                                       map_of(1, 2, random), map_of(16, 8, random), map_of(5, 6, random),
                                       map_of(4, 3, random)};
   list[0].to_world = turned(1);
@@ -64,7 +64,8 @@ auto interpolated(const EnvironmentMap& map, double u, double v, const Value& of
     const int r = std::clamp(static_cast<int>(row), 0, map.height - 1);
     return of(dvec3(map.texels[static_cast<std::size_t>(r * map.width + c)]) * map.scale, r);
   };
-  return (1 - b) * ((1 - a) * at(x, y) + a * at(x + 1, y)) + b * ((1 - a) * at(x, y + 1) + a * at(x + 1, y + 1));
+  return (1 - b) * ((1 - a) * at(x, y) + a * at(x + 1, y)) +
+         b * ((1 - a) * at(x, y + 1) + a * at(x + 1, y + 1));
 }
 
 dvec3 radiance_at(const EnvironmentMap& map, double u, double v) {
@@ -75,9 +76,10 @@ dvec3 radiance_at(const EnvironmentMap& map, double u, double v) {
 double importance_at(const EnvironmentMap& map, double u, double v) {
   const auto mean = [](const dvec3& texel) { return (texel.r + texel.g + texel.b) / 3; };
   if (v < 0.5 || v > map.height - 0.5) return mean(radiance_at(map, u, v));
-  return interpolated(map, u, v, [&](const dvec3& texel, int row) {
-           return mean(texel) * std::sin((row + 0.5) * pi / map.height);
-         }) /
+  return interpolated(map, u, v,
+                      [&](const dvec3& texel, int row) {
+                        return mean(texel) * std::sin((row + 0.5) * pi / map.height);
+                      }) /
          std::sin(v * pi / map.height);
 }
 
