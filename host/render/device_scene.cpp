@@ -24,7 +24,7 @@ cl::Buffer upload(const device::Device& device, const std::vector<T>& table, con
   if (bytes > device.info.largest_buffer)
     throw DeviceError(
         fmt::format("{}: the scene's {} take {} MB and a buffer may have {} MB: use a device with more "
-                    "memory or a smaller mesh",
+                    "memory or less of them",
                     device.info.name, what, bytes >> 20, device.info.largest_buffer >> 20));
   try {
     return cl::Buffer(device.context, CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR, bytes,
@@ -51,6 +51,8 @@ DeviceScene::DeviceScene(const device::Device& device, const HostScene& scene, c
   table("lights", scene.lights.records, "lights");
   number("light_count", static_cast<cl_int>(scene.lights.records.size()));
   table("light_nodes", scene.lights.nodes, "tree of lights");
+  table("environment", std::vector<EnvironmentRecord>{scene.lights.environment.record}, "environment map");
+  table("environment_texels", scene.lights.environment.texels, "environment map");
   number("light_tree_probability", static_cast<cl_float>(scene.lights.tree_probability));
   if (parts.double_precision) {
     table("planars", geometry.double_planars, "triangles", PLANAR_FLOATS);

@@ -36,13 +36,18 @@ constexpr NamedPart named_parts[] = {
     {&Parts::light_spot, "light_spot", "HAS_SPOT_LIGHTS"},
     {&Parts::light_directional, "light_directional", "HAS_DIRECTIONAL_LIGHTS"},
     {&Parts::light_constant, "light_constant", "HAS_CONSTANT_LIGHT"},
+    {&Parts::environment_map, "environment_map", "HAS_ENVIRONMENT_MAP"},
+    {&Parts::lens, "lens", "HAS_LENS"},
+    {&Parts::orthographic, "orthographic", "HAS_ORTHOGRAPHIC"},
+    {&Parts::tent_filter, "tent_filter", "HAS_TENT_FILTER"},
+    {&Parts::gaussian_filter, "gaussian_filter", "HAS_GAUSSIAN_FILTER"},
     {&Parts::light_choice, "light_choice", "HAS_LIGHT_CHOICE"},
     {&Parts::light_tree, "light_tree", "HAS_LIGHT_TREE"},
     {&Parts::ambient, "ambient", "HAS_AMBIENT"},
 };
 
 Connect possible_connect(const Settings& settings, const tables::LightTable& lights) {
-  const bool hittable = lights.has(LIGHT_PLANAR) || lights.has(LIGHT_SPHERE) || lights.has(LIGHT_CONSTANT);
+  const bool hittable = lights.has(LIGHT_PLANAR) || lights.has(LIGHT_SPHERE) || lights.has(LIGHT_SKY);
   if (settings.integrator == "path" && settings.connect == Connect::none && !lights.records.empty() &&
       !hittable)
     throw UsageError(
@@ -137,7 +142,12 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
   parts.light_point = lights.has(LIGHT_POINT);
   parts.light_spot = lights.has(LIGHT_SPOT);
   parts.light_directional = lights.has(LIGHT_DIRECTIONAL);
-  parts.light_constant = lights.has(LIGHT_CONSTANT);
+  parts.lens = scene.camera.aperture_radius > 0;
+  parts.orthographic = scene.camera.orthographic;
+  parts.tent_filter = scene.camera.filter.kind == scene::Filter::Kind::tent;
+  parts.gaussian_filter = scene.camera.filter.kind == scene::Filter::Kind::gaussian;
+  parts.environment_map = scene.environment.has_value();
+  parts.light_constant = lights.has(LIGHT_SKY) && !parts.environment_map;
   const bool chooses = parts.connect != Connect::none || parts.integrator == Integrator::light;
   parts.light_choice = lights.records.size() > 1 && chooses;
   parts.light_tree = wants_light_tree(settings) && parts.connect != Connect::none &&

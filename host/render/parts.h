@@ -27,10 +27,12 @@ struct Parts {
   bool smooth_normals = false, strict_normals = false, two_sided = false, black = false;
   std::vector<lobes::ModelPointer> models = {lobes::shipped("diffuse")}; ///< reflectance models
   bool light_planar = false, light_sphere = false, light_point = false, light_spot = false,
-       light_directional = false, light_constant = false;
-  bool ambient = false;      ///< a control variate
-  bool light_choice = false; ///< more than one light to choose from
-  bool light_tree = false;   ///< light samples choose by contribution
+       light_directional = false, light_constant = false, environment_map = false;
+  bool lens = false, orthographic = false;           ///< of the camera
+  bool tent_filter = false, gaussian_filter = false; ///< else the box
+  bool ambient = false;                              ///< a control variate
+  bool light_choice = false;                         ///< more than one light to choose from
+  bool light_tree = false;                           ///< light samples choose by contribution
   bool one_light = false, few_lights = false, few_materials = false,
        few_primitives = false; ///< optimizations
   Connect connect = Connect::mis;

@@ -98,10 +98,15 @@ private:
     const auto& [direction, irradiance] = light;
     add(direction, irradiance);
   }
+  void add_one(const EnvironmentMap& map) {
+    const auto& [width, height, texels, to_world, scale] = map;
+    add(width, height, texels, to_world[0], to_world[1], to_world[2], scale);
+  }
   void add_one(const Camera& camera) {
-    const auto& [position, left, up, forward, tan_half_fov_x, principal_x, principal_y, width, height] =
-        camera;
-    add(position, left, up, forward, tan_half_fov_x, principal_x, principal_y);
+    const auto& [orthographic, position, left, up, forward, tan_half_fov_x, principal_x, principal_y,
+                 aperture_radius, focus_distance, filter, width, height] = camera;
+    add(orthographic, position, left, up, forward, tan_half_fov_x, principal_x, principal_y, aperture_radius,
+        focus_distance, filter.kind, filter.size);
   }
 
   std::unique_ptr<XXH3_state_t, XXH_errorcode (*)(XXH3_state_t*)> state_;
@@ -111,10 +116,10 @@ private:
 
 std::string digest(const Scene& scene) {
   const auto& [materials, area_emitters, patches, spheres, meshes, point_lights, spot_lights,
-               directional_lights, constant_radiance, strict_normals, camera, defaults] = scene;
+               directional_lights, constant_radiance, environment, strict_normals, camera, defaults] = scene;
   Digest result;
   result.add(materials, area_emitters, patches, spheres, meshes, point_lights, spot_lights,
-             directional_lights, constant_radiance, strict_normals, camera);
+             directional_lights, constant_radiance, environment, strict_normals, camera);
   return result.text();
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
@@ -70,14 +71,36 @@ struct DirectionalLight {
   Rgb irradiance{1.0};     ///< W / m^2 on a surface facing the light
 };
 
-/// A pinhole camera. In its own frame it looks along +z, +y is up and, as in Mitsuba, +x points to the left
-/// of the image.
+/// Radiance from infinity. Texels are stored row by row from the pole at +y of the map's frame; column
+/// (phi / 2 pi) width, row (theta / pi) height lies towards (sin theta sin phi, cos theta, -sin theta cos
+/// phi), as in Mitsuba. Between their centres the radiance is bilinear.
+struct EnvironmentMap {
+  int width = 0, height = 0;
+  std::vector<glm::vec3> texels; ///< finite and not negative
+  glm::dmat3 to_world{1.0};      ///< orthonormal
+  Rgb scale{1.0};                ///< of the texels
+};
+
+/// A reconstruction filter whose sizes are in pixels.
+struct Filter {
+  enum class Kind { box, tent, gaussian };
+  Kind kind = Kind::box;
+  double size = 0.5; ///< box: 0.5; tent: its radius; gaussian: its standard deviation
+};
+
+/// A pinhole camera, a thin lens or an orthographic camera. In its own frame it looks along +z, +y is up and,
+/// as in Mitsuba, +x points to the left of the image.
 struct Camera {
+  bool orthographic = false; ///< rays are parallel, and start on the film about `position`
   Vec3 position{0.0}, left{1, 0, 0}, up{0, 1, 0},
-      forward{0, 0, 1};        ///< orthonormal; right-handed unless toWorld mirrors
-  double tan_half_fov_x = 1.0; ///< tangent of half the horizontal field of view
+      forward{0, 0, 1}; ///< orthonormal; right-handed unless toWorld mirrors
+  double tan_half_fov_x =
+      1.0; ///< tangent of half the horizontal field of view; orthographic: half the film's width
   double principal_x = 0.0,
-         principal_y = 0.0;      ///< Mitsuba's principalPointOffset, in units of the film's size
+         principal_y = 0.0;     ///< Mitsuba's principalPointOffset, in units of the film's size
+  double aperture_radius = 0.0; ///< of the lens; 0: a pinhole
+  double focus_distance = 1.0;  ///< from the lens to the plane in focus
+  Filter filter;
   int width = 768, height = 576; ///< pixels, square
 };
 
@@ -98,7 +121,8 @@ struct Scene {
   std::vector<PointLight> point_lights;
   std::vector<SpotLight> spot_lights;
   std::vector<DirectionalLight> directional_lights;
-  std::optional<Rgb> constant_radiance; ///< the `constant` emitter
+  std::optional<Rgb> constant_radiance;      ///< the `constant` emitter
+  std::optional<EnvironmentMap> environment; ///< excludes constant_radiance
   /// Mitsuba's strictNormals: directions that lie on different sides of the interpolated and the geometric
   /// normal carry no light. Otherwise the interpolated normal alone decides on the side.
   bool strict_normals = false;

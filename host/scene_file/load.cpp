@@ -18,7 +18,7 @@ void warn_of_darkness(const Document& document, const scene::Scene& scene) {
   if (scene.patches.empty() && scene.spheres.empty() && scene.meshes.empty())
     warn(file, "empty scene: it has no shapes");
   if (scene.area_emitters.empty() && scene.point_lights.empty() && scene.spot_lights.empty() &&
-      scene.directional_lights.empty() && !scene.constant_radiance)
+      scene.directional_lights.empty() && !scene.constant_radiance && !scene.environment)
     warn(file, "no light: nothing in the scene emits, and the image will be black");
 }
 

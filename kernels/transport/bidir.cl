@@ -48,15 +48,15 @@ static inline int trace_eye_subpaths(WorkItem* work, Batch batch) {
     const Arrival arrival = next_vertex(scene, &s, work->limits, tracing);
     work->rays += (uint)count_lanes(tracing);
     const Mask leaves_scene = tracing & !arrival.hits;
-    if (HAS_CONSTANT_LIGHT && any_lane(leaves_scene)) {
+    if (HAS_SKY && any_lane(leaves_scene)) {
       const FoundLight sky = hit_sky(scene, &s, work->sky_light, leaves_scene);
       add_contribution(&work->output, found_by(&s, sky, 0), sky.found);
     }
     const FoundLight hit = hit_light(scene, &s, arrival.vertex.point, arrival.distance, arrival.hits);
     if (any_lane(hit.found)) add_contribution(&work->output, found_by(&s, hit, 0), hit.found);
 
-    s.mis = mis_arrived(s.mis, arrival.distance * arrival.distance,
-                        -vec_dot(arrival.vertex.point.normal, s.ray.direction));
+    const Real length = edge_length(&s, arrival.distance);
+    s.mis = mis_arrived(s.mis, length * length, -vec_dot(arrival.vertex.point.normal, s.ray.direction));
     store_vertices(&work->eye, row, &s, arrival.vertex, &stored, starting, arrival.scattered);
     LightSample light;
     const FoundLight sampled = sample_light(scene, &s, arrival.vertex, &light, arrival.scattered);

@@ -49,8 +49,9 @@ __kernel void trace_paths(SCENE_PARAMETERS, int pixel_count, int first_pixel, in
 
     const Arrival arrival = next_vertex(&scene, &path, limits, working);
     rays += working ? (Uint)(1u) : (Uint)(0u);
-    if (HAS_CONSTANT_LIGHT) {
-      const FoundLight sky = hit_sky(&scene, &path, sky_light, working & !arrival.hits);
+    const Mask leaves_scene = working & !arrival.hits;
+    if (HAS_SKY && any_lane(leaves_scene)) {
+      const FoundLight sky = hit_sky(&scene, &path, sky_light, leaves_scene);
       radiance = add_found(radiance, sky, sky.found);
     }
     const FoundLight hit = hit_light(&scene, &path, arrival.vertex.point, arrival.distance, arrival.hits);

@@ -8,12 +8,14 @@
 #include "transport/mis_weights.cl"
 
 // Dimensions of the random numbers of a path. Eye subpaths: 0 is the position in the pixel, then two for every edge.
-// Light subpaths: two for the first edge, then one for every edge. One for the roulette of connections.
+// Light subpaths: two for the first edge, then one for every edge; one for every splat. One for the roulette of
+// connections.
 #define DIMENSION_SCATTERING(edges) int_to_uint(2 * (edges))
 #define DIMENSION_LIGHT_SAMPLE(edges) int_to_uint(2 * (edges) + 1)
 #define DIMENSION_EMISSION 0x40000000u
 #define DIMENSION_LIGHT_SCATTERING(edges) int_to_uint((edges) + 0x40000001)
 #define DIMENSION_CONNECTIONS 0x60000000u
+#define DIMENSION_SPLAT(edges) int_to_uint((edges) + 0x70000000)
 
 // A subpath and its next ray.
 typedef struct {
@@ -25,12 +27,12 @@ typedef struct {
   // Of the vertex where the ray starts, for the weights of what it finds:
   Vec3 normal;         // by which a light is chosen (lit_normal)
   Real density;        // of the ray's direction, per solid angle
-  Real cosine_density; // of the same direction by the cosine, with which a constant light is sampled
+  Real cosine_density; // of the same direction by the cosine, with which a constant sky is sampled
   Mask delta;          // the direction was sampled from a delta distribution
   // Bidirectional path tracing alone:
   MisQuantities mis;
   Int light;         // light subpaths: where they started
-  Real light_cosine; // light subpaths: of the first edge to that light's normal
+  Real light_cosine; // light subpaths: of the first edge to that light's normal; from the sky, its direction's density
 } Subpath;
 
 // Lengths of paths, in edges.

@@ -105,6 +105,9 @@ constexpr char ambient[] = "parallelograms spheres phong black light_sphere ambi
 constexpr char mirrors[] = "parallelograms spheres phong conductor light_planar";
 constexpr char triangles[] = "hierarchy triangles smooth_normals phong light_planar light_choice light_tree";
 constexpr char sky[] = "spheres phong light_constant";
+constexpr char map[] =
+    "parallelograms spheres diffuse light_planar light_choice environment_map lens tent_filter";
+constexpr char parallel[] = "parallelograms diffuse light_constant orthographic gaussian_filter";
 
 // A program for one reflectance model.
 Program of_model(const std::string& file, const std::string& model, const std::string& strategy, int width) {
@@ -140,6 +143,12 @@ const std::vector<SceneProgram>& scene_programs() {
       {"glossy-spheres-bidir-clamp", with_clamp(by(Integrator::bidir, parts_of(glossy, "exact")))},
       {"mesh-bidir",
        with_techniques(by(Integrator::bidir, parts_of(triangles, "lobe-ks"), Weights::uniform))},
+      {"map", parts_of(map, "exact")},
+      {"map-light", by(Integrator::light, parts_of(map, "exact"))},
+      {"map-bidir", by(Integrator::bidir, parts_of(map, "exact"))},
+      {"parallel", parts_of(parallel, "exact")},
+      {"parallel-light", by(Integrator::light, parts_of(parallel, "exact"))},
+      {"parallel-bidir", by(Integrator::bidir, parts_of(parallel, "exact"))},
       {"mirrors-bidir", by(Integrator::bidir, parts_of(mirrors, "exact"))},
       // With every part, double precision needs more registers than a thread can have.
       {"brushed-double", in_double(parts_of("parallelograms anisotropicphong light_planar", "exact"))},
