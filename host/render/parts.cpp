@@ -38,6 +38,7 @@ constexpr NamedPart named_parts[] = {
     {&Parts::light_choice, "light_choice", "HAS_LIGHT_CHOICE"},
     {&Parts::light_tree, "light_tree", "HAS_LIGHT_TREE"},
     {&Parts::ambient, "ambient", "HAS_AMBIENT"},
+    {&Parts::sobol, "sobol", "HAS_SOBOL"},
 };
 
 Connect possible_connect(const Settings& settings, const tables::LightTable& lights) {
@@ -102,6 +103,7 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
   if (settings.clamp) parts.clamp = *settings.clamp / lights.unit;
   if (parts.clamp && parts.techniques)
     throw UsageError("`clamp`: contributions of techniques are not clamped: leave out `contributions`");
+  parts.sobol = samples_sobol_points(settings);
   parts.ambient = settings.ambient.has_value();
   if (parts.ambient && parts.integrator != Integrator::path)
     throw UsageError("`ambient`: only paths from the eye can carry the ambient term: use `integrator` path");

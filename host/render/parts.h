@@ -29,6 +29,7 @@ struct Parts {
   bool light_planar = false, light_sphere = false, light_point = false, light_spot = false,
        light_directional = false, light_constant = false;
   bool ambient = false;      ///< a control variate
+  bool sobol = false;        ///< samples are points of Sobol sets
   bool light_choice = false; ///< more than one light to choose from
   bool light_tree = false;   ///< light samples choose by contribution
   bool one_light = false, few_lights = false, few_materials = false,

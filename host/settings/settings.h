@@ -20,6 +20,7 @@ namespace phlux::settings {
 enum class Connect { none, light, mis };        ///< direct light from hits, light samples, or both with MIS
 enum class Weights { balance, power, uniform }; ///< weights of bidirectional techniques (Veach 1997)
 enum class LightSelection { power, contribution }; ///< probabilities of lights for light samples
+enum class Sampler { independent, sobol };         ///< how a pixel's samples relate
 enum class Traversal { automatic, brute_force, bvh };
 
 struct Settings {
@@ -30,12 +31,13 @@ struct Settings {
   LightSelection light_selection = LightSelection::contribution; ///< path, bidir
   int connections = 2;     ///< bidir: mean number of connections made per path length, by roulette; 0: all
   bool techniques = false; ///< light, bidir: the film also records each technique's contributions
-  std::optional<double> ambient;      ///< path: radiance of a control variate (CW 197, 2.2, reference 15)
-  std::optional<double> clamp;        ///< largest contribution of a path to a pixel, a radiance; causes bias
-  int samples_per_pixel = 4;          ///< ignored with a time limit or target error
-  std::optional<double> time_limit;   ///< seconds of rendering
-  std::optional<double> target_error; ///< mean relative standard error
-  int max_depth = -1, rr_depth = 5;   ///< as in scene::RenderDefaults
+  std::optional<double> ambient; ///< path: radiance of a control variate (CW 197, 2.2, reference 15)
+  std::optional<double> clamp;   ///< largest contribution of a path to a pixel, a radiance; causes bias
+  Sampler sampler = Sampler::independent; ///< path, bidir
+  int samples_per_pixel = 4;              ///< ignored with a time limit or target error
+  std::optional<double> time_limit;       ///< seconds of rendering
+  std::optional<double> target_error;     ///< mean relative standard error
+  int max_depth = -1, rr_depth = 5;       ///< as in scene::RenderDefaults
   std::uint64_t seed = 0;
   std::int64_t first_sample = 0;    ///< index of every pixel's first sample
   std::vector<std::string> devices; ///< specifications of device::open_devices()
@@ -54,6 +56,11 @@ struct Settings {
 /// Whether light samples choose lights by contribution.
 [[nodiscard]] inline bool wants_light_tree(const Settings& settings) {
   return samples_lights(settings) && settings.light_selection == LightSelection::contribution;
+}
+
+/// Whether a pixel's samples form sets of Sobol points.
+[[nodiscard]] inline bool samples_sobol_points(const Settings& settings) {
+  return settings.sampler == Sampler::sobol && integrator_named(settings.integrator).eye_paths;
 }
 
 /// Names of the values of Connect and Weights, in their order.
@@ -104,6 +111,11 @@ struct Settings {
                       ": `contributions` shows every connection: leave out one of the two")
           .only_where(bidirectional,
                       " is for bidir alone: {} connects no vertices: leave it out or use `integrator` bidir"),
+      Setting("sampler", A::estimate, &Settings::sampler, OneOf{{"independent", "sobol"}}, "NAME",
+              "path and bidir, random numbers of a pixel's samples: independent, or sobol (points of "
+              "scrambled Sobol sets, which fill the space of paths more evenly)")
+          .only_where([](const Settings& s) { return integrator_named(s.integrator).eye_paths; },
+                      " is for path and bidir: light paths are independent: leave it out"),
       Setting("contributions", A::film, &Settings::techniques, Switch{"DIR"}, "", ""),
       Setting(
           "ambient", A::estimate, &Settings::ambient, Positive{}, "L",

@@ -4,16 +4,17 @@
 #ifndef PHLUX_RANDOM_H
 #define PHLUX_RANDOM_H
 
-#include "lanes/lanes.h"
+#include "math/sobol.h"
 
 // The paper's safety margin is 10 rounds; 7 is the fewest that passes BigCrush (its table 2).
 #ifndef PHILOX_ROUNDS
 #define PHILOX_ROUNDS 7
 #endif
 
-typedef struct {
-  Uint x, y, z, w;
-} RandomWords;
+// 1: the words of a path's first draws are points of Owen-scrambled Sobol sets.
+#ifndef HAS_SOBOL
+#define HAS_SOBOL 0
+#endif
 
 static inline RandomWords philox(RandomWords counter, uint2 key) {
   RandomWords c = counter;
@@ -33,21 +34,46 @@ static inline RandomWords philox(RandomWords counter, uint2 key) {
   return c;
 }
 
+// The sets of Sobol points of a launch: a pixel's samples from `first` on form sets of 2^bits samples.
+typedef struct {
+  uint first, bits;
+} PointSets;
+
 // A path's place in the sequence: the pixel (or light path) and the sample.
 typedef struct {
   Uint pixel, sample;
   uint2 seed;
+  PointSets sets; // used if HAS_SOBOL
 } RandomSequence;
 
-// Four random words for one purpose on one path. `dimension` numbers the purpose (say, 2 bounce + 1), `draw` the
-// repetition of a sampler that draws until it accepts.
-static inline RandomWords random_words(RandomSequence sequence, Uint dimension, uint draw) {
+// Further words from two of random_words, one for each number above 0: for many choices of small weight each. The
+// finishing steps of MurmurHash3 over a Weyl sequence.
+static inline Uint further_word(Uint first, Uint step, Uint number) {
+  Uint h = first + (step | 1u) * number;
+  h = (h ^ (h >> 16)) * 0x85ebca6bu;
+  h = (h ^ (h >> 13)) * 0xc2b2ae35u;
+  return h ^ (h >> 16);
+}
+
+// Four independent random words, see random_words.
+static inline RandomWords independent_words(RandomSequence sequence, Uint sample, Uint dimension, uint draw) {
   RandomWords counter;
   counter.x = sequence.pixel;
-  counter.y = sequence.sample;
+  counter.y = sample;
   counter.z = dimension;
   counter.w = (Uint)(draw);
   return philox(counter, sequence.seed);
+}
+
+// Four random words for one purpose on one path. `dimension` numbers the purpose (say, 2 bounce + 1), `draw` the
+// repetition of a sampler that draws until it accepts. If HAS_SOBOL, the words of draw 0 are those of a point of the
+// sample's set: sets are padded, that is, each set and dimension has scrambling and order of its own (Burley 2020).
+static inline RandomWords random_words(RandomSequence sequence, Uint dimension, uint draw) {
+  if (!HAS_SOBOL || draw > 0 || sequence.sets.bits == 0)
+    return independent_words(sequence, sequence.sample, dimension, draw);
+  const Uint number = (sequence.sample - sequence.sets.first) & ((1u << sequence.sets.bits) - 1u);
+  const RandomWords seeds = independent_words(sequence, sequence.sample - number, dimension, 0);
+  return sobol_point(number, (int)sequence.sets.bits, seeds, further_word(seeds.x, seeds.y, (Uint)(1u)));
 }
 
 // Random numbers for one sampling decision: the words of its first draw, and the place of further draws.
@@ -68,15 +94,6 @@ static inline RandomDraws random_draws(RandomSequence sequence, Uint dimension) 
 // The words of draw 1, 2, ...
 static inline RandomWords draw_again(RandomDraws random, uint draw) {
   return random_words(random.sequence, random.dimension, draw);
-}
-
-// Further words from two of random_words, one for each number above 0: for many choices of small weight each. The
-// finishing steps of MurmurHash3 over a Weyl sequence.
-static inline Uint further_word(Uint first, Uint step, Uint number) {
-  Uint h = first + (step | 1u) * number;
-  h = (h ^ (h >> 16)) * 0x85ebca6bu;
-  h = (h ^ (h >> 13)) * 0xc2b2ae35u;
-  return h ^ (h >> 16);
 }
 
 // Uniform in the open interval (0, 1): 2^23 equidistant values, the outer ones 2^-24 from the ends.
