@@ -104,7 +104,7 @@ void Launcher::start(Flight& flight) {
   kernel_.set("block_samples", static_cast<cl_int>(launch.block_samples));
   kernel_.set("point_sets",
               cl_uint2{{static_cast<cl_uint>(first_sample_),
-                        static_cast<cl_uint>(sobol_bits(launch.first_sample - first_sample_))}});
+                        static_cast<cl_uint>(point_bits(launch.first_sample - first_sample_))}});
   kernel_.set("batch_jobs", static_cast<cl_int>(plan.batch_jobs));
   kernel_.set("record_words", static_cast<cl_int>(record_words(parts_)));
   kernel_.set("record_capacity", static_cast<cl_int>(plan.record_capacity));

@@ -29,13 +29,13 @@ struct Parts {
   bool light_planar = false, light_sphere = false, light_point = false, light_spot = false,
        light_directional = false, light_constant = false;
   bool ambient = false;      ///< a control variate
-  bool sobol = false;        ///< samples are points of Sobol sets
   bool light_choice = false; ///< more than one light to choose from
   bool light_tree = false;   ///< light samples choose by contribution
   bool one_light = false, few_lights = false, few_materials = false,
        few_primitives = false; ///< optimizations
   Connect connect = Connect::mis;
   Weights weights = Weights::balance;
+  Sampler sampler = Sampler::independent;
   int connections = 0;            ///< as in Settings; 0: no roulette of connections
   bool techniques = false;        ///< records every contribution with its technique
   std::optional<double> clamp;    ///< largest contribution of a path to its own pixel, in units of the lights

@@ -12,13 +12,13 @@ namespace {
 constexpr std::int64_t endless = std::numeric_limits<std::int32_t>::max() / 2;
 
 // Of eight sets in an octave of samples.
-constexpr int octave_bits = 3, most_sobol_bits = 6;
+constexpr int octave_bits = 3, most_point_bits = 6;
 
 } // namespace
 
-int sobol_bits(std::int64_t sample) {
-  const int octave = std::bit_width(static_cast<std::uint64_t>(sample)) - 1;
-  return std::clamp(octave - octave_bits, 0, most_sobol_bits);
+int point_bits(std::int64_t sample) {
+  const int octave = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(sample))) - 1;
+  return std::clamp(octave - octave_bits, 0, most_point_bits);
 }
 
 Schedule::Schedule(std::int64_t pixels, std::optional<std::int64_t> samples, const SchedulePosition& from,
@@ -35,9 +35,9 @@ Schedule::Schedule(std::int64_t pixels, std::optional<std::int64_t> samples, con
 
 Schedule::Whole Schedule::whole_blocks(std::int64_t first_sample) const {
   if (blocks_ == Blocks::of_independent) return {samples_per_block, end_};
-  const int bits = sobol_bits(first_sample);
+  const int bits = point_bits(first_sample);
   const std::int64_t octave_end = std::int64_t{2} << (bits + octave_bits);
-  return {std::int64_t{1} << bits, bits == most_sobol_bits ? end_ : std::min(end_, octave_end)};
+  return {std::int64_t{1} << bits, bits == most_point_bits ? end_ : std::min(end_, octave_end)};
 }
 
 void Schedule::start_blocks(std::int64_t first_sample, std::int64_t end_sample, int block_samples) {

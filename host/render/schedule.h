@@ -14,16 +14,17 @@ namespace phlux::render {
 /// same for every device, launch length and number of threads.
 inline constexpr int samples_per_block = 16;
 
-/// How a pixel's samples form blocks. For independent samples, the length of blocks does not matter. Sobol
-/// points of a block have one scrambling, that of another block is independent, and a variance is estimated
-/// from the sums of blocks: their length grows with the number of samples, so that there are always enough.
-enum class Blocks { of_independent, of_sobol };
+/// How a pixel's samples form blocks. The length of blocks of independent samples does not matter. Samples of
+/// a point set depend on each other, and different sets do not: such a set is a block, and variances are
+/// estimated from the sums of blocks. Sets become longer with the number of samples, so that there are always
+/// enough of them.
+enum class Blocks { of_independent, of_point_sets };
 
-/// log2 of the length of the set of Sobol points to which a pixel's sample (from 0) belongs: the samples
-/// [2^k, 2^(k+1)) form eight sets, but single samples up to 16, and sets of at most 64. The longest are half
-/// of the samples: their sums are as good for a variance as those of 24 equal blocks (Kish 1965: sum(n)^2 /
-/// sum(n^2)).
-[[nodiscard]] int sobol_bits(std::int64_t sample);
+/// log2 of the length of the point set of a pixel's sample (from 0): the samples [2^k, 2^(k+1)) form eight
+/// sets, but sets have one sample up to sample 16, and at most 64. With 2^k samples, their number of equal
+/// sets that says as much of a variance, (sum of lengths)^2 / sum of squared lengths (Kish 1965), is at least
+/// 16.
+[[nodiscard]] int point_bits(std::int64_t sample);
 
 /// One launch: jobs [first_job, first_job + jobs), first_job < pixels. Job j is block j / pixels of pixel
 /// j % pixels; block b is the block_samples samples from first_sample + b * block_samples on.
@@ -47,8 +48,8 @@ struct SchedulePosition {
 
 /// The sequence of launches. With `samples` given, every pixel gets exactly that many, in blocks of
 /// samples_per_block and a last one of the rest. Otherwise it never ends, and the first blocks are short (1,
-/// 1, 2, 4, 8 samples), so that a render that is stopped early has samples in every pixel. Blocks of Sobol
-/// points are their sets; the last may be incomplete.
+/// 1, 2, 4, 8 samples), so that a render that is stopped early has samples in every pixel. Of point
+/// sets, the last may be incomplete.
 class Schedule {
 public:
   /// Continues `from` a position, whose end() is at most `samples`: first its missing launches, then the

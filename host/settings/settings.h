@@ -19,8 +19,8 @@ namespace phlux::settings {
 
 enum class Connect { none, light, mis };        ///< direct light from hits, light samples, or both with MIS
 enum class Weights { balance, power, uniform }; ///< weights of bidirectional techniques (Veach 1997)
-enum class LightSelection { power, contribution }; ///< probabilities of lights for light samples
-enum class Sampler { independent, sobol };         ///< how a pixel's samples relate
+enum class LightSelection { power, contribution };  ///< probabilities of lights for light samples
+enum class Sampler { independent, sobol, lattice }; ///< how the samples of a pixel are related
 enum class Traversal { automatic, brute_force, bvh };
 
 struct Settings {
@@ -58,9 +58,9 @@ struct Settings {
   return samples_lights(settings) && settings.light_selection == LightSelection::contribution;
 }
 
-/// Whether a pixel's samples form sets of Sobol points.
-[[nodiscard]] inline bool samples_sobol_points(const Settings& settings) {
-  return settings.sampler == Sampler::sobol && integrator_named(settings.integrator).eye_paths;
+/// Whether the samples of a pixel are points of sets.
+[[nodiscard]] inline bool samples_point_sets(const Settings& settings) {
+  return settings.sampler != Sampler::independent && integrator_named(settings.integrator).eye_paths;
 }
 
 /// Names of the values of Connect and Weights, in their order.
@@ -70,6 +70,12 @@ struct Settings {
 }
 [[nodiscard]] inline const std::vector<std::string>& weights_names() {
   static const std::vector<std::string> names = {"balance", "power", "uniform"};
+  return names;
+}
+
+/// Names of the values of Sampler, in their order.
+[[nodiscard]] inline const std::vector<std::string>& sampler_names() {
+  static const std::vector<std::string> names = {"independent", "sobol", "lattice"};
   return names;
 }
 
@@ -111,9 +117,9 @@ struct Settings {
                       ": `contributions` shows every connection: leave out one of the two")
           .only_where(bidirectional,
                       " is for bidir alone: {} connects no vertices: leave it out or use `integrator` bidir"),
-      Setting("sampler", A::estimate, &Settings::sampler, OneOf{{"independent", "sobol"}}, "NAME",
-              "path and bidir, random numbers of a pixel's samples: independent, or sobol (points of "
-              "scrambled Sobol sets, which fill the space of paths more evenly)")
+      Setting("sampler", A::estimate, &Settings::sampler, OneOf{sampler_names()}, "NAME",
+              "path and bidir, random numbers of a pixel's samples: independent, or points of sets that fill "
+              "the space of paths more evenly: sobol (scrambled Sobol points) or lattice (shifted lattices)")
           .only_where([](const Settings& s) { return integrator_named(s.integrator).eye_paths; },
                       " is for path and bidir: light paths are independent: leave it out"),
       Setting("contributions", A::film, &Settings::techniques, Switch{"DIR"}, "", ""),

@@ -4,16 +4,19 @@
 #ifndef PHLUX_RANDOM_H
 #define PHLUX_RANDOM_H
 
-#include "math/sobol.h"
+#include "math/point_sets.h"
 
 // The paper's safety margin is 10 rounds; 7 is the fewest that passes BigCrush (its table 2).
 #ifndef PHILOX_ROUNDS
 #define PHILOX_ROUNDS 7
 #endif
 
-// 1: the words of a path's first draws are points of Owen-scrambled Sobol sets.
-#ifndef HAS_SOBOL
-#define HAS_SOBOL 0
+// How the samples of a pixel are related: not at all, or as points of sets.
+#define SAMPLER_INDEPENDENT 0
+#define SAMPLER_SOBOL 1
+#define SAMPLER_LATTICE 2
+#ifndef SAMPLER
+#define SAMPLER SAMPLER_INDEPENDENT
 #endif
 
 static inline RandomWords philox(RandomWords counter, uint2 key) {
@@ -34,7 +37,7 @@ static inline RandomWords philox(RandomWords counter, uint2 key) {
   return c;
 }
 
-// The sets of Sobol points of a launch: a pixel's samples from `first` on form sets of 2^bits samples.
+// The point sets of a launch: a pixel's samples from `first` on form sets of 2^bits samples.
 typedef struct {
   uint first, bits;
 } PointSets;
@@ -43,17 +46,8 @@ typedef struct {
 typedef struct {
   Uint pixel, sample;
   uint2 seed;
-  PointSets sets; // used if HAS_SOBOL
+  PointSets sets; // without meaning for independent samples
 } RandomSequence;
-
-// Further words from two of random_words, one for each number above 0: for many choices of small weight each. The
-// finishing steps of MurmurHash3 over a Weyl sequence.
-static inline Uint further_word(Uint first, Uint step, Uint number) {
-  Uint h = first + (step | 1u) * number;
-  h = (h ^ (h >> 16)) * 0x85ebca6bu;
-  h = (h ^ (h >> 13)) * 0xc2b2ae35u;
-  return h ^ (h >> 16);
-}
 
 // Four independent random words, see random_words.
 static inline RandomWords independent_words(RandomSequence sequence, Uint sample, Uint dimension, uint draw) {
@@ -66,14 +60,14 @@ static inline RandomWords independent_words(RandomSequence sequence, Uint sample
 }
 
 // Four random words for one purpose on one path. `dimension` numbers the purpose (say, 2 bounce + 1), `draw` the
-// repetition of a sampler that draws until it accepts. If HAS_SOBOL, the words of draw 0 are those of a point of the
-// sample's set: sets are padded, that is, each set and dimension has scrambling and order of its own (Burley 2020).
+// repetition of a sampler that draws until it accepts. With a sampler of point sets, the words of draw 0 are a point of
+// the sample's set. Sets are padded: each set and dimension is randomized by itself.
 static inline RandomWords random_words(RandomSequence sequence, Uint dimension, uint draw) {
-  if (!HAS_SOBOL || draw > 0 || sequence.sets.bits == 0)
+  if (SAMPLER == SAMPLER_INDEPENDENT || draw > 0 || sequence.sets.bits == 0)
     return independent_words(sequence, sequence.sample, dimension, draw);
   const Uint number = (sequence.sample - sequence.sets.first) & ((1u << sequence.sets.bits) - 1u);
-  const RandomWords seeds = independent_words(sequence, sequence.sample - number, dimension, 0);
-  return sobol_point(number, (int)sequence.sets.bits, seeds, further_word(seeds.x, seeds.y, (Uint)(1u)));
+  const RandomWords random = independent_words(sequence, sequence.sample - number, dimension, 0);
+  return SAMPLER == SAMPLER_SOBOL ? sobol_point(number, random) : lattice_point(number, sequence.sets.bits, random);
 }
 
 // Random numbers for one sampling decision: the words of its first draw, and the place of further draws.
@@ -94,6 +88,15 @@ static inline RandomDraws random_draws(RandomSequence sequence, Uint dimension) 
 // The words of draw 1, 2, ...
 static inline RandomWords draw_again(RandomDraws random, uint draw) {
   return random_words(random.sequence, random.dimension, draw);
+}
+
+// Further words from two of random_words, one for each number above 0: for many choices of small weight each. The
+// finishing steps of MurmurHash3 over a Weyl sequence.
+static inline Uint further_word(Uint first, Uint step, Uint number) {
+  Uint h = first + (step | 1u) * number;
+  h = (h ^ (h >> 16)) * 0x85ebca6bu;
+  h = (h ^ (h >> 13)) * 0xc2b2ae35u;
+  return h ^ (h >> 16);
 }
 
 // Uniform in the open interval (0, 1): 2^23 equidistant values, the outer ones 2^-24 from the ends.

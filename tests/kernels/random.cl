@@ -30,14 +30,10 @@ __kernel void set_words(__global const Uint* sample, uint pixel, uint dimension,
 }
 
 // Not scrambled.
-__kernel void sobol_points(__global const Uint* index, int bits, __global RandomWords* answer) {
-  const size_t i = get_global_id(0);
-  RandomWords point = sobol_point_reversed(index[i], bits);
-  point.x = reverse_bits(point.x);
-  point.y = reverse_bits(point.y);
-  point.z = reverse_bits(point.z);
-  point.w = reverse_bits(point.w);
-  answer[i] = point;
+__kernel void sobol_points(__global const Uint* number, __global RandomWords* answer) {
+  RandomWords none;
+  none.x = none.y = none.z = none.w = (Uint)(0u);
+  answer[get_global_id(0)] = sobol_point(number[get_global_id(0)], none);
 }
 
 __kernel void uniforms(__global const Uint* word, __global Real* uniform) {

@@ -63,7 +63,9 @@ std::vector<Words> random_counters(std::size_t count, Random& random) {
   return counters;
 }
 
-const std::map<std::string, std::string> with_sobol = {{"HAS_SOBOL", "1"}};
+Program with_sampler(const Variant& v, const char* sampler) {
+  return {v, read_file("random.cl"), {{"SAMPLER", sampler}}};
+}
 
 std::vector<std::uint32_t> numbers_from(std::uint32_t first, std::size_t count) {
   std::vector<std::uint32_t> numbers(count);
@@ -118,15 +120,15 @@ TEST_CASE("random: points that are not scrambled are those of Boost.Random's Sob
   for (const Variant v : variants) {
     CAPTURE(v);
     std::vector<Words> answers(count);
-    program_of("random.cl", v).run("sobol_points", count, numbers_from(1, count), 6, out(answers));
+    program_of("random.cl", v).run("sobol_points", count, numbers_from(1, count), out(answers));
     CHECK(std::set<Words>(answers.begin(), answers.end()) == expected);
   }
 }
 
-TEST_CASE("random: sets of Sobol samples and their first 2^k points are nets, each scrambled by itself") {
+TEST_CASE("random: sets of Sobol points and their first 2^k points are nets") {
   for (const Variant v : variants) {
     CAPTURE(v);
-    const Program program(v, read_file("random.cl"), with_sobol);
+    const Program program = with_sampler(v, "SAMPLER_SOBOL");
     for (const std::uint32_t bits : {1u, 3u, 6u}) {
       const std::size_t length = std::size_t{1} << bits;
       const std::vector<Words> words = set_words(program, 4 * length, bits, 5, 2, 9);
@@ -137,43 +139,62 @@ TEST_CASE("random: sets of Sobol samples and their first 2^k points are nets, ea
           for (std::size_t dimension = 2; dimension < 4; ++dimension)
             CHECK(is_stratified(&words[set * length], part, dimension));
         }
-      CHECK(set_words(program, length, bits, 6, 2, 9)[0] != words[0]);
-      CHECK(set_words(program, length, bits, 5, 3, 9)[0] != words[0]);
-      CHECK(set_words(program, length, bits, 5, 2, 8)[0] != words[0]);
-      CHECK(set_words(program, length, bits, 5, 2, 9)[0] == words[0]);
     }
-    CHECK(set_words(program, 8, 0, 5, 2, 9) == [&] { // sets of one sample are independent samples
-      std::vector<Words> words;
-      for (std::uint32_t sample = 1000; sample < 1008; ++sample)
-        words.push_back(random123(7, {5, sample, 2, 0}, {9, 0}));
-      return words;
-    }());
   }
 }
 
-// Over scramblings, the first, the last and the product of two points of a set are as those of independent
-// uniform numbers, but for the strata. 2 x 4 means and 4 correlations within 4.5 standard errors: false alarm
-// 1e-4.
-TEST_CASE("random: each Sobol point is uniform, and dimensions that are padded do not correlate") {
+TEST_CASE("random: sets of lattice points are stratified in each dimension") {
+  for (const Variant v : variants) {
+    CAPTURE(v);
+    const Program program = with_sampler(v, "SAMPLER_LATTICE");
+    for (const std::uint32_t bits : {1u, 3u, 6u})
+      for (std::size_t dimension = 0; dimension < 4; ++dimension)
+        CHECK(is_stratified(set_words(program, 1u << bits, bits, 5, 2, 9).data(), 1u << bits, dimension));
+  }
+}
+
+TEST_CASE("random: sets differ by pixel, dimension, seed and number; sets of one sample are independent") {
+  for (const char* sampler : {"SAMPLER_SOBOL", "SAMPLER_LATTICE"}) {
+    CAPTURE(sampler);
+    const Program program = with_sampler({16}, sampler);
+    const std::vector<Words> words = set_words(program, 16, 3, 5, 2, 9);
+    CHECK(set_words(program, 16, 3, 5, 2, 9) == words);
+    CHECK(words[0] != words[8]);
+    CHECK(set_words(program, 16, 3, 6, 2, 9)[0] != words[0]);
+    CHECK(set_words(program, 16, 3, 5, 3, 9)[0] != words[0]);
+    CHECK(set_words(program, 16, 3, 5, 2, 8)[0] != words[0]);
+    const std::vector<Words> single = set_words(program, 16, 0, 5, 2, 9);
+    for (std::uint32_t i = 0; i < 16; ++i) CHECK(single[i] == random123(7, {5, 1000 + i, 2, 0}, {9, 0}));
+  }
+}
+
+// Over 20,000 sets: means of the first and the last point, the mean product of two words of a point, and that
+// of words of a point in two padded dimensions. 4 x 4 values and two samplers within 4.5 standard errors:
+// false alarm 2e-4.
+TEST_CASE("random: each point of a set is uniform, and its words are independent") {
   constexpr std::uint32_t sets = 20'000, bits = 4;
   constexpr double limit = 4.5;
-  const Program program({16}, read_file("random.cl"), with_sobol);
-  const std::vector<Words> one = set_words(program, sets << bits, bits, 5, 2, 9);
-  const std::vector<Words> other = set_words(program, sets << bits, bits, 5, 3, 9);
-  const auto real = [](std::uint32_t word) { return word / 4294967296.0 - 0.5; };
-  const double n = sets, of_mean = std::sqrt(1.0 / 12.0 / n), of_product = 1.0 / 12.0 / std::sqrt(n);
-  for (std::size_t dimension = 0; dimension < 4; ++dimension) {
-    double first = 0.0, last = 0.0, product = 0.0;
-    for (std::uint32_t set = 0; set < sets; ++set) {
-      const std::size_t begin = std::size_t{set} << bits, end = begin + (1u << bits) - 1;
-      first += real(one[begin][dimension]) / n;
-      last += real(one[end][dimension]) / n;
-      product += real(one[begin][dimension]) * real(other[begin][dimension]) / n;
+  for (const char* sampler : {"SAMPLER_SOBOL", "SAMPLER_LATTICE"}) {
+    const Program program = with_sampler({16}, sampler);
+    const std::vector<Words> one = set_words(program, sets << bits, bits, 5, 2, 9);
+    const std::vector<Words> other = set_words(program, sets << bits, bits, 5, 3, 9);
+    const auto real = [](std::uint32_t word) { return word / 4294967296.0 - 0.5; };
+    const double n = sets, of_mean = std::sqrt(1.0 / 12.0 / n), of_product = 1.0 / 12.0 / std::sqrt(n);
+    for (std::size_t dimension = 0; dimension < 4; ++dimension) {
+      double first = 0.0, last = 0.0, product = 0.0, padded = 0.0;
+      for (std::uint32_t set = 0; set < sets; ++set) {
+        const std::size_t begin = std::size_t{set} << bits, end = begin + (1u << bits) - 1;
+        first += real(one[begin][dimension]) / n;
+        last += real(one[end][dimension]) / n;
+        product += real(one[end][dimension]) * real(one[end][(dimension + 1) % 4]) / n;
+        padded += real(one[end][dimension]) * real(other[end][dimension]) / n;
+      }
+      CAPTURE(sampler, dimension);
+      CHECK(std::abs(first) < limit * of_mean);
+      CHECK(std::abs(last) < limit * of_mean);
+      CHECK(std::abs(product) < limit * of_product);
+      CHECK(std::abs(padded) < limit * of_product);
     }
-    CAPTURE(dimension);
-    CHECK(std::abs(first) < limit * of_mean);
-    CHECK(std::abs(last) < limit * of_mean);
-    CHECK(std::abs(product) < limit * of_product);
   }
 }
 

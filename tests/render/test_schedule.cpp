@@ -109,14 +109,14 @@ TEST_CASE("a schedule with another number of samples goes on without a gap and w
     }
 }
 
-TEST_CASE("sets of Sobol points grow with the number of samples") {
-  Schedule schedule(1, 1100, {}, Blocks::of_sobol);
+TEST_CASE("point sets grow with the number of samples") {
+  Schedule schedule(1, 1100, {}, Blocks::of_point_sets);
   std::int64_t next = 0;
   std::map<int, int> counts; // of blocks, by length
   double squares = 0.0;
   for (std::int64_t done = 0; const auto launch = schedule.next([](std::int64_t, int) { return 1; });) {
     CHECK(launch->first_sample == next);
-    const int length = 1 << sobol_bits(next);
+    const int length = 1 << point_bits(next);
     CHECK(next % length == 0);
     CHECK(launch->block_samples == std::min<std::int64_t>(length, 1100 - next));
     next += launch->block_samples;
@@ -130,20 +130,20 @@ TEST_CASE("sets of Sobol points grow with the number of samples") {
   CHECK(counts == std::map<int, int>{{1, 16}, {2, 8}, {4, 8}, {8, 8}, {16, 8}, {32, 8}, {64, 9}, {12, 1}});
 }
 
-TEST_CASE("a schedule of Sobol points goes on where another stopped") {
+TEST_CASE("a schedule of point sets goes on where another stopped") {
   for (const std::int64_t before : {5, 20, 32, 100, 600})
     for (const std::int64_t after : {600, 1000})
       for (int launches = 1; launches <= 40; ++launches) {
         CAPTURE(before, after, launches);
-        Schedule first(pixels, before, {}, Blocks::of_sobol);
+        Schedule first(pixels, before, {}, Blocks::of_point_sets);
         std::vector<Job> jobs = jobs_of(first, 4, launches);
-        Schedule second(pixels, after, first.position(), Blocks::of_sobol);
+        Schedule second(pixels, after, first.position(), Blocks::of_point_sets);
         const std::vector<Job> rest = jobs_of(second, 5);
         jobs.insert(jobs.end(), rest.begin(), rest.end());
         const std::vector<int> once(static_cast<std::size_t>(after), 1);
         CHECK(samples_in(jobs) == std::vector<std::vector<int>>(pixels, once));
         for (const Job& job : rest) { // no block is in two sets
-          const int length = 1 << sobol_bits(job.first_sample);
+          const int length = 1 << point_bits(job.first_sample);
           CHECK(job.first_sample / length == (job.first_sample + job.samples - 1) / length);
         }
       }
