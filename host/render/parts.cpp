@@ -108,6 +108,7 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
   if (settings.clamp) parts.clamp = *settings.clamp / lights.unit;
   if (parts.clamp && parts.techniques)
     throw UsageError("`clamp`: contributions of techniques are not clamped: leave out `contributions`");
+  if (samples_point_sets(settings)) parts.sampler = settings.sampler;
   parts.ambient = settings.ambient.has_value();
   if (parts.ambient && parts.integrator != Integrator::path)
     throw UsageError("`ambient`: only paths from the eye can carry the ambient term: use `integrator` path");
@@ -208,6 +209,9 @@ std::map<std::string, std::string> Parts::defines() const {
   macros["WEIGHTS"] = weights == Weights::balance ? "WEIGHTS_BALANCE"
                       : weights == Weights::power ? "WEIGHTS_POWER"
                                                   : "WEIGHTS_UNIFORM";
+  macros["SAMPLER"] = sampler == Sampler::independent ? "SAMPLER_INDEPENDENT"
+                      : sampler == Sampler::sobol     ? "SAMPLER_SOBOL"
+                                                      : "SAMPLER_LATTICE";
   macros["PHONG_TABLE_INTERVALS"] = std::to_string(phong::reflectivity_intervals);
   if (double_precision) macros["PHLUX_DOUBLE"] = "1";
   macros["WIDTH"] = std::to_string(lanes);

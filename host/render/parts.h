@@ -37,6 +37,7 @@ struct Parts {
        few_primitives = false; ///< optimizations
   Connect connect = Connect::mis;
   Weights weights = Weights::balance;
+  Sampler sampler = Sampler::independent;
   int connections = 0;            ///< as in Settings; 0: no roulette of connections
   bool techniques = false;        ///< records every contribution with its technique
   std::optional<double> clamp;    ///< largest contribution of a path to its own pixel, in units of the lights

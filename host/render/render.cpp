@@ -47,7 +47,8 @@ public:
         seconds_before_(from.seconds_render), open_ended_(settings.time_limit || settings.target_error),
         schedule_(static_cast<std::int64_t>(film.pixels().size()),
                   open_ended_ ? std::nullopt : std::optional<std::int64_t>(settings.samples_per_pixel),
-                  from.position),
+                  from.position,
+                  samples_point_sets(settings) ? Blocks::of_point_sets : Blocks::of_independent),
         counts_(from), started_paths_(from.paths) {
     if (settings.target_error) target_.emplace(*settings.target_error, film.pixels().size());
     ended_ = from.paths > 0 && precise_enough();
@@ -351,6 +352,7 @@ Statistics Renderer::render(const Settings& settings, film::Film& film, const Ev
     set_unit(film, ready_->unit);
     if (settings.clamp) film.set_clamp(*settings.clamp);
     if (settings.techniques) film.use_techniques();
+    if (samples_point_sets(settings)) film.use_dependent_samples();
     for (const Worker& worker : ready_->workers) worker.launcher->begin(settings);
     DispatchLoop loop(settings, film, events, from);
     run_all(loop, ready_->workers);

@@ -16,6 +16,7 @@ using settings::Connect;
 using settings::connect_names;
 using settings::Integrator;
 using settings::LightSelection;
+using settings::Sampler;
 using settings::Settings;
 using settings::strategy_names;
 using settings::Traversal;

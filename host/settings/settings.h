@@ -19,7 +19,8 @@ namespace phlux::settings {
 
 enum class Connect { none, light, mis };        ///< direct light from hits, light samples, or both with MIS
 enum class Weights { balance, power, uniform }; ///< weights of bidirectional techniques (Veach 1997)
-enum class LightSelection { power, contribution }; ///< probabilities of lights for light samples
+enum class LightSelection { power, contribution };  ///< probabilities of lights for light samples
+enum class Sampler { independent, sobol, lattice }; ///< how the samples of a pixel are related
 enum class Traversal { automatic, brute_force, bvh };
 
 struct Settings {
@@ -30,12 +31,13 @@ struct Settings {
   LightSelection light_selection = LightSelection::contribution; ///< path, bidir
   int connections = 2;     ///< bidir: mean number of connections made per path length, by roulette; 0: all
   bool techniques = false; ///< light, bidir: the film also records each technique's contributions
-  std::optional<double> ambient;      ///< path: radiance of a control variate (CW 197, 2.2, reference 15)
-  std::optional<double> clamp;        ///< largest contribution of a path to a pixel, a radiance; causes bias
-  int samples_per_pixel = 4;          ///< ignored with a time limit or target error
-  std::optional<double> time_limit;   ///< seconds of rendering
-  std::optional<double> target_error; ///< mean relative standard error
-  int max_depth = -1, rr_depth = 5;   ///< as in scene::RenderDefaults
+  std::optional<double> ambient; ///< path: radiance of a control variate (CW 197, 2.2, reference 15)
+  std::optional<double> clamp;   ///< largest contribution of a path to a pixel, a radiance; causes bias
+  Sampler sampler = Sampler::independent; ///< path, bidir
+  int samples_per_pixel = 4;              ///< ignored with a time limit or target error
+  std::optional<double> time_limit;       ///< seconds of rendering
+  std::optional<double> target_error;     ///< mean relative standard error
+  int max_depth = -1, rr_depth = 5;       ///< as in scene::RenderDefaults
   std::uint64_t seed = 0;
   std::int64_t first_sample = 0;    ///< index of every pixel's first sample
   std::vector<std::string> devices; ///< specifications of device::open_devices()
@@ -56,6 +58,11 @@ struct Settings {
   return samples_lights(settings) && settings.light_selection == LightSelection::contribution;
 }
 
+/// Whether the samples of a pixel are points of sets.
+[[nodiscard]] inline bool samples_point_sets(const Settings& settings) {
+  return settings.sampler != Sampler::independent && integrator_named(settings.integrator).eye_paths;
+}
+
 /// Names of the values of Connect and Weights, in their order.
 [[nodiscard]] inline const std::vector<std::string>& connect_names() {
   static const std::vector<std::string> names = {"none", "light", "mis"};
@@ -63,6 +70,12 @@ struct Settings {
 }
 [[nodiscard]] inline const std::vector<std::string>& weights_names() {
   static const std::vector<std::string> names = {"balance", "power", "uniform"};
+  return names;
+}
+
+/// Names of the values of Sampler, in their order.
+[[nodiscard]] inline const std::vector<std::string>& sampler_names() {
+  static const std::vector<std::string> names = {"independent", "sobol", "lattice"};
   return names;
 }
 
@@ -104,6 +117,11 @@ struct Settings {
                       ": `contributions` shows every connection: leave out one of the two")
           .only_where(bidirectional,
                       " is for bidir alone: {} connects no vertices: leave it out or use `integrator` bidir"),
+      Setting("sampler", A::estimate, &Settings::sampler, OneOf{sampler_names()}, "NAME",
+              "path and bidir, random numbers of a pixel's samples: independent, or points of sets that fill "
+              "the space of paths more evenly: sobol (scrambled Sobol points) or lattice (shifted lattices)")
+          .only_where([](const Settings& s) { return integrator_named(s.integrator).eye_paths; },
+                      " is for path and bidir: light paths are independent: leave it out"),
       Setting("contributions", A::film, &Settings::techniques, Switch{"DIR"}, "", ""),
       Setting(
           "ambient", A::estimate, &Settings::ambient, Positive{}, "L",

@@ -18,6 +18,7 @@ typedef struct {
   PathLimits limits;
   int sky_light;
   uint2 seed;
+  PointSets sets;
   ShadowQueue queue;
   Output output;
   VertexStore light, eye; // bidir
@@ -170,7 +171,7 @@ static inline MisQuantities mis_arrived_from_light(const Scene* scene, const Sub
 // that bidirectional path tracing stores.
 static inline int trace_light_subpaths(WorkItem* work, Batch batch) {
   const Scene* scene = work->scene;
-  Subpath s = no_subpath(work->seed), next = no_subpath(work->seed);
+  Subpath s = no_subpath(work->seed, work->sets), next = s;
   WaitingSubpaths waiting;
   waiting.count = 0;
   StoredSubpath stored = nothing_stored();

@@ -32,13 +32,14 @@ static inline Vec3 ambient_variate(Vertex v, MaterialSample sample, Vec3 through
 }
 
 __kernel void trace_paths(SCENE_PARAMETERS, int pixel_count, int first_pixel, int job_count, int first_sample,
-                          int block_samples, uint2 seed, int max_edges, int roulette_edges, __global uint* counters,
+                          int block_samples, uint2 seed, uint2 point_sets, int max_edges, int roulette_edges, __global uint* counters,
                           int sky_light, float ambient, __global float* sums) {
   SCENE_FROM_PARAMETERS
   const JobList list = {pixel_count, first_pixel, job_count, first_sample, block_samples};
   const PathLimits limits = {max_edges, roulette_edges};
+  const PointSets sets = {point_sets.x, point_sets.y};
   Job job = first_job(list);
-  Subpath path = no_subpath(seed);
+  Subpath path = no_subpath(seed, sets);
   Vec3 radiance = vec_all((Real)(0.0f));
   Uint rays = (Uint)(0u), shadow_rays = (Uint)(0u);
   Mask alive = NO_LANES;

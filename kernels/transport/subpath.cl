@@ -48,12 +48,13 @@ typedef struct {
   Vec3 fixed; // back along the subpath, in the shading frame
 } Vertex;
 
-static inline Subpath no_subpath(uint2 seed) {
+static inline Subpath no_subpath(uint2 seed, PointSets sets) {
   Subpath s;
   s.ray.origin = s.ray.direction = s.throughput = s.normal = vec_all((Real)(0.0f));
   s.edges = s.path = s.light = (Int)(0);
   s.sequence.pixel = s.sequence.sample = (Uint)(0u);
   s.sequence.seed = seed;
+  s.sequence.sets = sets;
   s.density = s.cosine_density = s.mis.d_vcm = s.mis.d_vc = s.light_cosine = (Real)(0.0f);
   s.delta = NO_LANES;
   return s;

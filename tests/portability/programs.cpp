@@ -89,6 +89,11 @@ Parts with_clamp(Parts parts) {
   return parts;
 }
 
+Parts with_sampler(Parts parts, render::Sampler sampler) {
+  parts.sampler = sampler;
+  return parts;
+}
+
 Parts with_roulette_of_connections(Parts parts) {
   parts.connections = 2;
   return parts;
@@ -129,6 +134,7 @@ const std::vector<SceneProgram>& scene_programs() {
       {"diffuse-box", parts_of(diffuse, "cosine")},
       {"few-in-diffuse-box", few_of_all(parts_of(diffuse, "cosine"))},
       {"glossy-spheres", parts_of(glossy, "exact")},
+      {"glossy-spheres-sobol", with_sampler(parts_of(glossy, "exact"), render::Sampler::sobol)},
       {"ambient", with_clamp(parts_of(ambient, "lobe-rho"))},
       {"mesh", connecting(parts_of(triangles, "lobe-ks"), Connect::light)},
       {"sphere-in-sky", connecting(parts_of(sky, "mixture"), Connect::none)},
@@ -150,6 +156,8 @@ const std::vector<SceneProgram>& scene_programs() {
       {"parallel-light", by(Integrator::light, parts_of(parallel, "exact"))},
       {"parallel-bidir", by(Integrator::bidir, parts_of(parallel, "exact"))},
       {"mirrors-bidir", by(Integrator::bidir, parts_of(mirrors, "exact"))},
+      {"glossy-spheres-bidir-lattice",
+       with_sampler(by(Integrator::bidir, parts_of(glossy, "exact")), render::Sampler::lattice)},
       // With every part, double precision needs more registers than a thread can have.
       {"brushed-double", in_double(parts_of("parallelograms anisotropicphong light_planar", "exact"))},
       {"mirrors-double", in_double(parts_of(mirrors, "exact"))},
