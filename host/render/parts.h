@@ -35,6 +35,7 @@ struct Parts {
        few_primitives = false; ///< optimizations
   Connect connect = Connect::mis;
   Weights weights = Weights::balance;
+  Roulette roulette = Roulette::strategy;
   int connections = 0;            ///< as in Settings; 0: no roulette of connections
   bool techniques = false;        ///< records every contribution with its technique
   std::optional<double> clamp;    ///< largest contribution of a path to its own pixel, in units of the lights

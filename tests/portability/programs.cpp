@@ -15,6 +15,7 @@ namespace {
 using render::Connect;
 using render::Integrator;
 using render::Parts;
+using render::Roulette;
 using render::Weights;
 
 const std::vector<lobes::ModelPointer>& models() {
@@ -94,6 +95,11 @@ Parts with_roulette_of_connections(Parts parts) {
   return parts;
 }
 
+Parts with_roulette(Parts parts, Roulette roulette) {
+  parts.roulette = roulette;
+  return parts;
+}
+
 Parts few_of_all(Parts parts) {
   parts.one_light = parts.few_lights = parts.few_materials = parts.few_primitives = true;
   return parts;
@@ -132,6 +138,8 @@ const std::vector<SceneProgram>& scene_programs() {
       {"everything-light", by(Integrator::light, everything())},
       {"diffuse-box-light", by(Integrator::light, parts_of(diffuse, "cosine"))},
       {"glossy-spheres-light", by(Integrator::light, parts_of(glossy, "exact"))},
+      {"glossy-spheres-light-roulette",
+       with_roulette(by(Integrator::light, parts_of(glossy, "exact")), Roulette::throughput)},
       {"sky-light", with_techniques(by(Integrator::light, parts_of(sky, "mixture")))},
       {"everything-bidir", by(Integrator::bidir, everything())},
       {"diffuse-box-bidir", by(Integrator::bidir, parts_of(diffuse, "cosine"))},
@@ -140,6 +148,10 @@ const std::vector<SceneProgram>& scene_programs() {
       {"glossy-spheres-bidir-clamp", with_clamp(by(Integrator::bidir, parts_of(glossy, "exact")))},
       {"mesh-bidir",
        with_techniques(by(Integrator::bidir, parts_of(triangles, "lobe-ks"), Weights::uniform))},
+      {"glossy-spheres-bidir-roulette",
+       with_roulette(by(Integrator::bidir, parts_of(glossy, "exact")), Roulette::efficiency)},
+      {"diffuse-box-roulette", with_roulette(parts_of(diffuse, "cosine"), Roulette::reflectivity)},
+      {"glossy-spheres-roulette", with_roulette(parts_of(glossy, "lobe-rho"), Roulette::kd_ks)},
       {"mirrors-bidir", by(Integrator::bidir, parts_of(mirrors, "exact"))},
       // With every part, double precision needs more registers than a thread can have.
       {"brushed-double", in_double(parts_of("parallelograms anisotropicphong light_planar", "exact"))},
