@@ -101,6 +101,7 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
   parts.integrator = settings::integrator_named(settings.integrator).integrator;
   parts.weights = settings.weights;
   parts.techniques = settings.techniques;
+  parts.roulette = settings.roulette;
   if (parts.techniques && parts.integrator == Integrator::path)
     throw UsageError("`contributions`: path tracing has only one technique: use `integrator` bidir or light");
   // Images of techniques need every connection.
@@ -212,6 +213,11 @@ std::map<std::string, std::string> Parts::defines() const {
   macros["SAMPLER"] = sampler == Sampler::independent ? "SAMPLER_INDEPENDENT"
                       : sampler == Sampler::sobol     ? "SAMPLER_SOBOL"
                                                       : "SAMPLER_LATTICE";
+  macros["ROULETTE"] = roulette == Roulette::strategy       ? "ROULETTE_STRATEGY"
+                       : roulette == Roulette::reflectivity ? "ROULETTE_REFLECTIVITY"
+                       : roulette == Roulette::kd_ks        ? "ROULETTE_KD_KS"
+                       : roulette == Roulette::throughput   ? "ROULETTE_THROUGHPUT"
+                                                            : "ROULETTE_EFFICIENCY";
   macros["PHONG_TABLE_INTERVALS"] = std::to_string(phong::reflectivity_intervals);
   if (double_precision) macros["PHLUX_DOUBLE"] = "1";
   macros["WIDTH"] = std::to_string(lanes);

@@ -38,6 +38,7 @@ struct Parts {
   Connect connect = Connect::mis;
   Weights weights = Weights::balance;
   Sampler sampler = Sampler::independent;
+  Roulette roulette = Roulette::strategy;
   int connections = 0;            ///< as in Settings; 0: no roulette of connections
   bool techniques = false;        ///< records every contribution with its technique
   std::optional<double> clamp;    ///< largest contribution of a path to its own pixel, in units of the lights

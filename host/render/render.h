@@ -16,6 +16,8 @@ using settings::Connect;
 using settings::connect_names;
 using settings::Integrator;
 using settings::LightSelection;
+using settings::Roulette;
+using settings::roulette_names;
 using settings::Sampler;
 using settings::Settings;
 using settings::strategy_names;

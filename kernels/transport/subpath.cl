@@ -21,6 +21,7 @@
 typedef struct {
   Ray ray;
   Vec3 throughput; // of importance (eye subpaths) or power (light subpaths)
+  Real begin;      // largest channel of its first throughput, for roulette by throughput
   Int edges;       // so far
   Int path;        // number in the batch
   RandomSequence sequence;
@@ -55,7 +56,7 @@ static inline Subpath no_subpath(uint2 seed, PointSets sets) {
   s.sequence.pixel = s.sequence.sample = (Uint)(0u);
   s.sequence.seed = seed;
   s.sequence.sets = sets;
-  s.density = s.cosine_density = s.mis.d_vcm = s.mis.d_vc = s.light_cosine = (Real)(0.0f);
+  s.begin = s.density = s.cosine_density = s.mis.d_vcm = s.mis.d_vc = s.light_cosine = (Real)(0.0f);
   s.delta = NO_LANES;
   return s;
 }
@@ -104,7 +105,8 @@ static inline Mask leaves(Vec3 generated, Real geometric_cosine) {
 // light subpaths. *sample is the event.
 static inline Mask scatter(Subpath* s, Vertex v, int adjoint, Uint dimension, PathLimits limits, MaterialSample* sample,
                            Mask m) {
-  *sample = material_sample(v.material, v.fixed, random_draws(s->sequence, dimension), s->edges >= limits.roulette, m);
+  *sample = material_sample(v.material, v.fixed, random_draws(s->sequence, dimension),
+                            vec_scale(1.0f / s->begin, s->throughput), s->edges >= limits.roulette, m);
   const Vec3 direction = from_frame(v.point.frame, sample->direction);
   const Real cosine = vec_dot(v.point.normal, direction);
   s->throughput = vec_mul(s->throughput, sample->weight);

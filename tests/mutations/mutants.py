@@ -123,6 +123,7 @@ MIRROR_BALL = ("test_images", "mirrors: a ball in a furnace*")
 MAPS, MAP_RENDERS = ("test_kernels", "environment maps:*"), ("test_images", "environment maps:*")
 CAMERA_RENDERS = ("test_images", "cameras:*")
 REMEDIES = ("test_images", "light samples by power*,roulette of connections leaves*")
+ROULETTES = ("test_images", "every roulette*")
 
 INTEGRATOR_MUTANTS = [
     ("splat without its cosine", "transport/light_subpath.cl",
@@ -259,6 +260,8 @@ INTEGRATOR_MUTANTS = [
      "geometry", REMEDIES),
     ("roulette of connections divided out of those that are made anyway", "transport/bidir.cl",
      "pairing & !is_connected(pair)", "pairing & NO_LANES", REMEDIES),
+    ("light subpaths' roulette by their power", "transport/light_subpath.cl", "s->begin = vec_max(s->throughput);",
+     "s->begin = (Real)(1.0f);", ROULETTES),
     ("a path taken twice", "transport/batch.cl",
      "batch->next = min(batch->next + count_lanes(idle), batch->path_count);",
      "batch->next = min(batch->next + max(count_lanes(idle) - 1, 1), batch->path_count);", BATCHES),

@@ -15,6 +15,7 @@ namespace {
 using render::Connect;
 using render::Integrator;
 using render::Parts;
+using render::Roulette;
 using render::Weights;
 
 const std::vector<lobes::ModelPointer>& models() {
@@ -99,6 +100,11 @@ Parts with_roulette_of_connections(Parts parts) {
   return parts;
 }
 
+Parts with_roulette(Parts parts, Roulette roulette) {
+  parts.roulette = roulette;
+  return parts;
+}
+
 Parts few_of_all(Parts parts) {
   parts.one_light = parts.few_lights = parts.few_materials = parts.few_primitives = true;
   return parts;
@@ -141,6 +147,8 @@ const std::vector<SceneProgram>& scene_programs() {
       {"everything-light", by(Integrator::light, everything())},
       {"diffuse-box-light", by(Integrator::light, parts_of(diffuse, "cosine"))},
       {"glossy-spheres-light", by(Integrator::light, parts_of(glossy, "exact"))},
+      {"glossy-spheres-light-roulette",
+       with_roulette(by(Integrator::light, parts_of(glossy, "exact")), Roulette::throughput)},
       {"sky-light", with_techniques(by(Integrator::light, parts_of(sky, "mixture")))},
       {"everything-bidir", by(Integrator::bidir, everything())},
       {"diffuse-box-bidir", by(Integrator::bidir, parts_of(diffuse, "cosine"))},
@@ -155,6 +163,10 @@ const std::vector<SceneProgram>& scene_programs() {
       {"parallel", parts_of(parallel, "exact")},
       {"parallel-light", by(Integrator::light, parts_of(parallel, "exact"))},
       {"parallel-bidir", by(Integrator::bidir, parts_of(parallel, "exact"))},
+      {"glossy-spheres-bidir-roulette",
+       with_roulette(by(Integrator::bidir, parts_of(glossy, "exact")), Roulette::efficiency)},
+      {"diffuse-box-roulette", with_roulette(parts_of(diffuse, "cosine"), Roulette::reflectivity)},
+      {"glossy-spheres-roulette", with_roulette(parts_of(glossy, "lobe-rho"), Roulette::kd_ks)},
       {"mirrors-bidir", by(Integrator::bidir, parts_of(mirrors, "exact"))},
       {"glossy-spheres-bidir-lattice",
        with_sampler(by(Integrator::bidir, parts_of(glossy, "exact")), render::Sampler::lattice)},
