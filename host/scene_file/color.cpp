@@ -11,10 +11,6 @@ namespace {
 
 constexpr const char* forms = "one number, three numbers or #rrggbb";
 
-double decode_srgb(double encoded) {
-  return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
-}
-
 scene::Rgb read_hexadecimal(const Element& property, std::string_view digits) {
   unsigned encoded = 0;
   const char* end = digits.data() + digits.size();
@@ -37,6 +33,10 @@ scene::Rgb read_numbers(const Element& property) {
 }
 
 } // namespace
+
+double decode_srgb(double encoded) {
+  return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+}
 
 scene::Rgb read_color(const Element& property) {
   if (!property.has("value")) fail(property.where, property.name() + " without a value", forms);

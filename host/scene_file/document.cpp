@@ -31,6 +31,7 @@ const std::map<std::string, Attributes>& known_elements() {
                                                           {"sampler", object},
                                                           {"integrator", object},
                                                           {"bsdf", object},
+                                                          {"texture", object},
                                                           {"shape", object},
                                                           {"emitter", object},
                                                           {"boolean", value},
@@ -52,8 +53,8 @@ const std::map<std::string, Attributes>& known_elements() {
 }
 
 const Attributes& containers() {
-  static const Attributes names{"scene",      "sensor", "film",  "rfilter", "sampler",
-                                "integrator", "bsdf",   "shape", "emitter", "transform"};
+  static const Attributes names{"scene", "sensor", "film",    "rfilter",   "sampler", "integrator",
+                                "bsdf",  "shape",  "emitter", "transform", "texture"};
   return names;
 }
 

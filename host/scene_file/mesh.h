@@ -15,7 +15,9 @@ struct MeshRequest {
   Location named_at; ///< of the file's name in the scene
   glm::dmat4 to_world{1.0};
   bool flip_normals = false;
-  bool face_normals = false; ///< flat shading; the file's normals are ignored
+  bool face_normals = false;        ///< flat shading; the file's normals are ignored
+  bool texture_coordinates = false; ///< reads them
+  bool flip_tex_coords = false;     ///< v becomes 1 - v
 };
 
 /// Wavefront OBJ: v, vn and f of the whole file as one mesh; groups and materials are ignored.

@@ -22,19 +22,34 @@ bool mirrors(const glm::dmat4& matrix) {
   return glm::determinant(glm::dmat3(matrix)) < 0.0;
 }
 
+/// Texture coordinates change by half along these directions of the object, which are axes.
+struct UvAxes {
+  Vec3 u{1, 0, 0}, v{0, 1, 0};
+};
+
 /// Transforms a patch, with front side along cross(u, v), from the object to the world.
 Patch transformed(const glm::dmat4& to_world, bool flip, Patch::Region region, const Vec3& origin,
-                  const Vec3& u, const Vec3& v) {
+                  const Vec3& u, const Vec3& v, const UvAxes& uv = {}) {
   const glm::dmat3 linear(to_world);
   Patch patch{region, Vec3(to_world * glm::dvec4(origin, 1.0)), linear * u, linear * v, {}};
+  if (region == Patch::Region::ellipse) // x and y
+    patch.uv = {glm::dvec2(0.0), glm::dvec2(1, 0), glm::dvec2(0, 1)};
+  else
+    patch.uv = {glm::dvec2(0.5), 0.5 * glm::dvec2(glm::dot(uv.u, u), glm::dot(uv.v, u)),
+                0.5 * glm::dvec2(glm::dot(uv.u, v), glm::dot(uv.v, v))};
   // cross(M u, M v) = det(M) M^-T cross(u, v) points to the back if M mirrors.
-  if (mirrors(to_world) != flip)
-    patch.edge_v = -patch.edge_v; // both regions are symmetric; edge_u stays the tangent
+  if (mirrors(to_world) != flip) { // both regions are symmetric
+    patch.edge_v = -patch.edge_v;
+    patch.uv[2] = -patch.uv[2];
+  }
   return patch;
 }
 
 /// The faces of [-1, 1]^3, with the front outside: a face's origin is the cross product of its edges.
 std::vector<Patch> cube(const glm::dmat4& to_world, bool flip) {
+  // Of the faces at -x, +x, -y, +y, -z, +z: as Mitsuba's, without a rule.
+  constexpr Vec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
+  static const std::array<UvAxes, 6> uv{{{y, z}, {y, -z}, {z, x}, {-x, -z}, {-y, x}, {y, x}}};
   std::vector<Patch> faces;
   for (int axis = 0; axis < 3; ++axis)
     for (const double side : {-1.0, 1.0}) {
@@ -42,7 +57,8 @@ std::vector<Patch> cube(const glm::dmat4& to_world, bool flip) {
       normal[axis] = side;
       u[(axis + 1) % 3] = 1.0;
       v[(axis + 2) % 3] = side;
-      faces.push_back(transformed(to_world, flip, Patch::Region::parallelogram, normal, u, v));
+      faces.push_back(
+          transformed(to_world, flip, Patch::Region::parallelogram, normal, u, v, uv[faces.size()]));
     }
   return faces;
 }
@@ -60,6 +76,8 @@ scene::Sphere sphere(Properties& properties, const glm::dmat4& to_world) {
   if (properties.document().major_version == 0) center /= scale; // 0.x scales the radius but not the centre
   result.center = Vec3(to_world * glm::dvec4(center, 1.0));
   result.radius = radius * scale;
+  for (int axis = 0; axis < 3; ++axis)
+    result.axes[static_cast<std::size_t>(axis)] = glm::normalize(Vec3(to_world[axis]));
   result.front_is_inside = properties.boolean("flip_normals", false);
   return result;
 }
@@ -80,9 +98,19 @@ scene::Surface surface(Properties& properties, MaterialRules rules, scene::Scene
   return result;
 }
 
+/// Of a mesh without texture coordinates whose material looks different for others.
+void warn_without_uv(const scene::Material& material, const MeshRequest& request) {
+  const bool anisotropic = material.model == lobes::shipped("anisotropicphong") &&
+                           material.value("exponent_u") != material.value("exponent_v");
+  if (material.is_textured() || anisotropic)
+    warn(request.named_at,
+         "the mesh has no texture coordinates: as in Mitsuba, a texture is on each triangle by "
+         "itself, and an anisotropic lobe has arbitrary axes: add vt (obj) or u, v (ply)");
+}
+
 void read_mesh_shape(Properties& properties, const glm::dmat4& to_world, const scene::Surface& surface,
                      scene::Scene& scene) {
-  properties.pass_over({"collapse", "flip_tex_coords", "load_materials", "srgb"});
+  properties.pass_over({"collapse", "load_materials", "srgb"});
   if (properties.integer("shape_index", -1) >= 0)
     properties.fail_at("shape_index", "parts of files are not supported",
                        "leave it out: the whole file is one mesh");
@@ -95,7 +123,12 @@ void read_mesh_shape(Properties& properties, const glm::dmat4& to_world, const s
   request.to_world = to_world;
   request.flip_normals = properties.boolean("flip_normals", false);
   request.face_normals = properties.boolean("face_normals", false);
-  scene::Mesh mesh = properties.element().type() == "obj" ? load_obj(request) : load_ply(request);
+  const bool is_obj = properties.element().type() == "obj";
+  request.flip_tex_coords = properties.boolean("flip_tex_coords", is_obj);
+  const scene::Material& material = scene.materials[static_cast<std::size_t>(surface.material)];
+  request.texture_coordinates = scene::needs_uv(material);
+  scene::Mesh mesh = is_obj ? load_obj(request) : load_ply(request);
+  if (mesh.texture_coordinates.empty()) warn_without_uv(material, request);
   mesh.surface = surface;
   if (!mesh.triangles.empty()) scene.meshes.push_back(std::move(mesh));
 }
