@@ -30,6 +30,9 @@ constexpr NamedPart named_parts[] = {
     {&Parts::strict_normals, "strict_normals", "HAS_STRICT_NORMALS"},
     {&Parts::two_sided, "two_sided", "HAS_TWO_SIDED"},
     {&Parts::black, "black", "HAS_BLACK"},
+    {&Parts::checkerboards, "checkerboards", "HAS_CHECKERBOARDS"},
+    {&Parts::byte_textures, "byte_textures", "HAS_BYTE_TEXTURES"},
+    {&Parts::float_textures, "float_textures", "HAS_FLOAT_TEXTURES"},
     {&Parts::light_planar, "light_planar", "HAS_PLANAR_LIGHTS"},
     {&Parts::light_sphere, "light_sphere", "HAS_SPHERE_LIGHTS"},
     {&Parts::light_point, "light_point", "HAS_POINT_LIGHTS"},
@@ -131,6 +134,12 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
   for (const scene::Material& m : materials) {
     parts.two_sided |= m.two_sided;
     parts.black |= !lobes::reflects(m);
+    for (const scene::TexturePointer& texture : m.textures) {
+      if (!texture) continue;
+      parts.checkerboards |= !texture->image;
+      parts.byte_textures |= texture->image && !texture->image->bytes.empty();
+      parts.float_textures |= texture->image && texture->image->bytes.empty();
+    }
     if (settings.strategy == "rejection" && m.model == lobes::shipped("phong")) refuse_endless_rejection(m);
   }
   for (const auto& model : parts.models)

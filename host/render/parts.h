@@ -25,6 +25,7 @@ struct Parts {
   bool double_precision = false; ///< kernels/lanes/lanes.h: Real is a double
   bool triangles = false, parallelograms = false, ellipses = false, spheres = false;
   bool smooth_normals = false, strict_normals = false, two_sided = false, black = false;
+  bool checkerboards = false, byte_textures = false, float_textures = false;
   std::vector<lobes::ModelPointer> models = {lobes::shipped("diffuse")}; ///< reflectance models
   bool light_planar = false, light_sphere = false, light_point = false, light_spot = false,
        light_directional = false, light_constant = false, environment_map = false;
@@ -46,6 +47,7 @@ struct Parts {
 
   [[nodiscard]] bool has_model(const std::string& name) const;
   [[nodiscard]] bool has_tangents() const; ///< whether a model needs them
+  [[nodiscard]] bool has_textures() const { return checkerboards || byte_textures || float_textures; }
   /// The names of the parts that are on, such as "spheres" or "light_planar", in a fixed order.
   [[nodiscard]] std::vector<std::string> names() const;
   /// The names of all parts, whether on or off.

@@ -180,19 +180,6 @@ void warn(const scene::Scene& scene, const Settings& settings, const Events& eve
         fmt::format("`connect` none: no path can hit a point, spot or directional light: {} of the "
                     "scene's lights are dark",
                     lost));
-  const auto anisotropic = [&](const auto& shape) {
-    const scene::Material& m = scene.materials[static_cast<std::size_t>(shape.surface.material)];
-    return m.model == lobes::shipped("anisotropicphong") && m.value("exponent_u") != m.value("exponent_v");
-  };
-  if (std::any_of(scene.meshes.begin(), scene.meshes.end(), anisotropic))
-    events.warning(
-        "anisotropicphong on a mesh: texture coordinates are not read, and exponentU is along each "
-        "triangle's first edge: use rectangle, cube or disk, whose axes toWorld turns, or equal "
-        "exponents");
-  if (std::any_of(scene.spheres.begin(), scene.spheres.end(), anisotropic))
-    events.warning(
-        "anisotropicphong on a sphere: toWorld does not turn it, and exponentU is along the circles "
-        "about the world's z axis: use equal exponents where that matters");
   const auto is_delta = [](const scene::Material& m) { return m.model->has_delta; };
   if (settings.integrator == "light" && std::any_of(scene.materials.begin(), scene.materials.end(), is_delta))
     events.warning(

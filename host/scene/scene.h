@@ -2,6 +2,7 @@
 // devices and integrators.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -10,6 +11,7 @@
 
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include "scene/model.h"
@@ -31,6 +33,9 @@ struct Patch {
   Region region = Region::parallelogram;
   Vec3 origin{0.0}, edge_u{1, 0, 0}, edge_v{0, 1, 0};
   Surface surface;
+  /// Texture coordinates of a parallelogram at its origin, and what they change by along edge_u and edge_v.
+  /// For an ellipse these are coordinates whose polar ones, (radius, turns), are its texture coordinates.
+  std::array<glm::dvec2, 3> uv{glm::dvec2(0.5), glm::dvec2(0.5, 0), glm::dvec2(0, 0.5)};
 };
 
 struct Sphere {
@@ -38,6 +43,9 @@ struct Sphere {
   double radius = 1.0;          ///< > 0
   bool front_is_inside = false; ///< flipNormals
   Surface surface;
+  /// Unit vectors along which the object's x, y and z axes lie. Texture coordinates are the longitude about
+  /// z, from x, in turns, and the angle from z over pi.
+  std::array<Vec3, 3> axes{Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)};
 };
 
 /// Triangles that share vertices. The front side is counter-clockwise (along cross(p1 - p0, p2 - p0)); the
@@ -47,6 +55,9 @@ struct Mesh {
   std::vector<glm::vec3> normals; ///< unit, one per position; empty: flat shading
   std::vector<std::array<std::uint32_t, 3>> triangles;
   Surface surface;
+  /// One per position. Empty: the second and third barycentric coordinates of each triangle, as in Mitsuba;
+  /// meshes whose material needs none are loaded without.
+  std::vector<glm::vec2> texture_coordinates;
 };
 
 struct AreaEmitter { ///< radiance leaves the front side of the shape that refers to it
@@ -129,5 +140,14 @@ struct Scene {
   Camera camera;
   RenderDefaults defaults;
 };
+
+/// Whether the reflection depends on the surface's texture coordinates or tangents.
+[[nodiscard]] inline bool needs_uv(const Material& material) {
+  return material.is_textured() || material.model->needs_tangents;
+}
+[[nodiscard]] inline bool needs_uv(const Scene& scene) {
+  return std::any_of(scene.materials.begin(), scene.materials.end(),
+                     [](const Material& m) { return needs_uv(m); });
+}
 
 } // namespace phlux::scene

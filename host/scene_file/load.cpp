@@ -51,7 +51,10 @@ scene::Scene load(const std::filesystem::path& file, const std::map<std::string,
       read_integrator(*integrator, document, scene);
   });
   const bool scale = properties.boolean("ensure_energy_conservation", false);
-  const MaterialRules rules{library, scale ? ExcessEnergy::scale : ExcessEnergy::error};
+  TextureReader textures;
+  const MaterialRules rules{library, textures, scale ? ExcessEnergy::scale : ExcessEnergy::error};
+  for (const Element* texture : properties.objects("texture")) // to check also those that nothing refers to
+    static_cast<void>(textures.read(*texture, document));
   for (const Element* bsdf : properties.objects("bsdf")) // to check also those that no shape refers to
     if (!is_unused(*bsdf, document))
       problems.attempt([&] { static_cast<void>(read_material(*bsdf, document, rules)); });

@@ -115,6 +115,9 @@ constexpr char glossy[] = "parallelograms spheres phong light_planar";
 constexpr char ambient[] = "parallelograms spheres phong black light_sphere ambient";
 constexpr char mirrors[] = "parallelograms spheres phong conductor light_planar";
 constexpr char triangles[] = "hierarchy triangles smooth_normals phong light_planar light_choice light_tree";
+constexpr char textured[] = "parallelograms spheres phong light_planar byte_textures";
+constexpr char textured_mesh[] = "hierarchy triangles ellipses smooth_normals anisotropicphong light_planar "
+                                 "checkerboards float_textures";
 constexpr char sky[] = "spheres phong light_constant";
 constexpr char map[] =
     "parallelograms spheres diffuse light_planar light_choice environment_map lens tent_filter";
@@ -143,6 +146,8 @@ const std::vector<SceneProgram>& scene_programs() {
       {"glossy-spheres-sobol", with_sampler(parts_of(glossy, "exact"), render::Sampler::sobol)},
       {"ambient", with_clamp(parts_of(ambient, "lobe-rho"))},
       {"mesh", connecting(parts_of(triangles, "lobe-ks"), Connect::light)},
+      {"textured", parts_of(textured, "exact")},
+      {"textured-mesh-bidir", by(Integrator::bidir, parts_of(textured_mesh, "exact"))},
       {"sphere-in-sky", connecting(parts_of(sky, "mixture"), Connect::none)},
       {"everything-light", by(Integrator::light, everything())},
       {"diffuse-box-light", by(Integrator::light, parts_of(diffuse, "cosine"))},
