@@ -62,7 +62,7 @@ Connect possible_connect(const Settings& settings, const tables::LightTable& lig
 
 // Expected number of proposals of rejection sampling per sample, at grazing incidence, where it is largest.
 double proposals(const scene::Material& m) {
-  const double diffuse = glm::compMax(m.value("diffuse_reflectance"));
+  const double diffuse = m.is_textured() ? 0.0 : glm::compMax(m.value("diffuse_reflectance")); // some texel's
   const double specular = glm::compMax(m.value("specular_reflectance")), exponent = m.value("exponent").x;
   const double highest = diffuse + specular * (exponent / 2 + 1);
   return highest / (diffuse + specular * phong::lobe_reflectivity(exponent, 0.0));
