@@ -1,5 +1,8 @@
 #include "cli/checkpoints.h"
 
+#include <new>
+#include <ostream>
+
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
@@ -20,6 +23,13 @@ auto with_remedy(const Function& function) {
   } catch (const UsageError& error) {
     throw UsageError(error.what() + std::string(anew));
   }
+}
+
+// Whether a copy would take more memory than an interruption of the render is worth.
+bool is_large(const film::Film& film) {
+  constexpr double most_copied = 1 << 28; // bytes
+  return film::Film::bytes(static_cast<double>(film.pixels().size()), 1, film.splats() ? 1 : 0,
+                           film.dependent_samples() ? 1 : 0, 0) > most_copied;
 }
 
 // A checkpoint from elsewhere must not run code on this machine.
@@ -72,10 +82,20 @@ void Checkpoints::update(const film::Film& film, const render::Progress& progres
   if (writing_.valid() && writing_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
   wait();
   session_.state = progress.state();
-  writing_ = std::async(std::launch::async, [file = file_, bytes = checkpoint::encode(session_, film)] {
-    files::write_file(file, bytes);
-  });
+  try {
+    if (is_large(film)) throw std::bad_alloc();
+    writing_ = std::async(std::launch::async, [file = file_, bytes = checkpoint::encode(session_, film)] {
+      files::write_file(file, bytes);
+    });
+  } catch (const std::bad_alloc&) {
+    writing_ = std::async(std::launch::deferred, [&] { write(film); });
+    wait();
+  }
   next_ = Clock::now() + between_;
+}
+
+void Checkpoints::write(const film::Film& film) const {
+  files::write_file(file_, [&](std::ostream& to) { checkpoint::write(session_, film, to); });
 }
 
 std::optional<WriteError> Checkpoints::finish(const film::Film& film, const render::RenderState& state) {
@@ -83,7 +103,7 @@ std::optional<WriteError> Checkpoints::finish(const film::Film& film, const rend
   wait();
   session_.state = state;
   try {
-    files::write_file(file_, checkpoint::encode(session_, film));
+    write(film);
   } catch (const WriteError& error) {
     return error;
   }

@@ -28,7 +28,8 @@ public:
   Checkpoints(std::filesystem::path file, const RenderOptions& options, checkpoint::Session session);
 
   /// Writes a checkpoint when the interval has passed, in another thread; the render waits only for the copy
-  /// in memory. A failed write is a warning, as the next may succeed.
+  /// in memory, or, if that would be large, for the file. A failed write is a warning, as the next may
+  /// succeed.
   void update(const film::Film& film, const render::Progress& progress);
   /// Writes the last checkpoint. Returns an error rather than throwing it, so that the image is written
   /// first.
@@ -37,6 +38,7 @@ public:
 private:
   using Clock = std::chrono::steady_clock;
   void wait();
+  void write(const film::Film& film) const;
 
   std::filesystem::path file_;
   checkpoint::Session session_;

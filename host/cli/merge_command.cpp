@@ -2,11 +2,13 @@
 #include <spdlog/spdlog.h>
 
 #include "cli/commands.h"
+#include "cli/outputs.h"
 #include "cli/spelling.h"
 #include "errors.h"
 #include "files/exr.h"
 #include "files/merge.h"
 #include "files/output.h"
+#include "printable.h"
 
 namespace phlux::cli {
 
@@ -19,9 +21,9 @@ int merge(const MergeOptions& options) {
   for (const std::filesystem::path& file : options.images) merger.add(file.string(), files::read_exr(file));
   for (const std::string& note : merger.notes()) spdlog::warn("{}", with_options(note));
   const files::Image image = merger.result();
-  files::write_exr(options.output, image);
-  fmt::print("{}: {}x{}, {:.6g} samples per pixel of {} images\n", options.output.string(), image.width,
-             image.height, image.info.samples, options.images.size());
+  warn_of_nonfinite(options.output, files::write_exr(options.output, image));
+  fmt::print("{}: {}x{}, {:.6g} samples per pixel of {} images\n", printable(options.output.string()),
+             image.width, image.height, image.info.samples, options.images.size());
   return 0;
 }
 

@@ -55,6 +55,13 @@ void reject_same_names(const Outputs& outputs) {
 
 } // namespace
 
+void warn_of_nonfinite(const fs::path& file, const files::NonFinite& values) {
+  for (const auto& [channel, count] : values)
+    spdlog::warn("{}: {} values of channel {} are not finite, being beyond a float's 3e38 or undefined: dim "
+                 "the lights",
+                 file.string(), count, channel);
+}
+
 bool is_of_another_format(const fs::path& file, const std::string& own) {
   const std::vector<std::string> formats = {".exr", ".png",  ".jpg", ".jpeg", ".hdr",  ".pfm", ".ppm",
                                             ".tif", ".tiff", ".bmp", ".gif",  ".webp", ".json"};
@@ -85,7 +92,7 @@ void PreviewRefresher::update(const film::Film& film, double seconds) {
   if (file_.empty() || seconds < next_) return;
   const spdlog::stopwatch watch;
   try {
-    files::write_png(file_, files::image_of(film, {}, false));
+    files::write_png(file_, files::rows_of(film, false));
   } catch (const WriteError& error) {
     spdlog::info("{}", error.what());
   }

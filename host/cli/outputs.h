@@ -5,7 +5,7 @@
 #include <string>
 
 #include "cli/options.h"
-#include "files/image.h"
+#include "files/exr.h"
 
 namespace phlux::cli {
 
@@ -13,6 +13,9 @@ namespace phlux::cli {
 struct Outputs {
   std::filesystem::path image, preview, statistics, checkpoint;
 };
+
+/// Warns of values that are NaN or infinite.
+void warn_of_nonfinite(const std::filesystem::path& file, const files::NonFinite& values);
 
 /// Whether the file's name says that it is an image of another format than `own`, such as ".png".
 [[nodiscard]] bool is_of_another_format(const std::filesystem::path& file, const std::string& own);

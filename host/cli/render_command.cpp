@@ -11,6 +11,7 @@
 #include "cli/commands.h"
 #include "cli/diagnosis.h"
 #include "cli/interrupt.h"
+#include "cli/memory.h"
 #include "cli/outputs.h"
 #include "cli/progress.h"
 #include "cli/spelling.h"
@@ -21,6 +22,7 @@
 #include "files/json.h"
 #include "files/output.h"
 #include "files/png.h"
+#include "printable.h"
 #include "scene/digest.h"
 #include "scene_file/load.h"
 
@@ -107,27 +109,16 @@ files::RenderInfo info_of(const checkpoint::Session& session, const film::Film& 
       .clamped_share = film.clamped_share()};
 }
 
-void warn_of_moments(const files::Image& image) {
-  if (image.channels.size() == 3) {
-    spdlog::warn("--moments: variances need two samples in every pixel: their channels are left out");
-    return;
-  }
-  for (const auto& [name, values] : image.channels)
-    if (std::ranges::any_of(values, [](float value) { return std::isinf(value); })) {
-      spdlog::warn("--moments: {} has values beyond a float's 3e38, written as inf: dim the lights", name);
-      return;
-    }
-}
-
 void write(const Outputs& outputs, const files::RenderInfo& info, const film::Film& film, bool moments) {
-  const files::Image image = files::image_of(film, info, moments && film.has_variance());
-  if (moments) warn_of_moments(image);
-  files::write_exr(outputs.image, image);
-  if (!outputs.preview.empty()) files::write_png(outputs.preview, image);
+  if (moments && !film.has_variance())
+    spdlog::warn("--moments: variances need two samples in every pixel: their channels are left out");
+  const files::Rows rows = files::rows_of(film, moments && film.has_variance());
+  warn_of_nonfinite(outputs.image, files::write_exr(outputs.image, rows, info));
+  if (!outputs.preview.empty()) files::write_png(outputs.preview, rows);
 }
 
 void write_techniques(const std::filesystem::path& folder, film::Film& film, const files::RenderInfo& info) {
-  files::write_contributions(folder, film, info);
+  warn_of_nonfinite(folder, files::write_contributions(folder, film, info));
   if (const std::uint64_t left_out = film.techniques()->left_out(); left_out > 0)
     spdlog::warn("--contributions: paths of more than {} edges are in the image alone ({} contributions)",
                  film::most_technique_edges, left_out);
@@ -166,6 +157,7 @@ int render(const RenderOptions& given) {
                                     .state = {}};
   if (earlier) check_same(*earlier, session, camera, options.resume);
   const render::Settings& settings = session.settings;
+  if (!earlier) require_memory(camera, settings, outputs);
   film::Film film = earlier ? std::move(earlier->film) : film::Film(camera.width, camera.height);
   Checkpoints checkpoints(outputs.checkpoint, options, session);
   const render::Statistics statistics = run(scene, settings, film, outputs, options, checkpoints,
@@ -184,7 +176,7 @@ int render(const RenderOptions& given) {
     files::write_file(outputs.statistics,
                       files::json_text(statistics_json(statistics, settings, info, film, diagnosis)));
   if (settings.techniques) write_techniques(options.contributions, film, info);
-  if (!options.quiet) fmt::print("{}\n", summary(outputs, film, statistics));
+  if (!options.quiet) fmt::print("{}\n", printable(summary(outputs, film, statistics)));
   report(diagnosis, film, statistics, settings, options.quiet);
   if (failure) throw WriteError(*failure);
   return statistics.interrupted ? interrupted_exit_code : 0;

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "clock.h"
+#include "device/driver_cache.h"
 #include "device/program.h"
 #include "errors.h"
 #include "render/error_target.h"
@@ -218,6 +219,7 @@ public:
     worker.launcher = std::make_unique<Launcher>(device, built, *host_, worker.parts, settings_);
     const Clock::time_point warm_up_begin = Clock::now();
     worker.launcher->warm_up();
+    device::record_driver_cache();
     statistics.seconds_build_kernels += built.seconds + seconds_since(warm_up_begin);
     return worker;
   }

@@ -25,6 +25,8 @@ struct Invocation {
   std::optional<std::chrono::milliseconds> interrupt_after;
   /// Limit on the size of written files, in bytes.
   std::optional<std::size_t> largest_file = std::nullopt;
+  /// Limit on its address space, in bytes.
+  std::optional<std::size_t> address_space = std::nullopt;
 };
 
 /// Waits for the program to end. Standard output and error are not terminals.

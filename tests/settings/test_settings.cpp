@@ -64,7 +64,7 @@ TEST_CASE("An invalid value of a setting is refused with the name of the setting
   CHECK(refusal("connect", "mos") == "`connect` mos: did you mean mis? It must be one of none, light, mis");
   CHECK(refusal("width", "3") == "`width` 3: must be one of 1, 4, 8, 16");
   CHECK(refusal("rr-depth", "0") == "`rr-depth` 0: must be a whole number of 1 or more, or -1 for unbounded");
-  CHECK(refusal("clamp", "0") == "`clamp` 0: must be a number above 0");
+  CHECK(refusal("clamp", "0") == "`clamp` 0: must be a number from 1e-30 to 1e+30");
   CHECK_THROWS_WITH(named("exposure"), "`exposure`: there is no such setting");
 }
 
