@@ -127,6 +127,15 @@ std::string text_of(const std::filesystem::path& file) {
 
 } // namespace
 
+bool is_replaceable(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error) || std::filesystem::is_empty(file, error)) return true;
+  std::ifstream stream(file, std::ios::binary);
+  std::string start(magic.size(), '\0');
+  stream.read(start.data(), static_cast<std::streamsize>(start.size()));
+  return start == magic;
+}
+
 std::string encode(const Session& session, const film::Film& film) {
   const std::string place_holder = first_line("");
   std::ostringstream stream(place_holder, std::ios::binary | std::ios::ate);

@@ -7,12 +7,20 @@
 namespace phlux::files {
 
 /// Checks before a long render that `path` can be written, by creating and removing the temporary file.
+/// Removes temporary files of `path` that killed processes have left.
 /// @throws WriteError
 void check_writable(const std::filesystem::path& path);
 
-/// Replaces `path` (or the target of a link) by `bytes`; a reader sees the old file or the new one. A file
-/// that is not regular (/dev/null, a pipe) is written to directly.
+/// Replaces `path` (or the target of a link) by `bytes`; a reader sees the old file or the new one, also
+/// after a power cut. A file that is not regular (/dev/null, a pipe with a reader) is written to directly.
 /// @throws WriteError, leaving no temporary file behind
 void write_file(const std::filesystem::path& path, std::string_view bytes);
+
+/// A second place for what cannot be written to `path`: a new name like it in $TMPDIR, by default /tmp.
+[[nodiscard]] std::filesystem::path elsewhere(const std::filesystem::path& path);
+
+/// Whether two names are of one file, by device and inode. Of files that do not exist yet, those of their
+/// folders and their names are compared. Links are followed.
+[[nodiscard]] bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);
 
 } // namespace phlux::files

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -102,6 +103,7 @@ struct Scene {
   std::optional<Rgb> constant_radiance; ///< the `constant` emitter
   Camera camera;
   RenderDefaults defaults;
+  std::vector<std::filesystem::path> files; ///< that were read: the scene file, meshes
 };
 
 } // namespace phlux::scene

@@ -219,13 +219,17 @@ const Element& Document::resolve(const Element& element) const {
   return *found->second;
 }
 
+std::filesystem::path Document::path_of(const std::string& name) const {
+  return files.emplace_back(files.front().parent_path() / name);
+}
+
 std::string Document::spelling(const std::string& snake_case) const {
   return major_version == 0 ? to_camel_case(snake_case) : snake_case;
 }
 
 void read_document(const std::filesystem::path& file, const std::map<std::string, std::string>& definitions,
                    Document& document) {
-  document.file = file;
+  document.files = {file};
   document.scene = Reader(file, definitions).scene();
   document.major_version = major_version(document.scene);
   collect_ids(document.scene, document.objects);

@@ -26,13 +26,16 @@ struct Element {
 };
 
 struct Document {
-  std::filesystem::path file;
+  mutable std::vector<std::filesystem::path> files; ///< the scene file, and those of path_of()
   Element scene;
   int major_version = 0;                         ///< 0: the names are Mitsuba 0.5's and 0.6's
   std::map<std::string, const Element*> objects; ///< by id; they point into `scene`
 
   /// The object that a <ref> refers to; any other element itself.
   [[nodiscard]] const Element& resolve(const Element& element) const;
+  /// The path of a file that the scene names, relative to the scene's folder. Every file that is read must
+  /// come from here: no output may replace a file of `files`.
+  [[nodiscard]] std::filesystem::path path_of(const std::string& name) const;
   /// A property's name in the spelling of the file's version.
   [[nodiscard]] std::string spelling(const std::string& snake_case) const;
 

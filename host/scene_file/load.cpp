@@ -45,6 +45,7 @@ scene::Scene load(const std::filesystem::path& file, const std::map<std::string,
   for (const Element* shape : properties.objects("shape")) read_shape(*shape, document, rules, scene);
   properties.finish();
   warn_of_darkness(document, scene);
+  scene.files = document.files;
   return scene;
 }
 

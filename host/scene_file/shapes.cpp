@@ -90,7 +90,7 @@ void read_mesh_shape(Properties& properties, const glm::dmat4& to_world, const s
     fail(properties.element().where, properties.element().name() + " without a filename",
          "<string name=\"filename\" .../>");
   MeshRequest request;
-  request.file = properties.document().file.parent_path() / properties.string("filename", "");
+  request.file = properties.document().path_of(properties.string("filename", ""));
   request.named_at = properties.where("filename");
   request.to_world = to_world;
   request.flip_normals = properties.boolean("flip_normals", false);
