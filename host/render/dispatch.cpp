@@ -89,7 +89,7 @@ void DispatchLoop::run(const std::vector<Launcher*>& launchers) {
   }
   for (const std::exception_ptr& exception : exceptions)
     if (exception) std::rethrow_exception(exception);
-  if (given_up_ == launchers.size()) failure_ = last_failure_ + ": no device is left";
+  if (given_up_ == launchers.size() && !is_over()) failure_ = last_failure_ + ": no device is left";
 }
 
 // Runs one device.
