@@ -41,8 +41,7 @@ struct Sphere {
 };
 
 /// Triangles that share vertices. The front side is counter-clockwise (along cross(p1 - p0, p2 - p0)); the
-/// loader has already reversed triangles and normals for flipNormals and for transforms that mirror, and
-/// dropped triangles without area.
+/// loader has already reversed triangles and normals for flipNormals, and dropped triangles without area.
 struct Mesh {
   std::vector<Vec3> positions;
   std::vector<glm::vec3> normals; ///< unit, one per position; empty: flat shading

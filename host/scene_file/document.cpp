@@ -1,13 +1,12 @@
 #include "scene_file/document.h"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <set>
 
 #include <pugixml.hpp>
 
 #include "errors.h"
+#include "input_file.h"
 #include "scene_file/parameters.h"
 #include "scene_file/values.h"
 
@@ -17,7 +16,8 @@ namespace {
 
 using Attributes = std::set<std::string>;
 
-constexpr int deepest = 32; ///< levels of nesting, to bound the recursion; a valid scene has at most 6
+constexpr std::size_t deepest =
+    32; ///< levels of nesting, also by references, to bound the recursion; a valid scene has at most 6
 
 const std::map<std::string, Attributes>& known_elements() {
   static const Attributes object{"type", "id", "name"}, value{"name", "value"};
@@ -67,11 +67,10 @@ class Reader {
 public:
   Reader(const std::filesystem::path& file, const std::map<std::string, std::string>& definitions)
       : file_(std::make_shared<const std::string>(file.string())), parameters_(definitions) {
-    std::error_code ignored;
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream || std::filesystem::is_directory(file, ignored))
-      fail({file_, 0}, "cannot be read", "an existing Mitsuba scene file is needed");
-    text_.assign(std::istreambuf_iterator<char>(stream), {});
+    auto text = bytes_of(file);
+    if (!text) fail({file_, 0}, "cannot be read", "an existing Mitsuba scene file is needed");
+    if (is_utf16(*text)) fail({file_, 1}, "is in UTF-16", "save it as UTF-8");
+    text_ = std::move(*text);
     for (std::size_t i = 0; i < text_.size(); ++i)
       if (text_[i] == '\n') line_ends_.push_back(i);
   }
@@ -111,7 +110,7 @@ private:
     return element;
   }
 
-  Element convert(const pugi::xml_node& node, int depth = 0) {
+  Element convert(const pugi::xml_node& node, std::size_t depth = 0) {
     Element element = without_children(node);
     if (depth > deepest)
       fail(element.where, "elements are nested too deeply", "at most " + std::to_string(deepest) + " levels");
@@ -140,7 +139,7 @@ private:
     const Element element = without_children(node);
     if (element["name"].empty() || !element.has("value"))
       fail(element.where, "<default> without a name or a value", "<default name=\"spp\" value=\"64\"/>");
-    parameters_.set_default(element["name"], element["value"]);
+    parameters_.set_default(element["name"], element["value"], element.where);
   }
 
   std::shared_ptr<const std::string> file_;
@@ -182,6 +181,9 @@ void check_references(const Document& document, const Element& element, std::vec
     if (std::ranges::find(above, &target) != above.end())
       fail(element.where, "reference to '" + element["id"] + "' is circular",
            "an object may not contain itself");
+    if (above.size() > deepest)
+      fail(element.where, "references are nested too deeply",
+           "at most " + std::to_string(deepest) + " levels");
     check_references(document, target, above, checked);
     return;
   }

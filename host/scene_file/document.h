@@ -44,7 +44,8 @@ struct Document {
   Document& operator=(const Document&) = delete;
 };
 
-/// Reads FILE into `document`.
+/// Reads FILE into `document`. Time and memory are linear in the file's size: at most 64 MB and 100 times
+/// that size.
 /// @throws SceneError for malformed XML, unknown elements or attributes, an unknown version, duplicate ids,
 /// and references that are circular or to unknown ids
 void read_document(const std::filesystem::path& file, const std::map<std::string, std::string>& definitions,

@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include "errors.h"
+#include "printable.h"
 
 namespace phlux::scene_file {
 
@@ -11,10 +12,11 @@ std::string Location::text() const {
 }
 
 void fail(const Location& where, const std::string& wrong, const std::string& right) {
-  std::string line = where.text() + ": " + wrong + ": " + right;
-  for (char& c : line)
-    if (static_cast<unsigned char>(c) < ' ') c = '?'; // text from the file may have line ends
-  throw SceneError(line);
+  constexpr std::size_t longest = 1000; // of each part, which may quote the file
+  const auto part = [](const std::string& text) {
+    return text.size() <= longest ? text : text.substr(0, longest) + "...";
+  };
+  throw SceneError(printable(where.text() + ": " + part(wrong) + ": " + part(right)));
 }
 
 void warn(const Location& where, const std::string& message) {

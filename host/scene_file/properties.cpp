@@ -77,7 +77,9 @@ int Properties::integer(const std::string& name, int otherwise) {
 bool Properties::boolean(const std::string& name, bool otherwise) {
   const Element* property = find(name, {"boolean"});
   if (!property) return otherwise;
-  const std::string& value = value_of(*property);
+  // Mitsuba 2 and 3 ignore case, as Python writes True; 0.x does not.
+  const std::string value =
+      document_.major_version == 0 ? value_of(*property) : to_lower(value_of(*property));
   if (value != "true" && value != "false") fail_at(name, "'" + value + "' is not a boolean", "true or false");
   return value == "true";
 }

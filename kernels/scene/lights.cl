@@ -112,9 +112,8 @@ static inline SurfacePosition sphere_light_point(SphereShape sphere, Vec3 unit, 
   return point;
 }
 
-// The fraction of its intensity that a spot light sends at an angle of this cosine to its axis.
-static inline Real spot_falloff(const Scene* scene, Int light, Real cosine) {
-  const Real angle = acos(clamp(cosine, (Real)(-1.0f), (Real)(1.0f)));
+// The fraction of its intensity that a spot light sends at this angle to its axis.
+static inline Real spot_falloff(const Scene* scene, Int light, Real angle) {
   return clamp((LIGHT_REAL(scene, light, cutoff) - angle) * LIGHT_REAL(scene, light, inv_transition), (Real)(0.0f),
                (Real)(1.0f));
 }
@@ -211,8 +210,8 @@ static inline void sample_point_light(const Scene* scene, LightSample* s, Surfac
   const Ray ray = ray_to_point(lit, LIGHT_VEC3(scene, s->light, position), &distance);
   const Real density = distance * distance * s->choice;
   if (HAS_SPOT_LIGHTS) {
-    const Real cosine = -vec_dot(LIGHT_VEC3(scene, s->light, direction), ray.direction);
-    const Real falloff = kind == LIGHT_SPOT ? spot_falloff(scene, s->light, cosine) : (Real)(1.0f);
+    const Real angle = vec_angle(LIGHT_VEC3(scene, s->light, direction), vec_scale((Real)(-1.0f), ray.direction));
+    const Real falloff = kind == LIGHT_SPOT ? spot_falloff(scene, s->light, angle) : (Real)(1.0f);
     s->radiance = vec_select(m, vec_scale(falloff, s->radiance), s->radiance);
   }
   s->ray.origin = vec_select(m, ray.origin, s->ray.origin);

@@ -1,6 +1,10 @@
 #include <catch2/catch.hpp>
 
+#include <filesystem>
+#include <sys/stat.h>
+
 #include "errors.h"
+#include "printable.h"
 #include "scene_file/load.h"
 #include "scene_file/scenes.h"
 
@@ -109,6 +113,51 @@ TEST_CASE("Values: numbers, booleans, types") {
              StartsWith("scene.xml:3: <shape type=\"disk\">: flipNormals: 'yes' is not a boolean"));
   CHECK_THAT(error_in("<integrator type=\"path\">\n<integer name=\"maxDepth\" value=\"5.0\"/></integrator>"),
              StartsWith("scene.xml:3: <integrator type=\"path\">: maxDepth: '5.0' is not an integer"));
+  // As in Mitsuba, 2 and later ignore case.
+  const std::string in_python =
+      "<shape type=\"disk\"><boolean name=\"flip_normals\" value=\"True\"/></shape>";
+  CHECK(load_body(in_python, "3.0.0").patches.front().edge_v.y == -1.0);
+  CHECK_THAT(error_in(in_python), Contains("'True' is not a boolean"));
+  CHECK(with_exponent("1e-400").empty());
+}
+
+TEST_CASE("Small files that would take all memory or time are refused") {
+  std::string laughs = "<default name=\"a0\" value=\"ha\"/>";
+  for (int i = 1; i < 20; ++i) {
+    const std::string before = "$a" + std::to_string(i - 1) + " ";
+    laughs +=
+        "<default name=\"a" + std::to_string(i) + "\" value=\"" + before + before + before + before + "\"/>";
+  }
+  CHECK_THAT(error_in(laughs), StartsWith("scene.xml:2: ") && Contains("is longer than 1000000 characters"));
+  std::string wide = "<default name=\"a\" value=\"" + std::string(900'000, '1') + "\"/>";
+  for (int i = 0; i < 100; ++i) wide += "<bsdf type=\"$a\"/>";
+  CHECK_THAT(error_in(wide), Contains("more than 64000000 characters are substituted"));
+  CHECK_THAT(error_in("<default name=\"" + std::string(300, 'a') + "\" value=\"\"/>"),
+             StartsWith("scene.xml:2: a <default> with a name of 300 characters"));
+  std::string chain;
+  for (int i = 0; i < 100'000; ++i)
+    chain += "<bsdf type=\"twosided\" id=\"" + std::to_string(i) + "\"><ref id=\"" + std::to_string(i + 1) +
+             "\"/></bsdf>";
+  CHECK_THAT(error_in(chain + "<bsdf type=\"diffuse\" id=\"100000\"/>"),
+             StartsWith("scene.xml:2: references are nested too deeply"));
+  CHECK(error_in("<bsdf type=\"" + std::string(100'000, 'x') + "\"/>").size() < 3000); // of one line
+}
+
+TEST_CASE("Messages contain nothing that controls a terminal") {
+  CHECK(phlux::printable("a\x1b[31m\x7f\n\xc2\x9b\xe2\x80\xae!") == "a?[31m????!");
+  CHECK(phlux::printable("Gr\xc3\xbc\xc3\x9f\x65 \xe2\x82\xac \xf0\x9f\x99\x82") ==
+        "Gr\xc3\xbc\xc3\x9f\x65 \xe2\x82\xac \xf0\x9f\x99\x82");
+  CHECK(phlux::printable("\xff\xc3(\xc0\x80\xed\xa0\x80\xe2\x82") == "??(???????"); // not UTF-8
+  CHECK(phlux::printable("a\n\tb\r", true) == "a\n\tb?");
+}
+
+TEST_CASE("A device or a pipe in the place of a file is refused at once") {
+  const TemporaryFolder folder;
+  REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
+  std::filesystem::create_symlink("loop", folder / "loop");
+  for (const std::filesystem::path file :
+       {folder / "pipe", folder / "loop", std::filesystem::path("/dev/zero")})
+    CHECK_THROWS_WITH(phlux::scene_file::load(file), Contains(": cannot be read: "));
 }
 
 TEST_CASE("A file that is missing or a folder is an error") {
