@@ -27,8 +27,8 @@ struct Invocation {
   /// Limit on the size of written files, in bytes.
   std::optional<std::size_t> largest_file = std::nullopt;
   int signal = SIGINT;
-  std::filesystem::path
-      after_write; ///< sent once this file has been written; empty: as soon as it is handled
+  /// Sent once this file has been written; empty: as soon as it is handled.
+  std::filesystem::path after_write = {};
   /// Where standard output (1) and error (2) go instead of to Outcome: a file, "closed" or "broken pipe".
   std::map<int, std::string> streams = {};
   bool ignores_hangup = false; ///< as under nohup
