@@ -128,9 +128,11 @@ bool Planner::overflowed(const LaunchPlan& plan, const std::vector<cl_int>& reco
 }
 
 bool Planner::shrink(std::int64_t jobs) {
-  const std::int64_t fewer_jobs = std::max<std::int64_t>(std::min(jobs, most_jobs_) / 2, parts_.lanes);
+  const bool batches = settings::info_of(parts_.integrator).light_paths;
+  const std::int64_t least = batches ? batch_jobs(samples_per_block) : parts_.lanes;
+  const std::int64_t before = std::min(jobs, most_jobs_), fewer_jobs = std::max(before / 2, least);
   const std::size_t fewer_items = std::max(items_ / 2 / local_size_ * local_size_, local_size_);
-  const bool smaller = fewer_jobs < jobs || fewer_items < items_;
+  const bool smaller = fewer_jobs < before || fewer_items < items_;
   most_jobs_ = fewer_jobs;
   items_ = fewer_items;
   return smaller;
