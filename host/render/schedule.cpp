@@ -83,6 +83,10 @@ std::optional<Launch> Schedule::next(const Wanted& wanted) {
   return cut_from(phase_, wanted);
 }
 
+void Schedule::give_back(const std::deque<Launch>& launches) {
+  missing_.insert(missing_.begin(), launches.begin(), launches.end());
+}
+
 SchedulePosition Schedule::position() const {
   SchedulePosition position{phase_end_, 0, samples_per_block, {missing_.begin(), missing_.end()}};
   if (phase_.jobs > 0) {

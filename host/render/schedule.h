@@ -63,6 +63,9 @@ public:
   /// given the number of similar jobs left and the samples of each.
   using Wanted = std::function<std::int64_t(std::int64_t left, int block_samples)>;
   [[nodiscard]] std::optional<Launch> next(const Wanted& wanted);
+  /// Takes back launches that were not finished: they come next.
+  void give_back(const std::deque<Launch>& launches);
+  [[nodiscard]] bool has_missing() const { return !missing_.empty(); }
   /// The launches so far; `missing` are those still to be repeated.
   [[nodiscard]] SchedulePosition position() const;
 

@@ -141,7 +141,8 @@ private:
 
 std::string digest(const Scene& scene) {
   const auto& [materials, area_emitters, patches, spheres, meshes, point_lights, spot_lights,
-               directional_lights, constant_radiance, environment, strict_normals, camera, defaults] = scene;
+               directional_lights, constant_radiance, environment, strict_normals, camera, defaults, files] =
+      scene;
   Digest result(needs_uv(scene));
   result.add(materials, area_emitters, patches, spheres, meshes, point_lights, spot_lights,
              directional_lights, constant_radiance, environment, strict_normals, camera);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -139,6 +140,7 @@ struct Scene {
   bool strict_normals = false;
   Camera camera;
   RenderDefaults defaults;
+  std::vector<std::filesystem::path> files; ///< that were read: the scene file, meshes
 };
 
 /// Whether the reflection depends on the surface's texture coordinates or tangents.

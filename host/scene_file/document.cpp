@@ -111,8 +111,8 @@ std::filesystem::path Document::find(const std::string& name) const {
   std::error_code ignored;
   for (const auto& folder : folders)
     for (const auto& spelling : {name, portable})
-      if (std::filesystem::exists(folder / spelling, ignored)) return folder / spelling;
-  return folders.front() / name;
+      if (std::filesystem::exists(folder / spelling, ignored)) return files.emplace_back(folder / spelling);
+  return files.emplace_back(folders.front() / name);
 }
 
 void Document::note_once(const Location& where, const std::string& message) const {
@@ -126,6 +126,7 @@ std::string Document::spelling(const std::string& snake_case) const {
 void read_document(const std::filesystem::path& file, const std::map<std::string, std::string>& definitions,
                    Document& document) {
   document.file = file;
+  document.files = {file};
   document.folders = {file.parent_path()};
   document.scene = read_elements(document, definitions);
   document.major_version = major_version(document.scene);

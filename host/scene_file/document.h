@@ -28,7 +28,9 @@ struct Element {
 };
 
 struct Document {
-  std::filesystem::path file;
+  /// The scene file, and those of find(), from which every file that is read must come: no output may replace
+  /// one of them.
+  mutable std::vector<std::filesystem::path> files;
   Element scene;
   int major_version = 0;                         ///< 0: the names are Mitsuba 0.5's and 0.6's
   std::map<std::string, const Element*> objects; ///< by id; they point into `scene`

@@ -70,6 +70,7 @@ scene::Scene load(const std::filesystem::path& file, const std::map<std::string,
   meshes.load(scene, problems);
   problems.throw_if_any();
   warn_of_darkness(document, scene);
+  scene.files = document.files;
   return scene;
 }
 

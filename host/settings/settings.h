@@ -50,6 +50,7 @@ struct Settings {
   Traversal traversal = Traversal::automatic;
   std::filesystem::path kernel_dir; ///< empty: the embedded kernels
   double launch_seconds = 0.05;     ///< target duration of a launch
+  double pause_seconds = 1.0;       ///< until a device that failed is tried again
 };
 
 /// Whether eye subpaths take light samples, if there are lights.
