@@ -28,7 +28,8 @@ struct Element {
 };
 
 struct Document {
-  /// The scene file, and those of find(), from which every file that is read must come: no output may replace
+  std::filesystem::path file; ///< of the scene
+  /// That file, and those of find(), from which every file that is read must come: no output may replace
   /// one of them.
   mutable std::vector<std::filesystem::path> files;
   Element scene;

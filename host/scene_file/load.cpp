@@ -67,10 +67,10 @@ scene::Scene load(const std::filesystem::path& file, const std::map<std::string,
     problems.attempt([&] { read_shape(*shape, document, {rules, scene, meshes, materials}); });
   properties.finish();
   problems.throw_if_any();
-  meshes.load(scene, problems);
+  scene.files = document.files;
+  meshes.load(scene, problems); // which adds their own files
   problems.throw_if_any();
   warn_of_darkness(document, scene);
-  scene.files = document.files;
   return scene;
 }
 

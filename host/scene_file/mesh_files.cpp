@@ -83,6 +83,7 @@ private:
     if (file.material_library.empty() || !shape.library_materials || libraries_.contains(shape.request.file))
       return;
     auto& library = libraries_[shape.request.file];
+    scene_.files.push_back(folder / file.material_library);
     for (const auto& [name, material] :
          read_obj_materials(folder / file.material_library, shape.request.named_at))
       library[name] = share(scene_.materials, material);

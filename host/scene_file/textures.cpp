@@ -113,7 +113,7 @@ scene::TexturePointer TextureReader::read(const Element& element, const Document
     texture.wrap_u = texture.wrap_v = wrap(properties, "wrap_mode", mode);
     texture.wrap_u = wrap(properties, "wrap_mode_u", mode);
     texture.wrap_v = wrap(properties, "wrap_mode_v", mode);
-    texture.image = image(document.file.parent_path() / name, gamma, properties.where("filename"));
+    texture.image = image(document.find(name), gamma, properties.where("filename"));
     properties.pass_over({"cache", "max_anisotropy", "format", "accel"});
   } else {
     fail(element.where, element.name() + " is not supported", "supported are bitmap and checkerboard");
