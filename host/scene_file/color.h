@@ -16,4 +16,7 @@ namespace phlux::scene_file {
 /// @throws SceneError
 [[nodiscard]] scene::Rgb read_color(const Element& property, const Document& document, bool emission);
 
+/// The linear value of an sRGB-encoded one, both from 0 to 1 (IEC 61966-2-1).
+[[nodiscard]] double decode_srgb(double encoded);
+
 } // namespace phlux::scene_file

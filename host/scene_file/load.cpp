@@ -18,7 +18,7 @@ void warn_of_darkness(const Document& document, const scene::Scene& scene) {
   if (scene.patches.empty() && scene.spheres.empty() && scene.meshes.empty())
     warn(file, "empty scene: it has no shapes");
   if (scene.area_emitters.empty() && scene.point_lights.empty() && scene.spot_lights.empty() &&
-      scene.directional_lights.empty() && !scene.constant_radiance)
+      scene.directional_lights.empty() && !scene.constant_radiance && !scene.environment)
     warn(file, "no light: nothing in the scene emits, and the image will be black");
 }
 
@@ -51,7 +51,10 @@ scene::Scene load(const std::filesystem::path& file, const std::map<std::string,
       read_integrator(*integrator, document, scene);
   });
   const bool scale = properties.boolean("ensure_energy_conservation", false);
-  const MaterialRules rules{library, scale ? ExcessEnergy::scale : ExcessEnergy::error};
+  TextureReader textures;
+  const MaterialRules rules{library, textures, scale ? ExcessEnergy::scale : ExcessEnergy::error};
+  for (const Element* texture : properties.objects("texture")) // to check also those that nothing refers to
+    static_cast<void>(textures.read(*texture, document));
   for (const Element* bsdf : properties.objects("bsdf")) // to check also those that no shape refers to
     if (!is_unused(*bsdf, document))
       problems.attempt([&] { static_cast<void>(read_material(*bsdf, document, rules)); });

@@ -27,7 +27,9 @@ struct MeshRequest {
   Location named_at; ///< of the file's name in the scene
   glm::dmat4 to_world{1.0};
   bool flip_normals = false;
-  bool face_normals = false; ///< flat shading; the file's normals are ignored
+  bool face_normals = false;        ///< flat shading; the file's normals are ignored
+  bool texture_coordinates = false; ///< reads them
+  bool flip_tex_coords = false;     ///< v becomes 1 - v
   int shape_index = -1; ///< the part of the file: of serialized files, -1: the first; of obj files, -1: all
   ObjParts parts = ObjParts::one;
 };

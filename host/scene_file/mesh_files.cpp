@@ -21,12 +21,23 @@ constexpr std::uint64_t most_copied = 100'000'000;
 
 /// Shapes with equal keys read the same parts.
 auto key_of(const MeshRequest& request) {
-  return std::tuple(request.file, request.shape_index, request.face_normals, request.parts);
+  return std::tuple(request.file, request.shape_index, request.face_normals, request.parts,
+                    request.texture_coordinates, request.flip_tex_coords);
 }
 
 MeshFile read_file(const MeshRequest& request) {
   if (request.format == "obj") return load_obj(request);
   return request.format == "ply" ? load_ply(request) : load_serialized(request);
+}
+
+/// Of a mesh without texture coordinates whose material looks different for others.
+void warn_without_uv(const scene::Material& material, const MeshRequest& request) {
+  const bool anisotropic = material.model == lobes::shipped("anisotropicphong") &&
+                           material.value("exponent_u") != material.value("exponent_v");
+  if (material.is_textured() || anisotropic)
+    warn(request.named_at,
+         "the mesh has no texture coordinates: as in Mitsuba, a texture is on each triangle by "
+         "itself, and an anisotropic lobe has arbitrary axes: add vt (obj) or u, v (ply)");
 }
 
 class Loader {
@@ -99,6 +110,8 @@ private:
            "fewer instances or smaller meshes");
     scene::Mesh mesh = finish_mesh(part, shape.request);
     mesh.surface = surface_of(shape, part);
+    if (mesh.texture_coordinates.empty())
+      warn_without_uv(scene_.materials[static_cast<std::size_t>(mesh.surface.material)], shape.request);
     if (!mesh.triangles.empty()) scene_.meshes.push_back(std::move(mesh));
   }
 

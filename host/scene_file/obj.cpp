@@ -91,7 +91,7 @@ private:
     else if (keyword == "vn")
       normals_.emplace_back();
     else if (keyword == "vt")
-      ++texture_coordinates_;
+      texture_coordinate();
     else if (keyword == "f" || keyword == "fo") // fo: of version 2
       face();
     else if (keyword == "mtllib")
@@ -133,11 +133,12 @@ private:
 
   void keep_part() {
     if (!any_normal_) part_.mesh.normals.clear();
+    if (!any_texture_coordinate_) part_.mesh.texture_coordinates.clear();
     file_.parts.push_back(std::move(part_));
     for (const auto position : touched_) first_use_[position] = {};
     touched_.clear();
     other_uses_.clear();
-    any_normal_ = false;
+    any_normal_ = any_texture_coordinate_ = false;
   }
 
   /// Names, materials, smoothing groups, display attributes, points and lines.
@@ -173,6 +174,23 @@ private:
     return result;
   }
 
+  /// u and, where it is not 0, v.
+  void texture_coordinate() {
+    ++texture_coordinate_count_;
+    if (!request_.texture_coordinates) return;
+    glm::dvec2 result(0.0);
+    for (int i = 0; i < 2; ++i) {
+      const auto text = word();
+      const auto value = parse_real(text);
+      if (!value && (i == 0 || !text.empty()))
+        fail(where_, "texture coordinate with " + quoted(text) + " for a number",
+             "finite numbers within single precision");
+      result[i] = value.value_or(0.0);
+    }
+    if (request_.flip_tex_coords) result.y = 1 - result.y;
+    texture_coordinates_.emplace_back(result);
+  }
+
   /// Index from 0 of `text`, which counts from 1, or backwards from -1.
   std::uint32_t index(std::string_view text, std::size_t count, const char* what) {
     const auto value = parse_integer(text);
@@ -194,7 +212,7 @@ private:
     const auto rest = text.substr(first + 1);
     const auto second = std::min(rest.find('/'), rest.size());
     if (second > 0)
-      result.texture = index(rest.substr(0, second), texture_coordinates_, "texture coordinate");
+      result.texture = index(rest.substr(0, second), texture_coordinate_count_, "texture coordinate");
     if (second + 1 < rest.size()) result.normal = index(rest.substr(second + 1), normals_.size(), "normal");
     return result;
   }
@@ -202,8 +220,9 @@ private:
   /// The mesh's vertex for this corner. As in Mitsuba, corners share a vertex if all their indices are equal,
   /// so that computed normals are not smooth across seams of the texture.
   std::uint32_t vertex(Corner corner) {
-    if (request_.face_normals) corner.texture = corner.normal = none;
-    if (corner.normal != none) corner.texture = none;
+    if (request_.face_normals) corner.normal = none;
+    const bool splits_normals = corner.normal == none && !request_.face_normals;
+    if (!request_.texture_coordinates && !splits_normals) corner.texture = none;
     first_use_.resize(positions_.size());
     const auto created = static_cast<std::uint32_t>(part_.mesh.positions.size());
     FirstUse& first = first_use_[corner.position];
@@ -217,6 +236,11 @@ private:
     part_.mesh.positions.push_back(positions_[corner.position]);
     any_normal_ |= corner.normal != none;
     part_.mesh.normals.push_back(corner.normal == none ? glm::vec3(0.0f) : normals_[corner.normal]);
+    if (request_.texture_coordinates) {
+      any_texture_coordinate_ |= corner.texture != none;
+      part_.mesh.texture_coordinates.push_back(corner.texture == none ? glm::vec2(0.0f)
+                                                                      : texture_coordinates_[corner.texture]);
+    }
     return created;
   }
 
@@ -241,11 +265,12 @@ private:
   std::string bytes_;
   std::string_view rest_;
   Location where_;
-  std::size_t continued_lines_ = 0, texture_coordinates_ = 0;
-  bool any_normal_ = false;
+  std::size_t continued_lines_ = 0, texture_coordinate_count_ = 0;
+  bool any_normal_ = false, any_texture_coordinate_ = false;
   std::vector<Vec3> positions_;
   std::vector<glm::vec3> normals_;
-  std::vector<FirstUse> first_use_; ///< by position
+  std::vector<glm::vec2> texture_coordinates_; ///< empty unless the request wants them
+  std::vector<FirstUse> first_use_;            ///< by position
   std::unordered_map<Corner, std::uint32_t, CornerHash> other_uses_;
   std::vector<std::uint32_t> touched_; ///< positions that the part has used
   std::size_t unknown_lines_ = 0;

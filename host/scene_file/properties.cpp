@@ -10,7 +10,7 @@ namespace phlux::scene_file {
 
 namespace {
 
-bool is_property(const Element& element) {
+bool is_value(const Element& element) {
   static const std::set<std::string> tags{"boolean",  "integer",   "float",     "string",
                                           "point",    "vector",    "rgb",       "srgb",
                                           "spectrum", "blackbody", "transform", "xyz"};
@@ -29,13 +29,18 @@ Properties::Properties(const Element& object, const Document& document)
     : object_(object), document_(document) {
   for (const auto& child : object.children) {
     if (!is_property(child)) continue;
+    const Element& property = document.resolve(child);
     if (child["name"].empty())
       fail(child.where, "<" + child.tag + "> without a name", "name=\"...\" says which property it is");
-    const auto [first, inserted] = properties_.emplace(to_snake_case(child["name"]), &child);
+    const auto [first, inserted] = properties_.emplace(to_snake_case(child["name"]), &property);
     if (!inserted)
       fail(child.where, "'" + child["name"] + "' is given twice",
            "the first is on line " + std::to_string(first->second->where.line) + "; give it once");
   }
+}
+
+bool Properties::is_property(const Element& child) const {
+  return is_value(child) || (object_.tag != "scene" && document_.resolve(child).tag == "texture");
 }
 
 const Element* Properties::find(const std::string& name, std::initializer_list<const char*> tags) {
@@ -99,6 +104,12 @@ std::optional<scene::Vec3> Properties::vector(const std::string& name) {
 scene::Rgb Properties::color(const std::string& name, const scene::Rgb& otherwise) {
   const Element* property = find(name, {"rgb", "srgb", "spectrum", "float", "blackbody", "xyz"});
   return property ? read_color(*property, document_, object_.tag == "emitter") : otherwise;
+}
+
+const Element* Properties::texture(const std::string& name) {
+  asked_.insert(name);
+  const auto found = properties_.find(name);
+  return found != properties_.end() && found->second->tag == "texture" ? found->second : nullptr;
 }
 
 glm::dmat4 Properties::transform(const std::string& name) {

@@ -32,6 +32,8 @@ public:
   [[nodiscard]] std::string string(const std::string& name, const std::string& otherwise);
   [[nodiscard]] std::optional<scene::Vec3> vector(const std::string& name);
   [[nodiscard]] scene::Rgb color(const std::string& name, const scene::Rgb& otherwise);
+  /// The <texture> of this name, nested or by <ref>; null if there is none, or a property instead.
+  [[nodiscard]] const Element* texture(const std::string& name);
   /// Affine and invertible; the identity if it is absent.
   [[nodiscard]] glm::dmat4 transform(const std::string& name);
 
@@ -62,11 +64,13 @@ public:
 private:
   void check_known(const Element& property) const;
   void check_allowed(const Element& nested) const;
+  /// Whether a child is a property: by its tag, or as a texture, which only a scene has by itself.
+  [[nodiscard]] bool is_property(const Element& child) const;
   const Element* find(const std::string& name, std::initializer_list<const char*> tags);
 
   const Element& object_;
   const Document& document_;
-  std::map<std::string, const Element*> properties_; ///< by snake_case name
+  std::map<std::string, const Element*> properties_; ///< by snake_case name; references are resolved
   std::set<std::string> asked_, asked_objects_;
 };
 

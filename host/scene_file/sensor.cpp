@@ -22,6 +22,7 @@ namespace {
 using scene::Vec3;
 
 constexpr int largest_size = 32768;                       ///< pixels along one side of the image
+constexpr int largest_filter = 1000;                      ///< pixels
 const double film_35mm_diagonal = std::hypot(36.0, 24.0); ///< mm, to which Mitsuba's focal lengths refer
 
 int positive(Properties& properties, const std::string& name, int otherwise, int most) {
@@ -31,13 +32,37 @@ int positive(Properties& properties, const std::string& name, int otherwise, int
   return value;
 }
 
-void read_filter(const Element& filter, const Document& document) {
-  static const std::set<std::string> filters{"box", "tent", "gaussian", "mitchell", "catmullrom", "lanczos"};
-  if (!filters.contains(filter.type()))
-    fail(filter.where, filter.name() + " is not supported",
-         "box, or another of Mitsuba's, for which box is used");
-  if (filter.type() != "box") warn(filter.where, filter.name() + " is not supported; box is used");
-  Properties(filter, document).pass_over_rest();
+double positive_size(Properties& properties, const std::string& name, double otherwise) {
+  const double size = properties.real(name, otherwise);
+  if (!(size > 0.0 && size <= largest_filter))
+    properties.fail_at(name, std::to_string(size) + " pixels",
+                       "more than 0 and at most " + std::to_string(largest_filter));
+  return size;
+}
+
+/// The filters with negative lobes cannot be sampled. The box is the nearest to them that can: the variance
+/// of mitchell is 1/9 of a pixel squared, that of the others about 0, that of the box 1/12, of the default
+/// gaussian 1/4.
+scene::Filter read_filter(const Element& element, const Document& document) {
+  static const std::set<std::string> negative{"mitchell", "catmullrom", "lanczos"};
+  Properties properties(element, document);
+  scene::Filter filter;
+  if (element.type() == "gaussian") {
+    filter = {scene::Filter::Kind::gaussian, positive_size(properties, "stddev", 0.5)};
+  } else if (element.type() == "tent") {
+    filter = {scene::Filter::Kind::tent, positive_size(properties, "radius", 1.0)};
+  } else if (element.type() == "box") {
+    if (properties.real("radius", filter.size) != filter.size)
+      properties.fail_at("radius", "the box filter is one pixel wide",
+                         "leave it out, or use tent or gaussian");
+  } else if (negative.contains(element.type())) {
+    warn(element.where, element.name() + " has negative lobes, which cannot be sampled; box is used");
+    properties.pass_over_rest();
+  } else {
+    fail(element.where, element.name() + " is not supported", "supported are box, tent and gaussian");
+  }
+  properties.finish();
+  return filter;
 }
 
 void read_film(const Element& film, const Document& document, scene::Camera& camera) {
@@ -55,7 +80,7 @@ void read_film(const Element& film, const Document& document, scene::Camera& cam
     if (properties.integer(name, whole) != whole)
       properties.fail_at(name, "crop windows are not supported",
                          "leave the crop out to render the whole film");
-  if (const Element* filter = properties.object("rfilter")) read_filter(*filter, document);
+  if (const Element* filter = properties.object("rfilter")) camera.filter = read_filter(*filter, document);
   properties.pass_over_rest();
   properties.finish();
 }
@@ -100,15 +125,43 @@ double tan_half_fov_x(Properties& properties, double aspect) {
 
 void place(Properties& properties, scene::Camera& camera) {
   const glm::dmat4 to_world = properties.transform("to_world");
-  if (!is_rigid(to_world))
+  if (!camera.orthographic && !is_rigid(to_world))
     properties.fail_at("to_world", "it scales or shears",
                        "translations, rotations, lookat and mirroring alone");
+  const Vec3 left(to_world[0]), up(to_world[1]);
   camera.position = Vec3(to_world[3]);
   camera.forward = glm::normalize(Vec3(to_world[2]));
-  camera.left =
-      glm::normalize(Vec3(to_world[0]) - camera.forward * glm::dot(camera.forward, Vec3(to_world[0])));
-  const Vec3 up = glm::cross(camera.forward, camera.left);
-  camera.up = glm::dot(up, Vec3(to_world[1])) < 0.0 ? -up : up; // to_world may mirror
+  camera.left = glm::normalize(left - camera.forward * glm::dot(camera.forward, left));
+  camera.up = glm::cross(camera.forward, camera.left);
+  if (glm::dot(camera.up, up) < 0.0) camera.up = -camera.up; // to_world may mirror
+  if (!camera.orthographic) return;
+  // The film's width is that of [-1, 1] in the camera's frame.
+  camera.tan_half_fov_x = glm::length(left);
+  const double error = 1e-4 * camera.tan_half_fov_x;
+  if (glm::length(left - camera.left * camera.tan_half_fov_x) > error ||
+      glm::length(up - camera.up * camera.tan_half_fov_x) > error)
+    properties.fail_at("to_world", "it shears, or scales x and y differently",
+                       "the same scale for both, across the direction of view");
+}
+
+void read_lens(Properties& properties, scene::Camera& camera) {
+  camera.aperture_radius = properties.real("aperture_radius", -1.0);
+  if (camera.aperture_radius < 0.0)
+    properties.fail_at("aperture_radius",
+                       properties.has("aperture_radius") ? "it is negative" : "it is missing",
+                       "the radius of the lens, 0 or more");
+  // Mitsuba's default is the far clipping distance.
+  const bool given = properties.has("focus_distance");
+  camera.focus_distance = given ? properties.real("focus_distance", 0.0) : properties.real("far_clip", 1e4);
+  if (given) properties.pass_over({"far_clip"});
+  if (camera.focus_distance <= 0.0)
+    properties.fail_at("focus_distance", "it is not positive", "the distance of the plane that is in focus");
+}
+
+void read_field_of_view(Properties& properties, scene::Camera& camera) {
+  camera.tan_half_fov_x = tan_half_fov_x(properties, static_cast<double>(camera.width) / camera.height);
+  camera.principal_x = properties.real("principal_point_offset_x", 0.0);
+  camera.principal_y = properties.real("principal_point_offset_y", 0.0);
 }
 
 } // namespace
@@ -116,9 +169,11 @@ void place(Properties& properties, scene::Camera& camera) {
 void read_sensor(const Element& sensor, const Document& document,
                  const std::optional<std::array<int, 2>>& size, scene::Scene& scene) {
   Properties properties(sensor, document);
-  if (sensor.type() != "perspective")
-    fail(sensor.where, sensor.name() + " is not supported", "supported is perspective");
+  if (sensor.type() != "perspective" && sensor.type() != "thinlens" && sensor.type() != "orthographic")
+    fail(sensor.where, sensor.name() + " is not supported",
+         "supported are perspective, thinlens and orthographic");
   scene::Camera& camera = scene.camera;
+  camera.orthographic = sensor.type() == "orthographic";
   if (const Element* film = properties.object("film"))
     document.problems->attempt([&] { read_film(*film, document, camera); });
   if (size) {
@@ -128,10 +183,12 @@ void read_sensor(const Element& sensor, const Document& document,
   if (const Element* sampler = properties.object("sampler"))
     document.problems->attempt([&] { read_sampler(*sampler, document, scene.defaults); });
   place(properties, camera);
-  camera.tan_half_fov_x = tan_half_fov_x(properties, static_cast<double>(camera.width) / camera.height);
-  camera.principal_x = properties.real("principal_point_offset_x", 0.0);
-  camera.principal_y = properties.real("principal_point_offset_y", 0.0);
-  properties.pass_over({"near_clip", "far_clip", "shutter_open", "shutter_close", "focus_distance"});
+  if (!camera.orthographic) read_field_of_view(properties, camera);
+  if (sensor.type() == "thinlens")
+    read_lens(properties, camera);
+  else
+    properties.pass_over({"far_clip", "focus_distance"});
+  properties.pass_over({"near_clip", "shutter_open", "shutter_close"});
   properties.finish();
 }
 

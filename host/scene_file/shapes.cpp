@@ -1,5 +1,6 @@
 #include "scene_file/shapes.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -24,19 +25,34 @@ bool mirrors(const glm::dmat4& matrix) {
   return glm::determinant(glm::dmat3(matrix)) < 0.0;
 }
 
+/// Texture coordinates change by half along these directions of the object, which are axes.
+struct UvAxes {
+  Vec3 u{1, 0, 0}, v{0, 1, 0};
+};
+
 /// Transforms a patch, with front side along cross(u, v), from the object to the world.
 Patch transformed(const glm::dmat4& to_world, bool flip, Patch::Region region, const Vec3& origin,
-                  const Vec3& u, const Vec3& v) {
+                  const Vec3& u, const Vec3& v, const UvAxes& uv = {}) {
   const glm::dmat3 linear(to_world);
   Patch patch{region, Vec3(to_world * glm::dvec4(origin, 1.0)), linear * u, linear * v, {}};
+  if (region == Patch::Region::ellipse) // x and y
+    patch.uv = {glm::dvec2(0.0), glm::dvec2(1, 0), glm::dvec2(0, 1)};
+  else
+    patch.uv = {glm::dvec2(0.5), 0.5 * glm::dvec2(glm::dot(uv.u, u), glm::dot(uv.v, u)),
+                0.5 * glm::dvec2(glm::dot(uv.u, v), glm::dot(uv.v, v))};
   // cross(M u, M v) = det(M) M^-T cross(u, v) points to the back if M mirrors.
-  if (mirrors(to_world) != flip)
-    patch.edge_v = -patch.edge_v; // both regions are symmetric; edge_u stays the tangent
+  if (mirrors(to_world) != flip) { // both regions are symmetric
+    patch.edge_v = -patch.edge_v;
+    patch.uv[2] = -patch.uv[2];
+  }
   return patch;
 }
 
 /// The faces of [-1, 1]^3, with the front outside: a face's origin is the cross product of its edges.
 std::vector<Patch> cube(const glm::dmat4& to_world, bool flip) {
+  // Of the faces at -x, +x, -y, +y, -z, +z: as Mitsuba's, without a rule.
+  constexpr Vec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
+  static const std::array<UvAxes, 6> uv{{{y, z}, {y, -z}, {z, x}, {-x, -z}, {-y, x}, {y, x}}};
   std::vector<Patch> faces;
   for (int axis = 0; axis < 3; ++axis)
     for (const double side : {-1.0, 1.0}) {
@@ -44,7 +60,8 @@ std::vector<Patch> cube(const glm::dmat4& to_world, bool flip) {
       normal[axis] = side;
       u[(axis + 1) % 3] = 1.0;
       v[(axis + 2) % 3] = side;
-      faces.push_back(transformed(to_world, flip, Patch::Region::parallelogram, normal, u, v));
+      faces.push_back(
+          transformed(to_world, flip, Patch::Region::parallelogram, normal, u, v, uv[faces.size()]));
     }
   return faces;
 }
@@ -63,6 +80,8 @@ scene::Sphere sphere(Properties& properties, const glm::dmat4& own, const glm::d
   if (properties.document().major_version == 0) center /= glm::length(Vec3(own[0]));
   result.center = Vec3(to_world * glm::dvec4(center, 1.0));
   result.radius = radius * glm::length(Vec3(to_world[0]));
+  for (int axis = 0; axis < 3; ++axis)
+    result.axes[static_cast<std::size_t>(axis)] = glm::normalize(Vec3(to_world[axis]));
   result.front_is_inside = properties.boolean("flip_normals", false);
   return result;
 }
@@ -121,7 +140,7 @@ Attached attached(Properties& properties, const ShapeTarget& target) {
 
 void read_mesh_shape(Properties& properties, const glm::dmat4& to_world, const Attached& attached,
                      const ShapeTarget& target) {
-  properties.pass_over({"flip_tex_coords", "srgb"});
+  properties.pass_over({"srgb"});
   if (properties.string("filename", "").empty())
     fail(properties.element().where, properties.element().name() + " without a filename",
          "<string name=\"filename\" .../>");
@@ -133,6 +152,13 @@ void read_mesh_shape(Properties& properties, const glm::dmat4& to_world, const A
   request.to_world = to_world;
   request.flip_normals = properties.boolean("flip_normals", false);
   request.face_normals = properties.boolean("face_normals", false);
+  request.flip_tex_coords = properties.boolean("flip_tex_coords", request.format == "obj");
+  const auto needs_uv = [&](int material) {
+    return scene::needs_uv(target.scene.materials[static_cast<std::size_t>(material)]);
+  };
+  request.texture_coordinates =
+      needs_uv(attached.surface.material) ||
+      std::ranges::any_of(attached.materials, [&](const auto& named) { return needs_uv(named.second); });
   if (request.format != "ply") request.shape_index = properties.integer("shape_index", -1);
   const bool collapse = properties.boolean("collapse", false);
   const bool load_materials = properties.boolean("load_materials", true);

@@ -60,8 +60,9 @@ TEST_CASE("Unknown elements and attributes are errors that name what is supporte
   CHECK_THAT(error_in("<bsdf type=\"diffuse\"><rgb name=\"reflectance\" vlaue=\"1\"/></bsdf>"),
              StartsWith("scene.xml:2: attribute 'vlaue' of <rgb> is not supported"));
   CHECK_THAT(
-      error_in("<bsdf type=\"diffuse\">\n<texture type=\"bitmap\" name=\"reflectance\"/></bsdf>"),
-      StartsWith("scene.xml:3: <texture type=\"bitmap\"> inside <bsdf type=\"diffuse\"> is not supported"));
+      error_in("<bsdf type=\"diffuse\">\n<medium type=\"homogeneous\"/></bsdf>"),
+      StartsWith(
+          "scene.xml:3: <medium type=\"homogeneous\"> inside <bsdf type=\"diffuse\"> is not supported"));
   CHECK_THAT(error_in("<bsdf type=\"phong\">\n<shape type=\"disk\"/></bsdf>"),
              StartsWith("scene.xml:3: <shape type=\"disk\"> inside <bsdf type=\"phong\"> is not supported"));
   CHECK_THAT(error_in("<float name=\"a\" value=\"1\"><rgb name=\"b\" value=\"1\"/></float>"),
