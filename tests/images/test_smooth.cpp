@@ -142,7 +142,7 @@ TEST_CASE("a coarse smooth mesh: light and bidir agree with path, with strictNor
   scene::Scene scene;
   scene.materials = {diffuse({0.8, 0.5, 0.2}), phong({0.3, 0.1, 0.0}, {0.6, 0.2, 0.9}, 8)};
   scene.materials[0].two_sided = scene.materials[1].two_sided = true;
-  scene.meshes = {sphere_mesh(5, 3), sphere_mesh(4, 3)};
+  scene.meshes = {sphere_mesh(8, 5), sphere_mesh(6, 4)};
   for (Vec3& p : scene.meshes[1].positions) p = 0.6 * p + Vec3(1.3, 0.4, 0.2);
   scene.meshes[1].surface = {1, -1};
   scene.area_emitters = {{scene::Rgb(3.0)}};
