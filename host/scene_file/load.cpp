@@ -53,8 +53,9 @@ scene::Scene load(const std::filesystem::path& file, const std::map<std::string,
   const bool scale = properties.boolean("ensure_energy_conservation", false);
   TextureReader textures;
   const MaterialRules rules{library, textures, scale ? ExcessEnergy::scale : ExcessEnergy::error};
-  for (const Element* texture : properties.objects("texture")) // to check also those that nothing refers to
-    static_cast<void>(textures.read(*texture, document));
+  for (const Element* texture : properties.objects("texture"))
+    if (!is_unused(*texture, document))
+      problems.attempt([&] { static_cast<void>(textures.read(*texture, document)); });
   for (const Element* bsdf : properties.objects("bsdf")) // to check also those that no shape refers to
     if (!is_unused(*bsdf, document))
       problems.attempt([&] { static_cast<void>(read_material(*bsdf, document, rules)); });

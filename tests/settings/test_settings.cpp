@@ -19,17 +19,27 @@ Choices chosen(const std::map<std::string, std::string>& texts) {
 }
 
 // For each setting a valid value that is not the default, as text.
-const std::map<std::string, std::string> other_texts = {
-    {"integrator", "bidir"},      {"strategy", "cosine"},
-    {"connect", "light"},         {"weights", "power"},
-    {"light-selection", "power"}, {"connections", "0"},
-    {"contributions", "DIR"},     {"ambient", "0.1"},
-    {"clamp", "1e-30"},           {"max-depth", "12"},
-    {"rr-depth", "-1"},           {"roulette", "kd-ks"},
-    {"spp", "2147483647"},        {"time", "0.3"},
-    {"error", "1e+20"},           {"seed", "18446744073709551615"},
-    {"first-sample", "7"},        {"width", "16"},
-    {"precision", "double"},      {"traversal", "bvh"}};
+const std::map<std::string, std::string> other_texts = {{"integrator", "bidir"},
+                                                        {"strategy", "cosine"},
+                                                        {"connect", "light"},
+                                                        {"weights", "power"},
+                                                        {"light-selection", "power"},
+                                                        {"connections", "0"},
+                                                        {"contributions", "DIR"},
+                                                        {"ambient", "0.1"},
+                                                        {"clamp", "1e-30"},
+                                                        {"max-depth", "12"},
+                                                        {"rr-depth", "-1"},
+                                                        {"roulette", "kd-ks"},
+                                                        {"sampler", "lattice"},
+                                                        {"spp", "2147483647"},
+                                                        {"time", "0.3"},
+                                                        {"error", "1e+20"},
+                                                        {"seed", "18446744073709551615"},
+                                                        {"first-sample", "7"},
+                                                        {"width", "16"},
+                                                        {"precision", "double"},
+                                                        {"traversal", "bvh"}};
 
 } // namespace
 
