@@ -58,7 +58,7 @@ struct Mesh {
   Surface surface;
   /// One per position. Empty: the second and third barycentric coordinates of each triangle, as in Mitsuba;
   /// meshes whose material needs none are loaded without.
-  std::vector<glm::vec2> texture_coordinates;
+  std::vector<glm::vec2> texture_coordinates = {};
 };
 
 struct AreaEmitter { ///< radiance leaves the front side of the shape that refers to it

@@ -173,8 +173,7 @@ TEST_CASE("Wrong textures are errors") {
              Contains("given twice"));
   CHECK_THAT(error_beside("<emitter type=\"constant\">" + bitmap("", "name=\"radiance\"") + "</emitter>"),
              Contains("'radiance' is a <texture>"));
-  CHECK_THAT(error_beside(bitmap("<string name=\"wrapMode\" value=\"zero\"/>", "id=\"unused\"")),
-             Contains("wrapMode"));
+  CHECK_THAT(error_beside(disk(bitmap("<string name=\"wrapMode\" value=\"zero\"/>"))), Contains("wrapMode"));
   CHECK_THAT(error_beside("<shape type=\"disk\">" + bitmap() + "</shape>"),
              Contains("'reflectance' is not a property"));
 }
