@@ -17,6 +17,7 @@
 #include "bench/common/tables/csv.h"
 #include "bench/common/tables/provenance.h"
 #include "bench/scenes/scene_files.h"
+#include "files/output.h"
 #include "measure/statistics.h"
 
 namespace phlux::bench {
@@ -253,7 +254,9 @@ bool measure_roulette(const RouletteOptions& options) try {
                     fmt::format("{} to {}", options.seed,
                                 options.seed + static_cast<std::uint64_t>(rounds_of(options) - 1))});
   fmt::print("{}\n", table.path().string());
-  for (const std::string& answer : roulette_answers(all)) fmt::print("{}\n", answer);
+  const std::string answers = fmt::format("{}\n", fmt::join(roulette_answers(all), "\n"));
+  files::write_file(options.folder / "roulette.verdict.txt", answers);
+  fmt::print("{}", answers);
   std::fflush(stdout);
   draw_charts(options.folder, "roulette");
   return true;

@@ -3,6 +3,7 @@ report.
 
     python3 roulette.py FOLDER
 """
+import math
 import sys
 from functools import partial
 
@@ -15,6 +16,10 @@ DEPTHS = {1: "from edge 1", 5: "from edge 5", -1: ""}  # filled from 5 on, open 
 
 def series_of(row):
     return row.roulette if row.strategy == "exact" else f"{row.strategy}, {row.roulette}"
+
+
+def variant_of(row):
+    return f"{series_of(row)} {DEPTHS[int(row.rr_depth)]}".strip()
 
 
 def draw(rows, theme):
@@ -30,7 +35,7 @@ def draw(rows, theme):
             color = theme.color(i % len(style.SERIES))
             axes.errorbar(row.ratio, y, xerr=2 * row.ratio_standard_error, color=color, ls="none", lw=0.8, ms=5,
                           marker=style.MARKERS[i % len(style.MARKERS)], mfc="none" if row.rr_depth == 1 else color,
-                          label=f"{series_of(row)} {DEPTHS[int(row.rr_depth)]}".strip())
+                          label=variant_of(row))
         axes.axvline(1, color=theme.ink, lw=0.8)
         axes.set_xscale("log")
         low, most = axes.get_xlim()
@@ -53,6 +58,22 @@ def draw(rows, theme):
     return figure
 
 
+def summary(folder, rows):
+    """The geometric mean over the scenes of each variant's ratio, by integrator."""
+    integrators = list(dict.fromkeys(row.integrator for row in rows))
+    variants = list(dict.fromkeys(variant_of(row) for row in rows))
+    lines = []
+    for variant in variants:
+        line = [variant]
+        for integrator in integrators:
+            ratios = [row.ratio for row in rows if row.integrator == integrator
+                      and variant_of(row) == variant]
+            line.append(math.exp(sum(math.log(ratio) for ratio in ratios) / len(ratios)))
+        lines.append(line)
+    return {"text": style.read_verdict(folder, "roulette"), "columns": ["roulette", *integrators], "rows": lines,
+            "note": "Variance x rays relative to the default settings, geometric mean over the scenes."}
+
+
 def main():
     folder = sys.argv[1]
     rows = style.read(folder, "roulette.csv")
@@ -62,6 +83,7 @@ def main():
         text=["Variance of one sample times the rays that it costs, relative to the default settings, from renders with the same "
               "seeds. Rays are counted, so that other programs on the machine change nothing. Standard errors come from the "
               "jackknife over the rounds."],
+        summary=summary(folder, rows),
         charts=[{"svg": "roulette.svg", "title": "Variance x rays of each roulette",
                  "caption": "Left of 1 fewer rays are needed for the same error. Open marks: roulette from the first reflection on. "
                             "Error bars are two standard errors."}],

@@ -15,6 +15,7 @@
 #include "bench/common/tables/csv.h"
 #include "bench/common/tables/provenance.h"
 #include "bench/scenes/scene_files.h"
+#include "files/output.h"
 #include "measure/statistics.h"
 
 namespace phlux::bench {
@@ -125,18 +126,26 @@ std::string percent(const Estimate& share) {
 }
 
 void print(const std::string& scene, const std::vector<TechniqueShare>& shares) {
-  constexpr double least_shown = 0.005;
+  constexpr double least_shown = 0.01;
   fmt::print("{:<14} {:>16} {:>16} {:>12} {:>8}   (95% intervals)\n", "technique", "of the variance",
              "of the light", "alone", "of the rays");
-  double subpaths = 1;
+  double subpaths = 1, rays_of_others = 0, variance_of_others = 0;
+  int others = 0;
   for (const TechniqueShare& share : shares) {
     subpaths -= share.ray_share;
-    if (std::max({share.variance_share.value, share.light.value, share.ray_share}) < least_shown) continue;
+    if (std::max(share.variance_share.value, share.light.value) < least_shown) {
+      ++others;
+      variance_of_others += share.variance_share.value;
+      rays_of_others += share.ray_share;
+      continue;
+    }
     fmt::print("{:<14} {:>16} {:>16} {:>12.4g} {:>7.1f}%\n", name_of(share.technique),
                percent(share.variance_share), percent(share.light), share.variance_alone.value,
                100 * share.ray_share);
   }
-  fmt::print("{:<14} {:>58.1f}%\n{}: {}\n", "subpaths", 100 * subpaths, scene, techniques_answer(shares));
+  fmt::print("{:<14} {:>15.1f}% {:>42.1f}%\n", fmt::format("{} others", others), 100 * variance_of_others,
+             100 * rays_of_others);
+  fmt::print("{:<14} {:>59.1f}%\n{}: {}\n", "subpaths", 100 * subpaths, scene, techniques_answer(shares));
   std::fflush(stdout);
 }
 
@@ -204,6 +213,7 @@ bool measure_techniques(const TechniquesOptions& options) try {
   CsvFile table(options.folder, "techniques.csv", columns);
   StatusLine status;
   const Method method = method_of(options);
+  std::string answers;
   for (const auto& file : files) {
     const std::string name = file.stem().string();
     const scene::Scene scene = load_at_size(file, options.quick ? quick_side : side);
@@ -218,8 +228,10 @@ bool measure_techniques(const TechniquesOptions& options) try {
                              samples_of(options), scene.camera.width, scene.camera.height, options.seed,
                              csv_value(device.name)));
     status.clear();
+    answers += fmt::format("{}: {}\n", name, techniques_answer(shares));
     print(name, shares);
   }
+  files::write_file(options.folder / "techniques.verdict.txt", answers);
   write_provenance(options.folder, "techniques",
                    {command_of(options), device, options.lanes_on(device),
                     "nothing is timed: rays are counted",

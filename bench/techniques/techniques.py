@@ -5,12 +5,13 @@
 import math
 import sys
 from functools import partial
+from types import SimpleNamespace
 
 import chart_style as style
 import matplotlib.pyplot as plt
 
 QUANTITIES = (("variance_share", "of the variance"), ("light_share", "of the light"), ("ray_share", "of the rays"))
-LEAST_SHARE = 0.01  # of any quantity, to have bars of its own
+LEAST_SHARE = 0.01  # of the variance or the light, to have bars of its own
 T_95 = 2.26  # Student's t, 10 rounds
 
 
@@ -18,12 +19,17 @@ def name_of(row):
     return "longer paths" if math.isnan(row.edges) else f"({row.light_vertices:g}, {row.eye_vertices:g})"
 
 
-def is_shown(row):
-    return max(getattr(row, quantity) for quantity, _ in QUANTITIES) >= LEAST_SHARE
+def with_others(rows):
+    """(label, row) of the techniques that are shown, and the sum of the others."""
+    shown = [row for row in rows if max(row.variance_share, row.light_share) >= LEAST_SHARE]
+    others = [row for row in rows if row not in shown]
+    sums = SimpleNamespace(**{quantity: sum(getattr(row, quantity) for row in others) for quantity, _ in QUANTITIES})
+    return [(name_of(row), row) for row in shown] + ([(f"{len(others)} others", sums)] if others else [])
 
 
 def draw(rows, theme):
-    shown = [row for row in rows if is_shown(row)]
+    labelled = with_others(rows)
+    shown = [row for _, row in labelled]
     figure, axes = plt.subplots(figsize=(9, 1.15 + 0.5 * len(shown)))
     for k, (quantity, label) in enumerate(QUANTITIES):
         ys = [i + 0.26 * (k - 1) for i in range(len(shown))]
@@ -33,7 +39,7 @@ def draw(rows, theme):
         if quantity != "ray_share":
             axes.errorbar(shares, ys, xerr=errors, ls="none", lw=0.9, color=theme.ink)
     axes.axvline(0, color=theme.axis, lw=0.8)
-    axes.set_yticks(range(len(shown)), [name_of(row) for row in shown])
+    axes.set_yticks(range(len(shown)), [label for label, _ in labelled])
     axes.set_ylim(len(shown) - 0.45, -0.55)
     axes.set_xlabel("share in percent")
     axes.set_ylabel("technique (light, eye vertices)")
@@ -62,10 +68,10 @@ def main():
               "is the covariance of its weighted contributions with the image, over the variance of the image, so that all shares "
               "add up to 100%; it is negative where a technique compensates others. The rays of a technique are its shadow rays; "
               "the rest are those of the subpaths, which all techniques use."],
-        summary={"columns": ["scene", "technique", "% of the variance", "+-", "% of the light", "% of the rays"], "rows": summary,
+        summary={"text": style.read_verdict(folder, "techniques"), "columns": ["scene", "technique", "% of the variance", "+-", "% of the light", "% of the rays"], "rows": summary,
                  "note": f"The technique of {method} that causes the largest part of the variance; +- is a 95% interval."},
         charts=[{"svg": f"techniques-{scene}.svg", "title": f"{scene}: what each technique brings and costs",
-                 "caption": "Techniques with at least 1% of anything. Error bars are 95% intervals."} for scene in scenes],
+                 "caption": "Techniques with at least 1% of the variance or of the light. Error bars are 95% intervals."} for scene in scenes],
         tables=[{"csv": "techniques.csv", "title": "All techniques"}])
 
 
