@@ -2,14 +2,17 @@
 // devices and integrators.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include "scene/model.h"
@@ -31,6 +34,9 @@ struct Patch {
   Region region = Region::parallelogram;
   Vec3 origin{0.0}, edge_u{1, 0, 0}, edge_v{0, 1, 0};
   Surface surface;
+  /// Texture coordinates of a parallelogram at its origin, and what they change by along edge_u and edge_v.
+  /// For an ellipse these are coordinates whose polar ones, (radius, turns), are its texture coordinates.
+  std::array<glm::dvec2, 3> uv{glm::dvec2(0.5), glm::dvec2(0.5, 0), glm::dvec2(0, 0.5)};
 };
 
 struct Sphere {
@@ -38,16 +44,21 @@ struct Sphere {
   double radius = 1.0;          ///< > 0
   bool front_is_inside = false; ///< flipNormals
   Surface surface;
+  /// Unit vectors along which the object's x, y and z axes lie. Texture coordinates are the longitude about
+  /// z, from x, in turns, and the angle from z over pi.
+  std::array<Vec3, 3> axes{Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)};
 };
 
 /// Triangles that share vertices. The front side is counter-clockwise (along cross(p1 - p0, p2 - p0)); the
-/// loader has already reversed triangles and normals for flipNormals and for transforms that mirror, and
-/// dropped triangles without area.
+/// loader has already reversed triangles and normals for flipNormals, and dropped triangles without area.
 struct Mesh {
   std::vector<Vec3> positions;
   std::vector<glm::vec3> normals; ///< unit, one per position; empty: flat shading
   std::vector<std::array<std::uint32_t, 3>> triangles;
   Surface surface;
+  /// One per position. Empty: the second and third barycentric coordinates of each triangle, as in Mitsuba;
+  /// meshes whose material needs none are loaded without.
+  std::vector<glm::vec2> texture_coordinates;
 };
 
 struct AreaEmitter { ///< radiance leaves the front side of the shape that refers to it
@@ -124,8 +135,21 @@ struct Scene {
   std::vector<DirectionalLight> directional_lights;
   std::optional<Rgb> constant_radiance;      ///< the `constant` emitter
   std::optional<EnvironmentMap> environment; ///< excludes constant_radiance
+  /// Mitsuba's strictNormals: directions that lie on different sides of the interpolated and the geometric
+  /// normal carry no light. Otherwise the interpolated normal alone decides on the side.
+  bool strict_normals = false;
   Camera camera;
   RenderDefaults defaults;
+  std::vector<std::filesystem::path> files; ///< that were read: the scene file, meshes
 };
+
+/// Whether the reflection depends on the surface's texture coordinates or tangents.
+[[nodiscard]] inline bool needs_uv(const Material& material) {
+  return material.is_textured() || material.model->needs_tangents;
+}
+[[nodiscard]] inline bool needs_uv(const Scene& scene) {
+  return std::any_of(scene.materials.begin(), scene.materials.end(),
+                     [](const Material& m) { return needs_uv(m); });
+}
 
 } // namespace phlux::scene

@@ -48,7 +48,7 @@ scene::EnvironmentMap read_environment_map(Properties& properties) {
   if (name.empty())
     fail(properties.element().where, properties.element().name() + " without a filename",
          "<string name=\"filename\" value=\"sky.exr\"/>");
-  const std::filesystem::path file = properties.document().file.parent_path() / name;
+  const std::filesystem::path file = properties.document().find(name);
   ImageFile image = read_image(file, properties.where("filename"));
   if (image.is_encoded && properties.has("gamma"))
     properties.fail_at("gamma", "only sRGB is decoded", "leave it out, or use an HDR or OpenEXR image");

@@ -63,6 +63,7 @@ HostScene prepare(const scene::Scene& scene, settings::Traversal traversal, int 
   host.lights = light_table(scene, host.geometry, tree_of_lights);
   host.materials =
       lobes::material_table(scene.materials, lobes::models_of(used_materials(scene, host.geometry)));
+  host.textures = texture_table(host.materials.textures);
   host.camera = camera_record(scene.camera, host.geometry.origin);
   return host;
 }

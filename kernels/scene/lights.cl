@@ -61,6 +61,9 @@ static inline Int choose_light_for(const Scene* scene, Vec3 lit, Vec3 normal, Ui
   return choose_from_tree(scene, lit, normal, word, other_word, by_tree & (LIGHT_INT(scene, light, node) >= 0), light);
 }
 
+// The normal with which a light is chosen for a point: the one that decides which lights can shine on it.
+static inline Vec3 lit_normal(SurfacePoint point) { return SIDES_BY_SHADING ? point.frame.z : point.normal; }
+
 // The density of emission (emission.cl); of an environment map, in a direction that it samples with density `sky`.
 static inline Real emission_density(const Scene* scene, Int light, Real sky) {
   const Real density = LIGHT_REAL(scene, light, emission_density);
@@ -123,9 +126,8 @@ static inline SurfacePosition sphere_light_point(SphereShape sphere, Vec3 unit, 
   return point;
 }
 
-// The fraction of its intensity that a spot light sends at an angle of this cosine to its axis.
-static inline Real spot_falloff(const Scene* scene, Int light, Real cosine) {
-  const Real angle = acos(clamp(cosine, (Real)(-1.0f), (Real)(1.0f)));
+// The fraction of its intensity that a spot light sends at this angle to its axis.
+static inline Real spot_falloff(const Scene* scene, Int light, Real angle) {
   return clamp((LIGHT_REAL(scene, light, cutoff) - angle) * LIGHT_REAL(scene, light, inv_transition), (Real)(0.0f),
                (Real)(1.0f));
 }
@@ -222,8 +224,8 @@ static inline void sample_point_light(const Scene* scene, LightSample* s, Surfac
   const Ray ray = ray_to_point(lit, LIGHT_VEC3(scene, s->light, position), &distance);
   const Real density = distance * distance * s->choice;
   if (HAS_SPOT_LIGHTS) {
-    const Real cosine = -vec_dot(LIGHT_VEC3(scene, s->light, direction), ray.direction);
-    const Real falloff = kind == LIGHT_SPOT ? spot_falloff(scene, s->light, cosine) : (Real)(1.0f);
+    const Real angle = vec_angle(LIGHT_VEC3(scene, s->light, direction), vec_scale((Real)(-1.0f), ray.direction));
+    const Real falloff = kind == LIGHT_SPOT ? spot_falloff(scene, s->light, angle) : (Real)(1.0f);
     s->radiance = vec_select(m, vec_scale(falloff, s->radiance), s->radiance);
   }
   s->ray.origin = vec_select(m, ray.origin, s->ray.origin);
@@ -264,8 +266,8 @@ static inline LightSample light_sample(const Scene* scene, SurfacePoint point, R
   const SurfacePosition lit = surface_position(point);
   const RandomWords words = random.words;
   LightSample s;
-  s.light = choose_light_for(scene, lit.position, lit.normal, words.x, words.y);
-  s.choice = probability_for(scene, lit.position, lit.normal, s.light, ALL_LANES);
+  s.light = choose_light_for(scene, lit.position, lit_normal(point), words.x, words.y);
+  s.choice = probability_for(scene, lit.position, lit_normal(point), s.light, ALL_LANES);
   s.ray.origin = lit.position;
   s.ray.direction = lit.normal;
   s.distance = (Real)(0.0f);

@@ -25,6 +25,10 @@ typedef struct {
   const __global float* lobe_tables; // of the reflectance models
   const __global int* corners;          // three per flat primitive: indices into vertex_normals, -1: flat
   const __global float* vertex_normals; // three floats each
+  const __global int* texture_numbers;    // like `materials`: 1 + a colour's texture at its first word, else 0
+  const __global TextureRecord* textures;
+  const __global float* texels; // values of bytes, and texels
+  const __global float* uv_maps; // UV_FLOATS per primitive
   // Copies of tables with few entries, member by member.
   float material_members[MATERIAL_WORDS][LANES];
   float light_members[sizeof(LightRecord) / 4][LANES];
@@ -85,7 +89,9 @@ static inline void keep_small_tables(Scene* scene) {
       const __global Scalar *spheres, int first_sphere, int sphere_count, const __global float *nodes, int root,       \
       const __global LightNodeRecord *light_nodes, float light_tree_probability,                                       \
       const __global EnvironmentRecord *environment, const __global EnvironmentTexel *environment_texels,              \
-      const __global float *lobe_tables, const __global int *corners, const __global float *vertex_normals
+      const __global float *lobe_tables, const __global int *corners, const __global float *vertex_normals,            \
+      const __global int *texture_numbers, const __global TextureRecord *textures, const __global float *texels,       \
+      const __global float *uv_maps
 #define SCENE_FROM_PARAMETERS                                                                                          \
   Scene scene;                                                                                                         \
   scene.camera = camera;                                                                                               \
@@ -109,6 +115,10 @@ static inline void keep_small_tables(Scene* scene) {
   scene.lobe_tables = lobe_tables;                                                                                   \
   scene.corners = corners;                                                                                             \
   scene.vertex_normals = vertex_normals;                                                                               \
+  scene.texture_numbers = texture_numbers;                                                                             \
+  scene.textures = textures;                                                                                           \
+  scene.texels = texels;                                                                                               \
+  scene.uv_maps = uv_maps;                                                                                             \
   keep_small_tables(&scene);
 
 #endif

@@ -39,7 +39,27 @@ typedef struct {
 // MATERIAL_WORDS, the length of the longest record of the scene.
 enum MaterialHeader { MATERIAL_MODEL = 0, MATERIAL_FLAGS = 1, MATERIAL_HEADER = 2 };
 // Sides that reflect anything; neither if the material is black.
-enum MaterialFlags { MATERIAL_FRONT = 1, MATERIAL_BACK = 2 };
+enum MaterialFlags { MATERIAL_FRONT = 1, MATERIAL_BACK = 2, MATERIAL_TEXTURED = 4 };
+
+// A texture: a colour at (u, v) = to_uv (1, its surface's u and v).
+enum TextureKinds { TEXTURE_CHECKERBOARD = 0, TEXTURE_BYTES = 1, TEXTURE_FLOATS = 2 };
+enum TextureWraps { WRAP_REPEAT = 0, WRAP_MIRROR = 1, WRAP_CLAMP = 2 };
+typedef struct {
+  int kind;        // enum TextureKinds
+  float to_uv[6];  // u and v of the lookup: each the factors of the surface's u and v, and a summand
+  float colors[6]; // checkerboard: its two colours; bitmap: colors[0] is a factor of every texel
+  // Bitmaps: row 0 is at v = 0.
+  int width, height;
+  int wrap_u, wrap_v; // enum TextureWraps
+  int nearest;        // 1: no interpolation
+  int first_word;     // in the table of texels. Bytes: one word per texel, red in its lowest byte; floats: three
+  int decoding;       // bytes: the word where the linear values of the 256 bytes begin
+} TextureRecord;
+
+// What a primitive's texture coordinates and tangents follow from. Flat, with a and b along edge_u and edge_v:
+// origin + a per_u + b per_v (of ellipses its polar coordinates, radius and turns), and d position / d u (not of ellipses).
+// Spheres: the directions of the object's x, y and z axes.
+enum UvValues { UV_ORIGIN = 0, UV_PER_U = 2, UV_PER_V = 4, UV_TANGENT = 6, UV_AXES = 0, UV_FLOATS = 9 };
 
 enum LightKinds {
   LIGHT_PLANAR = 0,
@@ -120,9 +140,14 @@ enum SumWords { SUM_RADIANCE = 0, SUM_SQUARES = 3, SUM_NONFINITE = 6, SUM_CLAMPE
 // weight.
 enum RecordWords { RECORD_PIXEL = 0, RECORD_PATH, RECORD_VALUE, RECORD_WEIGHT = 5, RECORD_TECHNIQUE };
 
-// Words of a stored vertex (transport/vertex_store.cl): of a scene without interpolated normals and tangents, and what
-// each of these adds.
-enum VertexWords { VERTEX_WORDS_PLAIN = 16, VERTEX_WORDS_OF_NORMAL = 3, VERTEX_WORDS_OF_TANGENT = 3 };
+// Words of a stored vertex (transport/vertex_store.cl): of a scene without interpolated normals, tangents and textures,
+// and what each of these adds.
+enum VertexWords {
+  VERTEX_WORDS_PLAIN = 16,
+  VERTEX_WORDS_OF_NORMAL = 3,
+  VERTEX_WORDS_OF_TANGENT = 3,
+  VERTEX_WORDS_OF_UV = 2
+};
 
 // What a batch of bidirectional paths needs for each path besides vertices: where the two subpaths' are, and radiance.
 enum { SCRATCH_WORDS_PER_PATH = 8 };

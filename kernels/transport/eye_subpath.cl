@@ -12,6 +12,7 @@ static inline void start_at_camera(const Scene* scene, Subpath* s) {
   const CameraSample sample = camera_sample(scene, random_words(s->sequence, (Uint)(0), 0));
   s->ray = camera_ray(scene, s->sequence.pixel, sample);
   s->throughput = vec_all((Real)(1.0f));
+  s->begin = (Real)(1.0f);
   s->edges = (Int)(0);
   s->delta = NO_LANES;
   if (IS_BIDIR)
@@ -117,7 +118,7 @@ static inline FoundLight sample_light(const Scene* scene, const Subpath* s, Vert
   const LobeValue lobe = material_evaluate(v.material, v.fixed, generated);
   const Vec3 reflected = vec_mul(s->throughput, lobe.value);
   found.value = vec_scale(generated.z / light->density, vec_mul(light->radiance, reflected));
-  found.weight = weight_of_sampled_light(scene, s, *light, lobe, cosine);
+  found.weight = weight_of_sampled_light(scene, s, *light, lobe, size_of_cosine(cosine));
   if (HAS_DELTA) found.found &= vec_max(lobe.value) > 0.0f;
   return found;
 }

@@ -18,6 +18,7 @@ typedef struct {
   PathLimits limits;
   int sky_light;
   uint2 seed;
+  PointSets sets;
   ShadowQueue queue;
   Output output;
   VertexStore light, eye; // bidir
@@ -107,7 +108,7 @@ static inline void connect_to_camera(WorkItem* work, const Subpath* s, Vertex v,
   const Real arriving = adjoint_cosine(v, generated, cosine) * view.film.density / view.distance2;
   const Vec3 value = vec_scale(HAS_FILTER ? view.film.share * arriving : arriving, reflected);
   Real weight = (Real)(1.0f);
-  if (IS_BIDIR) weight = weight_of_seen_vertex(s->mis, view.film.density, lobe.reverse, view.distance2, cosine);
+  if (IS_BIDIR) weight = weight_of_seen_vertex(s->mis, view.film.density, lobe.reverse, view.distance2, size_of_cosine(cosine));
   Real distance;
   const Ray ray = ray_to_point(surface_position(v.point), view.eye, &distance);
   add_if_unoccluded(scene, &work->queue, &work->output, ray, distance,
@@ -124,6 +125,7 @@ static inline Mask start_at_light(WorkItem* work, Batch* batch, Subpath* s, Mask
                                      random_words(s->sequence, (Uint)(DIMENSION_EMISSION + 1), 0));
   s->ray = e.ray;
   s->throughput = vec_scale(1.0f / e.density, e.radiance);
+  s->begin = vec_max(s->throughput);
   s->light = e.light;
   s->light_cosine = vec_dot(e.origin.normal, e.ray.direction);
   if (HAS_ENVIRONMENT_MAP) s->light_cosine = e.sky ? e.sky_density : s->light_cosine;
@@ -136,7 +138,7 @@ static inline Mask start_at_light(WorkItem* work, Batch* batch, Subpath* s, Mask
 // `distance` away, in the lanes of m; that of a light without a surface as in LightSample.
 static inline Real density_of_start(const Scene* scene, const Subpath* s, Vertex v, Real distance, Mask m) {
   const Vec3 lit = v.point.position;
-  const Real choice = probability_for(scene, lit, v.point.normal, s->light, m);
+  const Real choice = probability_for(scene, lit, lit_normal(v.point), s->light, m);
   const Int kind = light_kind(scene, s->light);
   Real density = choice;
   if (HAS_AREA_LIGHTS) {
@@ -170,7 +172,7 @@ static inline MisQuantities mis_arrived_from_light(const Scene* scene, const Sub
 // that bidirectional path tracing stores.
 static inline int trace_light_subpaths(WorkItem* work, Batch batch) {
   const Scene* scene = work->scene;
-  Subpath s = no_subpath(work->seed), next = no_subpath(work->seed);
+  Subpath s = no_subpath(work->seed, work->sets), next = s;
   WaitingSubpaths waiting;
   waiting.count = 0;
   StoredSubpath stored = nothing_stored();

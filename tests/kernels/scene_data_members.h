@@ -1,7 +1,7 @@
 // Every member of every struct shared by host and kernels, to compare its offset in both compilers.
 #define SHARED_STRUCTS(STRUCT)                                                                               \
   STRUCT(PrimitiveRecord)                                                                                    \
-  STRUCT(LightRecord) STRUCT(LightNodeRecord) STRUCT(CameraRecord)                                           \
+  STRUCT(LightRecord) STRUCT(LightNodeRecord) STRUCT(CameraRecord) STRUCT(TextureRecord)                     \
   STRUCT(EnvironmentRecord) STRUCT(EnvironmentTexel)
 
 #define SHARED_MEMBERS(MEMBER)                                                                               \
@@ -50,4 +50,14 @@
   MEMBER(EnvironmentTexel, threshold)                                                                        \
   MEMBER(EnvironmentTexel, alias)                                                                            \
   MEMBER(CameraRecord, width)                                                                                \
-  MEMBER(CameraRecord, height)
+  MEMBER(CameraRecord, height)                                                                               \
+  MEMBER(TextureRecord, kind)                                                                                \
+  MEMBER(TextureRecord, to_uv)                                                                               \
+  MEMBER(TextureRecord, colors)                                                                              \
+  MEMBER(TextureRecord, width)                                                                               \
+  MEMBER(TextureRecord, height)                                                                              \
+  MEMBER(TextureRecord, wrap_u)                                                                              \
+  MEMBER(TextureRecord, wrap_v)                                                                              \
+  MEMBER(TextureRecord, nearest)                                                                             \
+  MEMBER(TextureRecord, first_word)                                                                          \
+  MEMBER(TextureRecord, decoding)

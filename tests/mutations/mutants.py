@@ -123,6 +123,7 @@ MIRROR_BALL = ("test_images", "mirrors: a ball in a furnace*")
 MAPS, MAP_RENDERS = ("test_kernels", "environment maps:*"), ("test_images", "environment maps:*")
 CAMERA_RENDERS = ("test_images", "cameras:*")
 REMEDIES = ("test_images", "light samples by power*,roulette of connections leaves*")
+ROULETTES = ("test_images", "every roulette*")
 
 INTEGRATOR_MUTANTS = [
     ("splat without its cosine", "transport/light_subpath.cl",
@@ -149,7 +150,7 @@ INTEGRATOR_MUTANTS = [
     ("light subpaths without the adjoint factor", "transport/subpath.cl", "if (HAS_SMOOTH_NORMALS && adjoint)",
      "if (HAS_SMOOTH_NORMALS && adjoint > 1)", SMOOTH),
     ("adjoint factor of splats and connections missing", "transport/subpath.cl",
-     "return v.fixed.z * geometric_cosine / vec_dot(v.point.normal, from_frame(v.point.frame, v.fixed));",
+     "return v.fixed.z * size_of_cosine(geometric_cosine) / vec_dot(v.point.normal, from_frame(v.point.frame, v.fixed));",
      "return generated.z;", SMOOTH),
     ("reverse density not the other way round (walk)", "transport/subpath.cl",
      "material_evaluate(v.material, v.fixed, sample->direction).reverse",
@@ -203,8 +204,8 @@ INTEGRATOR_MUTANTS = [
      "next.d_vc = delta ? smaller(heuristic(cosine) * q.d_vc, (Real)(LARGEST_RATIO)) : next.d_vc;", "", WEIGHTS),
     ("density of a delta event kept in d_vc", "transport/mis_weights.cl", "smaller(heuristic(cosine) * q.d_vc",
      "smaller(heuristic(cosine / density) * q.d_vc", WEIGHTS),
-    ("delta events lost by scatter", "transport/subpath.cl", "reverse, cosine, sample->delta)",
-     "reverse, cosine, NO_LANES)", MIRRORS),
+    ("delta events lost by scatter", "transport/subpath.cl", "reverse, size_of_cosine(cosine), sample->delta)",
+     "reverse, size_of_cosine(cosine), NO_LANES)", MIRRORS),
     ("light samples alone: hits after a delta event not counted", "transport/eye_subpath.cl",
      "m & !light_sample_possible(s) : m", "m & !(s->edges > 1) : m", MIRROR_BALL),
     ("path's hit after a delta event weighted below 1", "transport/eye_subpath.cl",
@@ -259,6 +260,8 @@ INTEGRATOR_MUTANTS = [
      "geometry", REMEDIES),
     ("roulette of connections divided out of those that are made anyway", "transport/bidir.cl",
      "pairing & !is_connected(pair)", "pairing & NO_LANES", REMEDIES),
+    ("light subpaths' roulette by their power", "transport/light_subpath.cl", "s->begin = vec_max(s->throughput);",
+     "s->begin = (Real)(1.0f);", ROULETTES),
     ("a path taken twice", "transport/batch.cl",
      "batch->next = min(batch->next + count_lanes(idle), batch->path_count);",
      "batch->next = min(batch->next + max(count_lanes(idle) - 1, 1), batch->path_count);", BATCHES),

@@ -30,6 +30,8 @@ const std::map<std::string, std::string> other_texts = {{"integrator", "bidir"},
                                                         {"clamp", "1e-30"},
                                                         {"max-depth", "12"},
                                                         {"rr-depth", "-1"},
+                                                        {"roulette", "kd-ks"},
+                                                        {"sampler", "lattice"},
                                                         {"spp", "2147483647"},
                                                         {"time", "0.3"},
                                                         {"error", "1e+20"},
@@ -72,7 +74,7 @@ TEST_CASE("An invalid value of a setting is refused with the name of the setting
   CHECK(refusal("connect", "mos") == "`connect` mos: did you mean mis? It must be one of none, light, mis");
   CHECK(refusal("width", "3") == "`width` 3: must be one of 1, 4, 8, 16");
   CHECK(refusal("rr-depth", "0") == "`rr-depth` 0: must be a whole number of 1 or more, or -1 for unbounded");
-  CHECK(refusal("clamp", "0") == "`clamp` 0: must be a number above 0");
+  CHECK(refusal("clamp", "0") == "`clamp` 0: must be a number from 1e-30 to 1e+30");
   CHECK_THROWS_WITH(named("exposure"), "`exposure`: there is no such setting");
 }
 
@@ -113,6 +115,8 @@ TEST_CASE("A choice that is of no use to the integrator is refused, saying why")
              Contains("`light-selection` is for light samples"));
   CHECK(refusal({{"connect", "light"}, {"light-selection", "power"}}) == "nothing");
   CHECK_THAT(refusal({{"integrator", "bidir"}, {"ambient", "1"}}), Contains("`ambient`: only paths"));
+  CHECK_THAT(refusal({{"roulette", "kd-ks"}, {"rr-depth", "-1"}}),
+             Contains("`rr-depth` -1 there is no roulette"));
 }
 
 TEST_CASE("Earlier choices fill in what is absent; how much to render is one choice") {
