@@ -46,8 +46,8 @@ scene::Camera parallel() {
 
 scene::Camera lens() {
   scene::Camera camera = look_at({0.3, 2, 1}, {0, 0, 0}, 40, 6, 5);
-  camera.aperture_radius = 0.2;
-  camera.focus_distance = 1.2;
+  camera.aperture_radius = 0.3;
+  camera.focus_distance = 0.8;
   camera.filter = {Kind::gaussian, 0.6};
   return camera;
 }
@@ -101,7 +101,7 @@ Estimate filtered(const scene::Camera& camera) {
       const double dy = reach * ((i / points * 2 + 1.0) / points - 1);
       const double weight = filter_at(camera.filter, dx) * filter_at(camera.filter, dy);
       const double x = pixel % camera.width + 0.5 + dx, y = pixel / camera.width + 0.5 + dy;
-      sum += weight * mean_over_disk(camera.orthographic ? 1 : 6, [&](double a, double b) {
+      sum += weight * mean_over_disk(camera.orthographic ? 1 : 10, [&](double a, double b) {
                return radiance_of_floor(ray_of(camera, x, y, a, b));
              });
       weights += weight;
