@@ -57,6 +57,12 @@ static inline Int choose_light_for(const Scene* scene, Vec3 lit, Vec3 normal, Ui
   return choose_from_tree(scene, lit, normal, word, other_word, by_tree & (LIGHT_INT(scene, light, node) >= 0), light);
 }
 
+// The normal with which a light is chosen for a point: none (0) where light passes through, so that the probability does
+// not depend on the side that a subpath came from.
+static inline Vec3 lit_normal(SurfacePoint point) {
+  return HAS_TRANSMISSION ? vec_select(point.transmits, vec_all((Real)(0.0f)), point.normal) : point.normal;
+}
+
 // ---- Points of lights
 
 // A point of a flat light, uniform over its area; its normal is on the side that emits. The lanes of m are on one.
@@ -231,12 +237,25 @@ static inline void aim_to_infinity(LightSample* s, SurfacePosition lit, Vec3 dir
   s->valid = s->valid | m;
 }
 
+// Density of sampling a constant light in a direction of this cosine to the shading normal: by the cosine, on either side
+// where light passes through.
+static inline Real sky_sample_density(SurfacePoint point, Real cosine) {
+  if (!HAS_TRANSMISSION) return cosine * INV_PI;
+  return point.transmits ? fabs(cosine) * (0.5f * INV_PI) : larger(cosine, (Real)(0.0f)) * INV_PI;
+}
+static inline Vec3 sky_sample_direction(SurfacePoint point, Real u1, Real u2) {
+  if (!HAS_TRANSMISSION) return cosine_direction(u1, u2);
+  const Mask below = point.transmits & (u1 >= 0.5f);
+  const Vec3 direction = cosine_direction(point.transmits ? 2.0f * u1 - (below ? (Real)(1.0f) : (Real)(0.0f)) : u1, u2);
+  return vec3(direction.x, direction.y, below ? -direction.z : direction.z);
+}
+
 // Chooses a light for each point and a direction towards it. All lanes.
 static inline LightSample light_sample(const Scene* scene, SurfacePoint point, RandomWords words) {
   const SurfacePosition lit = surface_position(point);
   LightSample s;
-  s.light = choose_light_for(scene, lit.position, lit.normal, words.x, words.y);
-  s.choice = probability_for(scene, lit.position, lit.normal, s.light, ALL_LANES);
+  s.light = choose_light_for(scene, lit.position, lit_normal(point), words.x, words.y);
+  s.choice = probability_for(scene, lit.position, lit_normal(point), s.light, ALL_LANES);
   s.ray.origin = lit.position;
   s.ray.direction = lit.normal;
   s.distance = (Real)(0.0f);
@@ -255,8 +274,8 @@ static inline LightSample light_sample(const Scene* scene, SurfacePoint point, R
   }
   if (HAS_CONSTANT_LIGHT) {
     const Mask m = LIGHT_IS(kind, LIGHT_CONSTANT);
-    const Vec3 upward = cosine_direction(u1, u2);
-    aim_to_infinity(&s, lit, from_frame(point.frame, upward), s.choice * upward.z * INV_PI, m);
+    const Vec3 direction = sky_sample_direction(point, u1, u2);
+    aim_to_infinity(&s, lit, from_frame(point.frame, direction), s.choice * sky_sample_density(point, direction.z), m);
     s.hittable = s.hittable | m;
   }
   return s;

@@ -38,8 +38,8 @@ typedef struct {
 // A material's record: a header, then the words of its model's parameters (lobes/lobe.h). The host defines
 // MATERIAL_WORDS, the length of the longest record of the scene.
 enum MaterialHeader { MATERIAL_MODEL = 0, MATERIAL_FLAGS = 1, MATERIAL_HEADER = 2 };
-// Sides that reflect anything; neither if the material is black.
-enum MaterialFlags { MATERIAL_FRONT = 1, MATERIAL_BACK = 2 };
+// Sides that reflect anything, neither if the material is black; and whether light passes through.
+enum MaterialFlags { MATERIAL_FRONT = 1, MATERIAL_BACK = 2, MATERIAL_TRANSMITS = 4 };
 
 enum LightKinds {
   LIGHT_PLANAR = 0,

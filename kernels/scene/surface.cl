@@ -13,6 +13,7 @@ typedef struct {
   Frame frame;   // shading frame on that side; its z is the interpolated normal where the mesh has normals
   Real error;    // bounds the rounding error of `position` and of a ray's intersection near it
   Mask front;    // that side is the front
+  Mask transmits; // light passes through
   Int material, light;
 } SurfacePoint;
 
@@ -128,6 +129,8 @@ static inline SurfacePoint surface_point(const Scene* scene, Ray ray, Hit hit) {
   const Vec3 shading = vec_select(s.front, p.shading_normal, vec_scale((Real)(-1.0f), p.shading_normal));
   s.frame = HAS_TANGENTS ? frame_along(shading, p.tangent) : frame_about(shading);
   s.material = PRIMITIVE_INT(scene, primitive, material);
+  s.transmits = NO_LANES;
+  if (HAS_TRANSMISSION) s.transmits = (material_int(scene, s.material, MATERIAL_FLAGS) & MATERIAL_TRANSMITS) != 0;
   s.light = PRIMITIVE_INT(scene, primitive, light);
   return s;
 }
@@ -162,11 +165,13 @@ static inline Ray ray_to_point(SurfacePosition from, Vec3 to, Real* distance) {
   return ray;
 }
 
-// The same to a point of a surface whose normal faces the start: it ends short by what the surface's crossing may be
-// wrong as seen from there.
+// The same to a point of a surface whose normal faces the start, or that transmits: it ends short by what the surface's
+// crossing may be wrong as seen from there.
 static inline Ray ray_between(SurfacePosition from, SurfacePosition to, Real* distance) {
   const Real reach = vec_largest(vec_sub(to.position, from.position));
-  return ray_to_point(from, vec_along(to.position, to.error + ERROR_UNITS * reach, to.normal), distance);
+  Real short_by = to.error + ERROR_UNITS * reach;
+  if (HAS_TRANSMISSION) short_by = times_sign(short_by, vec_dot(to.normal, vec_sub(from.position, to.position)));
+  return ray_to_point(from, vec_along(to.position, short_by, to.normal), distance);
 }
 
 #endif

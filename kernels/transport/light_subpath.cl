@@ -93,7 +93,7 @@ static inline void connect_to_camera(WorkItem* work, const Subpath* s, Vertex v,
   const Vec3 reflected = vec_mul(s->throughput, lobe.value);
   const Vec3 value = vec_scale(adjoint_cosine(v, generated, cosine) * view.film.density / view.distance2, reflected);
   Real weight = (Real)(1.0f);
-  if (IS_BIDIR) weight = weight_of_seen_vertex(s->mis, view.film.density, lobe.reverse, view.distance2, cosine);
+  if (IS_BIDIR) weight = weight_of_seen_vertex(s->mis, view.film.density, lobe.reverse, view.distance2, size_of_cosine(cosine));
   Real distance;
   const Ray ray = ray_to_point(surface_position(v.point), broadcast_vec(scene->camera->position), &distance);
   add_if_unoccluded(scene, &work->queue, &work->output, ray, distance,
@@ -121,7 +121,7 @@ static inline Mask start_at_light(WorkItem* work, Batch* batch, Subpath* s, Mask
 // `distance` away, in the lanes of m; that of a light without a surface as in LightSample.
 static inline Real density_of_start(const Scene* scene, const Subpath* s, Vertex v, Real distance, Mask m) {
   const Vec3 lit = v.point.position;
-  const Real choice = probability_for(scene, lit, v.point.normal, s->light, m);
+  const Real choice = probability_for(scene, lit, lit_normal(v.point), s->light, m);
   const Int kind = light_kind(scene, s->light);
   Real density = choice;
   if (HAS_AREA_LIGHTS) {
@@ -129,7 +129,7 @@ static inline Real density_of_start(const Scene* scene, const Subpath* s, Vertex
     density = surface ? light_density(scene, lit, s->light, choice, distance, s->light_cosine) : density;
   }
   if (HAS_POINTLIKE_LIGHTS) density = is_pointlike(kind) ? choice * distance * distance : density;
-  if (HAS_CONSTANT_LIGHT) density = LIGHT_IS(kind, LIGHT_CONSTANT) ? choice * v.fixed.z * INV_PI : density;
+  if (HAS_CONSTANT_LIGHT) density = LIGHT_IS(kind, LIGHT_CONSTANT) ? choice * sky_sample_density(v.point, v.fixed.z) : density;
   return density;
 }
 
