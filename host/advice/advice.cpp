@@ -1,5 +1,6 @@
 #include "advice/advice.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -79,6 +80,18 @@ std::string words_for(const std::vector<LightShare>& shares) {
   return {};
 }
 
+// Light that no sample of the method carries, which no trial shows.
+std::string unfound_light(const scene::Scene& scene, const render::Settings& settings) {
+  const bool delta = std::ranges::any_of(scene.materials, [](const auto& m) { return m.model->has_delta; });
+  const bool points =
+      !scene.point_lights.empty() || !scene.spot_lights.empty() || !scene.directional_lights.empty();
+  if (delta && points && settings.integrator == "path")
+    return "; path finds no light of point, spot and directional emitters by way of mirrors and smooth "
+           "glass: "
+           "bidir does";
+  return {};
+}
+
 } // namespace
 
 std::size_t trials_of(const scene::Scene& scene) {
@@ -103,6 +116,7 @@ Advice advise(scene::Scene scene, const render::Settings& settings, double secon
       advice.trials.push_back(try_method(scene, trial, method));
   }
   conclude(advice, seconds);
+  advice.words += unfound_light(scene, settings);
   if (!advice.trials.front().reliability.trusted) advice.words += words_for(light_shares(scene, own));
   return advice;
 }

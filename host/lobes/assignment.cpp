@@ -16,10 +16,12 @@ namespace {
 // "specular_reflectance" for "specularReflectance".
 std::string with_underscores(const std::string& name) {
   std::string result;
+  bool capital = false; // intIOR: a row of capitals is one word
   for (const char c : name) {
     const auto letter = static_cast<unsigned char>(c);
-    if (std::isupper(letter) != 0) result += '_';
+    if (std::isupper(letter) != 0 && !capital) result += '_';
     result += static_cast<char>(std::tolower(letter));
+    capital = std::isupper(letter) != 0;
   }
   return result;
 }

@@ -1,10 +1,24 @@
+#include "lobes/models.h"
 #include "lobes/shipped.h"
 
 namespace phlux::lobes {
+namespace {
 
-const ShippedModel conductor_model{"conductor", "lobes/conductor.cl", [](const scene::Material& m) {
-                                     return static_cast<double>(
-                                         largest_channel(m.value("specular_reflectance")));
-                                   }};
+double factor(const scene::Material& m) {
+  return largest_channel(m.value("specular_reflectance"));
+}
+
+// Without a real part of its index of refraction, a conductor reflects everything.
+scene::Material without_fresnel(const scene::Material& m) {
+  if (m.value("eta") != scene::Rgb(0.0)) return m;
+  scene::Material material = mirror(m.value("specular_reflectance"));
+  material.two_sided = m.two_sided;
+  return material;
+}
+
+} // namespace
+
+const ShippedModel roughconductor_model{"roughconductor", "lobes/roughconductor.cl", factor};
+const ShippedModel conductor_model{"conductor", "lobes/conductor.cl", factor, nullptr, without_fresnel};
 
 } // namespace phlux::lobes

@@ -113,6 +113,7 @@ scene::Model read_declaration(const std::string& name, const std::string& file, 
         std::distance(std::sregex_iterator(derived->body.begin(), derived->body.end(), member), {}));
   }
   model.has_delta = defines.is_one(prefix + "_HAS_DELTA");
+  model.transmits = defines.is_one(prefix + "_TRANSMITS");
   model.needs_tangents = defines.is_one(prefix + "_NEEDS_TANGENTS");
   model.reflectivity_is_estimate = defines.is_one(prefix + "_REFLECTIVITY_IS_ESTIMATE");
   model.has_survival = defines.has(prefix + "_SURVIVAL");

@@ -99,17 +99,19 @@ scene::Material anisotropic_phong(const scene::Rgb& diffuse, const scene::Rgb& s
                                   double exponent_v) {
   return material("anisotropicphong", {diffuse, specular, scene::Rgb(exponent_u), scene::Rgb(exponent_v)});
 }
-scene::Material conductor(const scene::Rgb& specular) {
-  return material("conductor", {specular});
+scene::Material mirror(const scene::Rgb& specular) {
+  return material("mirror", {specular});
+}
+scene::Material conductor(const scene::Rgb& eta, const scene::Rgb& k, const scene::Rgb& specular) {
+  return material("conductor", {eta, k, specular});
+}
+scene::Material dielectric(double index, const scene::Rgb& reflectance, const scene::Rgb& transmittance) {
+  return material("dielectric", {scene::Rgb(index), scene::Rgb(1.0), reflectance, transmittance});
 }
 
 bool reflects(const scene::Material& material) {
-  if (!find_shipped(*material.model)) return true;
-  for (std::size_t i = 0; i < material.values.size(); ++i)
-    if (material.model->parameters[i].kind == scene::Parameter::Kind::colour &&
-        material.values[i] != scene::Rgb(0.0))
-      return true;
-  return false;
+  const ShippedModel* model = find_shipped(*material.model);
+  return !model || model->largest_reflectance(material) > 0;
 }
 
 double largest_reflectance(const scene::Material& material) {

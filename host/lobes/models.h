@@ -47,9 +47,14 @@ private:
 [[nodiscard]] scene::Material phong(const scene::Rgb& diffuse, const scene::Rgb& specular, double exponent);
 [[nodiscard]] scene::Material anisotropic_phong(const scene::Rgb& diffuse, const scene::Rgb& specular,
                                                 double exponent_u, double exponent_v);
-[[nodiscard]] scene::Material conductor(const scene::Rgb& specular);
+[[nodiscard]] scene::Material mirror(const scene::Rgb& specular);
+[[nodiscard]] scene::Material conductor(const scene::Rgb& eta, const scene::Rgb& k,
+                                        const scene::Rgb& specular);
+/// Glass of an index of refraction relative to the outside.
+[[nodiscard]] scene::Material dielectric(double index, const scene::Rgb& reflectance = scene::Rgb(1.0),
+                                         const scene::Rgb& transmittance = scene::Rgb(1.0));
 
-/// False if the material reflects nothing: it is of a built-in model and all of its colours are 0.
+/// False if the material scatters nothing: it is of a built-in model and its largest reflectance is 0.
 [[nodiscard]] bool reflects(const scene::Material& material);
 /// An upper bound, from the parameters, on the fraction of light that is reflected in any channel: kd + ks
 /// for phong; 0 for a user's model, which is not checked.

@@ -102,6 +102,8 @@ std::map<std::string, std::string> files_of(const std::vector<ModelPointer>& mod
   for (const ModelPointer& model : models) {
     const std::string name = macro_prefix(model->name);
     if (model->derived_words == 0) text += fmt::format("#define {}_DERIVED(NUMBER, INDEX)\n", name);
+    if (!model->transmits)
+      text += fmt::format("#define {0}_TRANSMITS 0\n#define {0}_INDEX(m) (Real)(1.0f)\n", name);
     text += fmt::format("#include \"{}\"\n", model->file);
     if (!model->has_textured) text += fmt::format("#define {}_TEXTURED(m) (m)\n", name);
     if (!model->has_survival)
@@ -119,6 +121,7 @@ std::map<std::string, std::string> defines_of(const std::vector<ModelPointer>& m
   return {{"MODEL_COUNT", std::to_string(models.size())},
           {"MATERIAL_WORDS", std::to_string(record_words(models))},
           {"HAS_DELTA", has(models, &scene::Model::has_delta) ? "1" : "0"},
+          {"HAS_TRANSMISSION", has(models, &scene::Model::transmits) ? "1" : "0"},
           {"HAS_TANGENTS", has(models, &scene::Model::needs_tangents) ? "1" : "0"}};
 }
 
@@ -135,7 +138,9 @@ MaterialTable material_table(const std::vector<scene::Material>& materials,
     const auto found = std::ranges::find(table.models, material.model);
     const std::size_t end = table.records.size() + words;
     if (found != table.models.end()) {
-      const int sides = MATERIAL_FRONT | (material.two_sided ? MATERIAL_BACK : 0);
+      const bool transmits = material.model->transmits;
+      const int sides = MATERIAL_FRONT | (material.two_sided || transmits ? MATERIAL_BACK : 0) |
+                        (transmits ? MATERIAL_TRANSMITS : 0);
       const int flags = (reflects(material) ? sides : 0) | (material.is_textured() ? MATERIAL_TEXTURED : 0);
       texture_numbers.set(material, table.records.size());
       table.records.push_back(bits_of(static_cast<int>(found - table.models.begin())));

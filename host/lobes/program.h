@@ -15,7 +15,7 @@ namespace phlux::lobes {
 
 /// The files that the program includes besides those of kernels/: lobes/models.cl and users' models.
 [[nodiscard]] std::map<std::string, std::string> files_of(const std::vector<ModelPointer>& models);
-/// MODEL_COUNT, MATERIAL_WORDS, HAS_DELTA, HAS_TANGENTS.
+/// MODEL_COUNT, MATERIAL_WORDS, HAS_DELTA, HAS_TRANSMISSION, HAS_TANGENTS.
 [[nodiscard]] std::map<std::string, std::string> defines_of(const std::vector<ModelPointer>& models);
 
 /// Materials for kernels/lobes/material.cl: records of equal length, and the models' tables. A material whose

@@ -30,7 +30,11 @@ struct ShippedModel {
 };
 
 /// The built-in models, in their order in messages. Each is defined as NAME_model in a file of host/lobes.
-#define PHLUX_SHIPPED_MODELS(MODEL) MODEL(diffuse) MODEL(phong) MODEL(anisotropicphong) MODEL(conductor)
+#define PHLUX_SHIPPED_MODELS(MODEL)                                                                          \
+  MODEL(diffuse)                                                                                             \
+  MODEL(phong)                                                                                               \
+  MODEL(anisotropicphong) MODEL(mirror) MODEL(conductor) MODEL(dielectric) MODEL(thindielectric)             \
+      MODEL(roughconductor) MODEL(roughdielectric) MODEL(plastic) MODEL(roughplastic)
 
 #define PHLUX_DECLARE_MODEL(name) extern const ShippedModel name##_model;
 PHLUX_SHIPPED_MODELS(PHLUX_DECLARE_MODEL)

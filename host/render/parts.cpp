@@ -142,7 +142,7 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
   const std::vector<scene::Material> materials = tables::used_materials(scene, geometry);
   parts.models = lobes::models_of(materials);
   for (const scene::Material& m : materials) {
-    parts.two_sided |= m.two_sided;
+    parts.two_sided |= m.two_sided || m.model->transmits;
     parts.black |= !lobes::reflects(m);
     for (const scene::TexturePointer& texture : m.textures) {
       if (!texture) continue;
@@ -158,6 +158,10 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
           "`ambient`: the reflectivity of {} has no closed form to weigh the ambient term with: leave it out "
           "or use phong",
           model->name));
+    else if (parts.ambient && model->transmits)
+      throw UsageError(
+          fmt::format("`ambient`: light passes through {}, which the ambient term leaves out: leave it out",
+                      model->name));
   parts.light_planar = lights.has(LIGHT_PLANAR);
   parts.light_sphere = lights.has(LIGHT_SPHERE);
   parts.light_point = lights.has(LIGHT_POINT);

@@ -70,8 +70,8 @@ void warn(const scene::Scene& scene, const Settings& settings, const Events& eve
   const auto is_delta = [](const scene::Material& m) { return m.model->has_delta; };
   if (settings.integrator == "light" && std::any_of(scene.materials.begin(), scene.materials.end(), is_delta))
     events.warning(
-        "light tracing shows mirrors black: no light path can be connected from a mirror to the camera: "
-        "use `integrator` path or bidir where one is in view");
+        "light tracing shows mirrors and smooth glass black: no light path can be connected from one to the "
+        "camera: use `integrator` path or bidir where one is in view");
   if (settings.strategy == "lobe-estimate-printed")
     events.warning("`strategy` lobe-estimate-printed is biased: it loses light at grazing angles; "
                    "lobe-estimate does not");

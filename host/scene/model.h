@@ -28,6 +28,7 @@ struct Model {
   int derived_words = 0;  ///< words that the host computes
   bool has_delta = false; ///< samples may be delta events
   bool needs_tangents = false;
+  bool transmits = false; ///< light passes through its surfaces, which scatter on both sides
   bool reflectivity_is_estimate = false;
   bool has_survival = false; ///< defines its own survival probability for roulette
   bool has_textured = false; ///< has derived members that depend on colours

@@ -1,11 +1,15 @@
 #include "scene_file/materials.h"
 
 #include <algorithm>
+#include <tuple>
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/gtx/component_wise.hpp>
 
+#include "lobes/assignment.h"
+#include "lobes/facets.h"
+#include "scene_file/named_media.h"
 #include "scene_file/properties.h"
 
 namespace phlux::scene_file {
@@ -42,6 +46,34 @@ bool may_be_scaled(const Parameter& parameter, ExcessEnergy excess) {
          excess == ExcessEnergy::scale;
 }
 
+/// The number by which kernels name a distribution of facets (kernels/lobes/microfacets.h).
+double read_distribution(Properties& properties) {
+  const auto number_of = [](lobes::FacetDistribution d) { return static_cast<double>(d); };
+  const std::string name = properties.string("distribution", "beckmann");
+  if (name == "beckmann") return number_of(lobes::FacetDistribution::beckmann);
+  if (name == "ggx") return number_of(lobes::FacetDistribution::ggx);
+  if (name == "phong" || name == "as") return number_of(lobes::FacetDistribution::phong);
+  properties.fail_at("distribution", "no distribution is named '" + name + "'", "beckmann, ggx, phong or as");
+}
+
+/// `alpha`, or alpha_u and alpha_v where they are equal. How facets are sampled changes no mean.
+double read_roughness(Properties& properties, const Parameter& alpha) {
+  properties.pass_over({"sample_visible"});
+  const double u = properties.real("alpha_u", properties.real("alpha", alpha.default_value));
+  if (properties.real("alpha_v", u) != u)
+    properties.fail_at("alpha_v", "anisotropic roughness is not supported", "alpha_u = alpha_v, or alpha");
+  return u;
+}
+
+/// A number of a model that ships may have another form in the file.
+double read_number(Properties& properties, const Parameter& parameter, const std::string& name, bool ships) {
+  if (ships && name.ends_with("_ior")) return properties.index_of_refraction(name, parameter.default_value);
+  if (ships && name == "distribution") return read_distribution(properties);
+  if (ships && name == "nonlinear") return properties.boolean(name, false) ? 1 : 0;
+  if (ships && name == "alpha") return read_roughness(properties, parameter);
+  return properties.real(name, parameter.default_value);
+}
+
 void check_range(Properties& properties, const Parameter& parameter, const std::string& name,
                  const Rgb& smallest, const Rgb& largest, ExcessEnergy excess) {
   const bool too_low = glm::compMin(smallest) < parameter.lowest;
@@ -61,8 +93,9 @@ void read_parameter(Properties& properties, const Parameter& parameter, const st
     check_range(properties, parameter, name, texture->smallest(), texture->largest(), rules.excess);
     return;
   }
+  const bool ships = material.model->text.empty();
   const Rgb value = colour ? properties.color(name, Rgb(parameter.default_value))
-                           : Rgb(properties.real(name, parameter.default_value));
+                           : Rgb(read_number(properties, parameter, name, ships));
   check_range(properties, parameter, name, value, value, rules.excess);
   material.values.push_back(value);
 }
@@ -94,24 +127,34 @@ void conserve_energy(Properties& properties, Material& material, ExcessEnergy ex
     fail(where, wrong,
          colours + " must be at most 1 in every channel (ensureEnergyConservation=true scales them down)");
   for (std::size_t i = 0; i < material.values.size(); ++i)
-    if (material.model->parameters[i].kind == Parameter::Kind::colour) scale(material, i, kept_energy / most);
+    if (may_be_scaled(material.model->parameters[i], excess)) scale(material, i, kept_energy / most);
   warn(where, wrong + "; its reflectances are scaled by " + std::to_string(kept_energy / most));
 }
 
-/// Mitsuba's conductor has a metal's indices of refraction, by default copper's; ours is a mirror with a
-/// reflectance.
-void require_no_metal(Properties& properties) {
-  const std::string otherwise = properties.document().major_version == 0 ? "Cu" : "none";
-  const std::string metal = properties.string("material", otherwise);
-  if (metal != "none")
-    properties.fail_at("material", "a conductor of " + metal + " is not supported",
-                       R"(<string name="material" value="none"/>, a mirror of specularReflectance)");
+/// The index of refraction that a conductor has unless `eta` and `k` are given: that of `material`, "none"
+/// for a mirror; relative to that of `ext_eta`. In version 0 of the format, these are copper and air by
+/// default.
+void read_conductor(Properties& properties, Material& material) {
+  const bool version_0 = properties.document().major_version == 0;
+  const bool given = properties.has("eta") || properties.has("k");
+  const std::string metal = properties.string("material", version_0 && !given ? "Cu" : "none");
+  const auto index = index_of_metal(metal);
+  if (!index && metal != "none")
+    properties.fail_at("material", "no metal is named '" + metal + "'",
+                       "none (a mirror), or give eta and k as rgb, or one of " + names_of_metals());
+  if (metal != "none" && given) properties.fail_at("material", "a metal and eta or k", "one of the two");
+  Rgb &eta = material.value("eta"), &k = material.value("k");
+  if (index) std::tie(eta, k) = std::tie(index->eta, index->k);
+  const double outside = properties.index_of_refraction("ext_eta", version_0 ? 1.000277 : 1.0);
+  if (!(outside > 0))
+    properties.fail_at("ext_eta", fmt::format("{:g} is out of range", outside), "a number above 0");
+  eta /= outside;
+  k /= outside;
 }
 
 Material read_model(Properties& properties, const lobes::ModelPointer& model, MaterialRules rules) {
   Material material;
   material.model = model;
-  if (model->name == "conductor") require_no_metal(properties);
   for (const Parameter& parameter : model->parameters) {
     // Mitsuba also accepts this name for the reflectance of a diffuse bsdf.
     const bool long_name =
@@ -120,6 +163,8 @@ Material read_model(Properties& properties, const lobes::ModelPointer& model, Ma
     read_parameter(properties, parameter, name, rules, material);
   }
   if (material.is_textured()) material.textures.resize(material.values.size());
+  if (model->text.empty() && lobes::find_parameter(*model, "eta") && lobes::find_parameter(*model, "k"))
+    read_conductor(properties, material);
   conserve_energy(properties, material, rules.excess);
   return material;
 }
@@ -131,6 +176,10 @@ Material read_two_sided(Properties& properties, const Document& document, Materi
          "<bsdf type=\"twosided\"> around " + (nested ? nested->name() : "nothing"),
          "one nested or referenced bsdf; " + supported_bsdfs(rules.library));
   Material material = read_material(*nested, document, rules);
+  if (material.model->transmits)
+    fail(properties.element().where, "<bsdf type=\"twosided\"> around " + nested->name(),
+         "leave twosided out: light passes through " + material.model->name +
+             ", which has two sides already");
   material.two_sided = true;
   return material;
 }

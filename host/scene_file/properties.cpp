@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "scene_file/color.h"
+#include "scene_file/named_media.h"
 #include "scene_file/transform.h"
 #include "scene_file/values.h"
 
@@ -69,6 +70,16 @@ double Properties::real(const std::string& name, double otherwise) {
   if (!value)
     fail_at(name, "'" + value_of(*property) + "' is not a number", "a finite number within single precision");
   return *value;
+}
+
+double Properties::index_of_refraction(const std::string& name, double otherwise) {
+  const Element* property = find(name, {"float", "integer", "string"});
+  if (!property || property->tag != "string") return real(name, otherwise);
+  const auto index = index_of_dielectric(value_of(*property));
+  if (!index)
+    fail_at(name, "no dielectric is named '" + value_of(*property) + "'",
+            "a number, or one of " + names_of_dielectrics());
+  return *index;
 }
 
 int Properties::integer(const std::string& name, int otherwise) {

@@ -27,6 +27,8 @@ public:
   // @throws SceneError at the property's line if it is of another type, malformed or out of range
   [[nodiscard]] bool has(const std::string& name);
   [[nodiscard]] double real(const std::string& name, double otherwise);
+  /// A number, or the name of a dielectric for its index of refraction.
+  [[nodiscard]] double index_of_refraction(const std::string& name, double otherwise);
   [[nodiscard]] int integer(const std::string& name, int otherwise);
   [[nodiscard]] bool boolean(const std::string& name, bool otherwise);
   [[nodiscard]] std::string string(const std::string& name, const std::string& otherwise);

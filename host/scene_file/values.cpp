@@ -84,9 +84,11 @@ std::optional<std::vector<double>> parse_reals(std::string_view text) {
 
 std::string to_snake_case(std::string_view name) {
   std::string result;
+  char before = '_';
   for (const char c : name) {
-    if (is_upper(c) && !result.empty()) result += '_';
+    if (is_upper(c) && !is_upper(before) && before != '_') result += '_'; // IOR is one word
     result += lower(c);
+    before = c;
   }
   return result;
 }
@@ -98,6 +100,7 @@ std::string to_camel_case(std::string_view name) {
     if (c != '_') result += raise ? upper(c) : c;
     raise = c == '_';
   }
+  if (result.ends_with("Ior")) result.replace(result.size() - 2, 2, "OR");
   return result;
 }
 

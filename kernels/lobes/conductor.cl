@@ -1,31 +1,26 @@
-// A smooth conductor: a mirror. f_r is a delta distribution at the mirror direction, times specular_reflectance / cos.
+// A smooth conductor: a mirror whose reflectance is Fresnel's for the complex index of refraction eta + i k, times
+// specular_reflectance. With eta = 0 that is 1: the host then takes the mirror.
 #ifndef PHLUX_CONDUCTOR_CL
 #define PHLUX_CONDUCTOR_CL
 
 #include "lobes/lobe.h"
+#include "math/fresnel.h"
 
 #define CONDUCTOR_PARAMETERS(COLOUR, NUMBER)                                                                           \
-  COLOUR(specular_reflectance, 1, 0, 1, "fraction of light that is reflected in the mirror direction")
+  COLOUR(eta, 0, 0, 100, "index of refraction relative to the outside, real part")                                     \
+  COLOUR(k, 1, 0, 100, "imaginary part of the index of refraction")                                                    \
+  COLOUR(specular_reflectance, 1, 0, 1, "factor of the reflectance")
 #define CONDUCTOR_HAS_DELTA 1
 LOBE_STRUCT(Conductor, CONDUCTOR)
 
-static inline LobeValue conductor_evaluate(Conductor m, Vec3 fixed, Vec3 generated) {
-  LobeValue v;
-  v.value = vec_all((Real)(0.0f));
-  v.density = v.reverse = (Real)(0.0f);
-  return v;
+static inline LobeValue conductor_evaluate(Conductor m, Vec3 fixed, Vec3 generated) { return no_lobe_value(); }
+
+static inline Vec3 conductor_reflectivity(Conductor m, Vec3 fixed) {
+  return vec_mul(m.specular_reflectance, conductor_reflectances(fixed.z, m.eta, m.k));
 }
 
-static inline Vec3 conductor_reflectivity(Conductor m, Vec3 fixed) { return m.specular_reflectance; }
-
 static inline LobeSample conductor_sample(Conductor m, Vec3 fixed, Real choice, RandomDraws random, Mask active) {
-  LobeSample s;
-  s.direction = vec3(-fixed.x, -fixed.y, fixed.z);
-  s.weight = m.specular_reflectance;
-  s.density = (Real)(1.0f);
-  s.delta = ALL_LANES;
-  s.draws = (Int)(1);
-  return s;
+  return delta_sample(mirrored(fixed), conductor_reflectivity(m, fixed));
 }
 
 #endif

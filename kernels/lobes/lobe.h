@@ -3,7 +3,7 @@
 //
 //   LobeValue NAME_evaluate(Name m, Vec3 fixed, Vec3 generated)     f_r and both sampling densities
 //   LobeSample NAME_sample(Name m, Vec3 fixed, Real choice, RandomDraws random, Mask active)
-//   Vec3 NAME_reflectivity(Name m, Vec3 fixed)                      integral of f_r cos over the hemisphere, per channel
+//   Vec3 NAME_reflectivity(Name m, Vec3 fixed)                      integral of f_r |cos| over all directions, per channel
 //
 // Directions are unit vectors in a frame whose z is the shading normal, and point away from the surface. `fixed` is the
 // direction that is known: towards the camera on an eye subpath, towards the light on a light subpath; it lies above the
@@ -12,6 +12,12 @@
 // Roulette, sides and the choice among the models of a scene are in material.cl, which also sets f_r and weights to 0
 // below the surface: a model may return any value there, and any density that is finite. `phlux verify --lobe` checks all
 // that is stated here.
+//
+// A model that light passes through defines NAME_TRANSMITS 1, and Real NAME_INDEX(m), the index of refraction of the medium
+// below the surface relative to that of the medium of `fixed` (1 where rays go straight through). It scatters on both sides
+// of a surface: m.front tells on which `fixed` lies, and `generated` may lie below. f_r and weights are those of power on
+// its way from `fixed` to `generated`, so that none is gained; with I = NAME_INDEX, f_r(b, a) = f_r(a, b) / I(a)^2 where a
+// and b lie on different sides (Veach 1997, 5.2). The transport of radiance divides by I^2 (radiance_scale, material.cl).
 //
 // The declaration of the parameters is a list of COLOUR and NUMBER entries, each with its default, its range and its
 // meaning. The members of the struct, the record on the device, the reader of scene files and its messages follow from
@@ -44,8 +50,8 @@ typedef struct {
 } LobeValue;
 
 typedef struct {
-  Vec3 direction; // generated; a sample below the surface has weight 0
-  Vec3 weight;    // f_r cos / density, per channel; of a delta event its reflectance
+  Vec3 direction; // generated; below the surface it has weight 0 unless the model transmits; z = 0: no direction
+  Vec3 weight;    // f_r |cos| / density, per channel; of a delta event its reflectance
   Real density;   // per solid angle; of a delta event any positive number
   Mask delta;     // the direction was sampled from a delta distribution
   Int draws;      // directions that were drawn to find this one
@@ -66,6 +72,7 @@ typedef struct {
   typedef struct {                                                                                                     \
     NAME##_PARAMETERS(LOBE_COLOUR_MEMBER, LOBE_NUMBER_MEMBER) /**/                                                     \
         NAME##_DERIVED(LOBE_DERIVED_MEMBER, LOBE_INDEX_MEMBER) const __global float* tables;                           \
+    Mask front; /* `fixed` lies on the front of the surface */                                                         \
   } Name;                                                                                                              \
   typedef struct {                                                                                                     \
     NAME##_PARAMETERS(LOBE_COLOUR_WORDS, LOBE_NUMBER_WORD) /**/                                                        \
@@ -77,11 +84,48 @@ static inline LobeSample lobe_sample(Vec3 direction, LobeValue v) {
   LobeSample s;
   s.direction = direction;
   s.density = v.density;
-  s.weight = vec_scale(direction.z / v.density, v.value);
+  s.weight = vec_scale(fabs(direction.z) / v.density, v.value);
   s.weight = vec_select(v.density > 0.0f, s.weight, vec_all((Real)(0.0f)));
   s.delta = NO_LANES;
   s.draws = (Int)(1);
   return s;
+}
+
+// ---- Delta events
+
+// Of a model without any f_r but delta distributions.
+static inline LobeValue no_lobe_value(void) {
+  LobeValue v;
+  v.value = vec_all((Real)(0.0f));
+  v.density = v.reverse = (Real)(0.0f);
+  return v;
+}
+
+static inline LobeSample delta_sample(Vec3 direction, Vec3 weight) {
+  LobeSample s;
+  s.direction = direction;
+  s.weight = weight;
+  s.density = (Real)(1.0f);
+  s.delta = ALL_LANES;
+  s.draws = (Int)(1);
+  return s;
+}
+
+// The choice, by a uniform number, between reflection of a part of the light and transmission of the rest, in proportion
+// to these and the largest channels of their factors.
+typedef struct {
+  Mask reflects;
+  Vec3 weight;
+} DeltaChoice;
+
+static inline DeltaChoice reflect_or_transmit(Real reflectance, Vec3 reflected, Vec3 transmitted, Real choice) {
+  const Real most_reflected = vec_max(reflected), most_transmitted = vec_max(transmitted);
+  const Real reflects = reflectance * most_reflected, all = fma(1.0f - reflectance, most_transmitted, reflects);
+  DeltaChoice c;
+  c.reflects = choice * all < reflects;
+  const Real most = c.reflects ? most_reflected : most_transmitted;
+  c.weight = vec_scale(most > 0.0f ? all / most : (Real)(0.0f), vec_select(c.reflects, reflected, transmitted));
+  return c;
 }
 
 #endif

@@ -1,7 +1,7 @@
 // The material of a surface: which of the scene's reflectance models it has, which sides reflect, and roulette.
 //
 // The host writes lobes/models.cl (host/lobes): it includes the files of the models that the scene has and lists them,
-//   #define MODELS(MODEL) MODEL(0, phong, Phong, PHONG) MODEL(1, conductor, Conductor, CONDUCTOR)
+//   #define MODELS(MODEL) MODEL(0, phong, Phong, PHONG) MODEL(1, mirror, Mirror, MIRROR)
 #ifndef PHLUX_MATERIAL_CL
 #define PHLUX_MATERIAL_CL
 
@@ -60,21 +60,23 @@ static inline Vec3 textured_colour(const Scene* scene, Int material, int word, T
 // An index into a table must be valid in the lanes of other models too.
 #define LOAD_INDEX(name) m.name = of_model ? material_int(scene, index, WORD_OF(record, name)) : (Int)(0);
 #define LOAD_MODEL(number, model, Model, MODEL)                                                                        \
-  static inline Model load_##model(const Scene* scene, Int index, TextureCoordinates at, Mask of_model) {              \
+  static inline Model load_##model(const Scene* scene, Int index, TextureCoordinates at, Mask front, Mask of_model) {  \
     const __global Model##Record* record = (const __global Model##Record*)(scene->materials + MATERIAL_HEADER);        \
     Model m;                                                                                                           \
     MODEL##_PARAMETERS(LOAD_COLOUR, LOAD_NUMBER) /**/                                                                  \
         MODEL##_DERIVED(LOAD_DERIVED, LOAD_INDEX) m.tables = scene->lobe_tables;                                       \
+    m.front = front;                                                                                                   \
     if (HAS_TEXTURES) m = MODEL##_TEXTURED(m);                                                                         \
     return m;                                                                                                          \
   }
 MODELS(LOAD_MODEL)
 
-// Material `index`, and its colours at these texture coordinates.
-static inline Material material_at(const Scene* scene, Int index, TextureCoordinates at) {
+// Material `index`, and its colours at these texture coordinates. `front`: the direction that is known lies on the front of
+// the surface.
+static inline Material material_at(const Scene* scene, Int index, TextureCoordinates at, Mask front) {
   Material m;
   m.model_number = MODEL_COUNT > 1 ? material_int(scene, index, MATERIAL_MODEL) : (Int)(0);
-#define LOAD_MATERIAL(number, model, Model, MODEL) m.model = load_##model(scene, index, at, has_model(m, number));
+#define LOAD_MATERIAL(number, model, Model, MODEL) m.model = load_##model(scene, index, at, front, has_model(m, number));
   MODELS(LOAD_MATERIAL)
   return m;
 }
@@ -87,6 +89,25 @@ static inline Mask reflects(const Scene* scene, Int material, Mask front) {
 }
 
 // ---- The functions of lobe.h for whichever model a lane has
+
+// Lanes whose model may scatter into this direction.
+static inline Mask may_scatter_into(Material m, Vec3 generated) {
+  Mask possible = generated.z > 0.0f;
+#define MAY_SCATTER(number, model, Model, MODEL)                                                                       \
+  if (MODEL##_TRANSMITS) possible = possible | has_model(m, number);
+  MODELS(MAY_SCATTER)
+  return possible;
+}
+
+// Radiance that passes a surface changes with the square of the index of refraction, importance and power do not (Veach
+// 1997, 5.2): the factor for eye subpaths.
+static inline Real radiance_scale(Material m, Vec3 generated) {
+  Real index = (Real)(1.0f);
+#define INDEX(number, model, Model, MODEL)                                                                             \
+  if (MODEL##_TRANSMITS) index = has_model(m, number) ? MODEL##_INDEX(m.model) : index;
+  MODELS(INDEX)
+  return generated.z < 0.0f ? 1.0f / (index * index) : (Real)(1.0f);
+}
 
 static inline LobeValue material_evaluate(Material m, Vec3 fixed, Vec3 generated) {
   LobeValue v;
@@ -101,7 +122,7 @@ static inline LobeValue material_evaluate(Material m, Vec3 fixed, Vec3 generated
     v.reverse = chosen ? of_model.reverse : v.reverse;                                                                 \
   }
   MODELS(EVALUATE)
-  v.value = vec_select((fixed.z > 0.0f) & (generated.z > 0.0f), v.value, vec_all((Real)(0.0f)));
+  v.value = vec_select((fixed.z > 0.0f) & may_scatter_into(m, generated), v.value, vec_all((Real)(0.0f)));
   return v;
 }
 
@@ -147,8 +168,8 @@ static inline Real material_survival(Material m, Vec3 fixed, RandomDraws random,
 }
 
 typedef struct {
-  Vec3 direction; // a sample below the surface has weight 0
-  Vec3 weight;    // f_r cos / (density x survival probability), per channel
+  Vec3 direction; // below the surface it has weight 0 unless the model transmits
+  Vec3 weight;    // f_r |cos| / (density x survival probability), per channel
   Real density;   // of `direction`, given that the path survives
   Mask survives;  // roulette: all lanes in which it was not asked for
   Mask delta;     // `direction` was sampled from a delta distribution
@@ -179,7 +200,7 @@ static inline MaterialSample material_sample(Material m, Vec3 fixed, RandomDraws
     s.draws = chosen ? of_model.draws : s.draws;                                                                       \
   }
   MODELS(SAMPLE)
-  s.weight = vec_select(s.direction.z > 0.0f, vec_scale(inverse_survival, s.weight), vec_all((Real)(0.0f)));
+  s.weight = vec_select(may_scatter_into(m, s.direction), vec_scale(inverse_survival, s.weight), vec_all((Real)(0.0f)));
   return s;
 }
 

@@ -6,7 +6,7 @@
 #define PLANE(k) ((size_t)(k)*get_global_size(0) + get_global_id(0))
 
 #define VERIFY_PARAMETERS __global const float *materials, __global const float *table, int material
-#define VERIFY_MATERIAL only_material(materials + material * MATERIAL_WORDS, table)
+#define VERIFY_MATERIAL(fixed) only_material_from(materials + material * MATERIAL_WORDS, table, (fixed).z >= 0.0f)
 
 static inline Vec3 vec_from_planes(__global const Real* from, int first) {
   return vec3(from[PLANE(first)], from[PLANE(first + 1)], from[PLANE(first + 2)]);
@@ -16,6 +16,16 @@ static inline void vec_to_planes(__global Real* to, int first, Vec3 v) {
   to[PLANE(first)] = v.x;
   to[PLANE(first + 1)] = v.y;
   to[PLANE(first + 2)] = v.z;
+}
+
+// Directions are given and returned with z along the front's normal; models have z on the side of `fixed`.
+static inline Vec3 seen_from(Vec3 fixed, Vec3 v) { return vec3(v.x, v.y, fixed.z < 0.0f ? -v.z : v.z); }
+
+static inline MaterialSample sample_on_its_side(Material m, Vec3 fixed, RandomDraws random, int roulette) {
+  MaterialSample s =
+      material_sample(m, seen_from(fixed, fixed), random, vec_all((Real)(1.0f)), roulette ? ALL_LANES : NO_LANES, ALL_LANES);
+  s.direction = seen_from(fixed, s.direction);
+  return s;
 }
 
 // Ten planes: direction, weight, density, 1 where the path survives, draws, 1 for a delta event.
@@ -36,8 +46,8 @@ __kernel void sample_model(VERIFY_PARAMETERS, float fixed_x, float fixed_y, floa
   sequence.sample = (Uint)(0u);
   sequence.seed = seed;
   const Vec3 fixed = vec3((Real)(fixed_x), (Real)(fixed_y), (Real)(fixed_z));
-  sample_to_planes(samples, material_sample(VERIFY_MATERIAL, fixed, random_draws(sequence, (Uint)(0u)),
-                                            vec_all((Real)(1.0f)), roulette ? ALL_LANES : NO_LANES, ALL_LANES));
+  sample_to_planes(samples,
+                   sample_on_its_side(VERIFY_MATERIAL(fixed), fixed, random_draws(sequence, (Uint)(0u)), roulette));
 }
 
 // The same for chosen first random words, four planes of them.
@@ -53,18 +63,19 @@ __kernel void drive_model(VERIFY_PARAMETERS, float fixed_x, float fixed_y, float
   random.words.z = words[PLANE(2)];
   random.words.w = words[PLANE(3)];
   const Vec3 fixed = vec3((Real)(fixed_x), (Real)(fixed_y), (Real)(fixed_z));
-  sample_to_planes(samples, material_sample(VERIFY_MATERIAL, fixed, random, vec_all((Real)(1.0f)),
-                                            roulette ? ALL_LANES : NO_LANES, ALL_LANES));
+  sample_to_planes(samples, sample_on_its_side(VERIFY_MATERIAL(fixed), fixed, random, roulette));
 }
 
-// For pairs of directions (a, b), six planes. Ten planes: f_r with a fixed, f_r with b fixed, the density of b for a fixed
-// and of a for b fixed as two calls give them, then the reverse densities of the same two calls.
+// For pairs of directions (a, b), six planes. Ten planes: f_r with a fixed, f_r with b fixed (times the squared relative
+// index of refraction where they are on different sides, so that both are equal), the density of b for a fixed and of a for
+// b fixed as two calls give them, then the reverse densities of the same two calls.
 __kernel void evaluate_model(VERIFY_PARAMETERS, __global const Real* pairs, __global Real* values) {
-  const Material m = VERIFY_MATERIAL;
   const Vec3 a = vec_from_planes(pairs, 0), b = vec_from_planes(pairs, 3);
-  const LobeValue from_a = material_evaluate(m, a, b), from_b = material_evaluate(m, b, a);
+  const Material m = VERIFY_MATERIAL(a);
+  const LobeValue from_a = material_evaluate(m, seen_from(a, a), seen_from(a, b));
+  const LobeValue from_b = material_evaluate(VERIFY_MATERIAL(b), seen_from(b, b), seen_from(b, a));
   vec_to_planes(values, 0, from_a.value);
-  vec_to_planes(values, 3, from_b.value);
+  vec_to_planes(values, 3, vec_scale(1.0f / radiance_scale(m, seen_from(a, b)), from_b.value));
   values[PLANE(6)] = from_a.density;
   values[PLANE(7)] = from_b.density;
   values[PLANE(8)] = from_a.reverse;
@@ -74,5 +85,5 @@ __kernel void evaluate_model(VERIFY_PARAMETERS, __global const Real* pairs, __gl
 // Three planes of reflectivities, for three of directions.
 __kernel void integrate_model(VERIFY_PARAMETERS, __global const Real* directions, __global Real* reflectivities) {
   const Vec3 fixed = vec_from_planes(directions, 0);
-  vec_to_planes(reflectivities, 0, material_reflectivity(VERIFY_MATERIAL, fixed));
+  vec_to_planes(reflectivities, 0, material_reflectivity(VERIFY_MATERIAL(fixed), seen_from(fixed, fixed)));
 }

@@ -30,7 +30,7 @@ static inline Real largest_cosine(Vec3 axis, Vec3 center, Vec3 half_size, Real i
   return clamp((vec_dot(axis, center) + beyond) * inv_distance, (Real)(-1.0f), (Real)(1.0f));
 }
 
-// A bound, up to a factor, on the irradiance from a node's lights at a surface with that normal: at the distance of the
+// A bound, up to a factor, on the irradiance from a node's lights at a surface with that normal (0: with any normal): at the distance of the
 // box's centre, with the most favourable orientation that the cone of normals allows.
 static inline Real node_importance(const Scene* scene, Int node, Vec3 lit, Vec3 normal) {
   const Vec3 half_size = LIGHT_NODE_VEC3(scene, node, half_size);
@@ -40,7 +40,8 @@ static inline Real node_importance(const Scene* scene, Int node, Vec3 lit, Vec3 
       vec3(larger(fabs(center.x) - half_size.x, (Real)(0.0f)), larger(fabs(center.y) - half_size.y, (Real)(0.0f)),
            larger(fabs(center.z) - half_size.z, (Real)(0.0f)));
   const Real inv_least_distance = 1.0f / sqrt(larger(vec_dot(gap, gap), (Real)(SMALLEST_SQUARE)));
-  const Real arriving = largest_cosine(normal, center, half_size, inv_least_distance);
+  Real arriving = largest_cosine(normal, center, half_size, inv_least_distance);
+  if (HAS_TRANSMISSION) arriving = vec_dot(normal, normal) > 0.0f ? arriving : (Real)(1.0f);
   // The cosine of the angle to the nearest normal of the cone.
   const Vec3 axis = LIGHT_NODE_VEC3(scene, node, axis);
   const Real cos_spread = LIGHT_NODE_REAL(scene, node, cos_spread);

@@ -61,8 +61,12 @@ static inline Int choose_light_for(const Scene* scene, Vec3 lit, Vec3 normal, Ui
   return choose_from_tree(scene, lit, normal, word, other_word, by_tree & (LIGHT_INT(scene, light, node) >= 0), light);
 }
 
-// The normal with which a light is chosen for a point: the one that decides which lights can shine on it.
-static inline Vec3 lit_normal(SurfacePoint point) { return SIDES_BY_SHADING ? point.frame.z : point.normal; }
+// The normal with which a light is chosen for a point: the one that decides which lights can shine on it; none (0) where
+// light passes through, so that the probability does not depend on the side that a subpath came from.
+static inline Vec3 lit_normal(SurfacePoint point) {
+  const Vec3 normal = SIDES_BY_SHADING ? point.frame.z : point.normal;
+  return HAS_TRANSMISSION ? vec_select(point.transmits, vec_all((Real)(0.0f)), normal) : normal;
+}
 
 // The density of emission (emission.cl); of an environment map, in a direction that it samples with density `sky`.
 static inline Real emission_density(const Scene* scene, Int light, Real sky) {
@@ -244,7 +248,20 @@ static inline void aim_to_infinity(LightSample* s, SurfacePosition lit, Vec3 dir
   s->valid = s->valid | m;
 }
 
-// A direction to the sky: by the cosine to the shading normal if it is constant, else by the map.
+// Density of sampling a constant light in a direction of this cosine to the shading normal: by the cosine, on either side
+// where light passes through.
+static inline Real sky_sample_density(SurfacePoint point, Real cosine) {
+  if (!HAS_TRANSMISSION) return cosine * INV_PI;
+  return point.transmits ? fabs(cosine) * (0.5f * INV_PI) : larger(cosine, (Real)(0.0f)) * INV_PI;
+}
+static inline Vec3 sky_sample_direction(SurfacePoint point, Real u1, Real u2) {
+  if (!HAS_TRANSMISSION) return cosine_direction(u1, u2);
+  const Mask below = point.transmits & (u1 >= 0.5f);
+  const Vec3 direction = cosine_direction(point.transmits ? 2.0f * u1 - (below ? (Real)(1.0f) : (Real)(0.0f)) : u1, u2);
+  return vec3(direction.x, direction.y, below ? -direction.z : direction.z);
+}
+
+// A direction to the sky: by the cosine if it is constant, else by the map.
 static inline void sample_sky(const Scene* scene, LightSample* s, SurfacePoint point, Mask m, Real u1, Real u2,
                               RandomDraws random) {
   const SurfacePosition lit = surface_position(point);
@@ -255,8 +272,8 @@ static inline void sample_sky(const Scene* scene, LightSample* s, SurfacePoint p
     aim_to_infinity(s, lit, direction, s->choice * sky.density, m & (sky.density > 0.0f));
     s->radiance = vec_select(m, sky.radiance, s->radiance);
   } else {
-    const Vec3 upward = cosine_direction(u1, u2);
-    aim_to_infinity(s, lit, from_frame(point.frame, upward), s->choice * upward.z * INV_PI, m);
+    const Vec3 direction = sky_sample_direction(point, u1, u2);
+    aim_to_infinity(s, lit, from_frame(point.frame, direction), s->choice * sky_sample_density(point, direction.z), m);
   }
   s->hittable = s->hittable | m;
 }

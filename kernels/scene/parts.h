@@ -11,7 +11,7 @@
 // Mitsuba's strictNormals is false: an interpolated normal alone decides on which side of a surface a direction lies.
 #define SIDES_BY_SHADING (HAS_SMOOTH_NORMALS & !HAS_STRICT_NORMALS)
 // Directions that count may lie on either side of the geometric normal.
-#define HAS_SIGNED_COSINES SIDES_BY_SHADING
+#define HAS_SIGNED_COSINES (SIDES_BY_SHADING | HAS_TRANSMISSION)
 
 #define HAS_BITMAPS (HAS_BYTE_TEXTURES | HAS_FLOAT_TEXTURES)
 #define HAS_TEXTURES (HAS_CHECKERBOARDS | HAS_BITMAPS)

@@ -38,8 +38,9 @@ typedef struct {
 // A material's record: a header, then the words of its model's parameters (lobes/lobe.h). The host defines
 // MATERIAL_WORDS, the length of the longest record of the scene.
 enum MaterialHeader { MATERIAL_MODEL = 0, MATERIAL_FLAGS = 1, MATERIAL_HEADER = 2 };
-// Sides that reflect anything; neither if the material is black.
-enum MaterialFlags { MATERIAL_FRONT = 1, MATERIAL_BACK = 2, MATERIAL_TEXTURED = 4 };
+// Sides that reflect anything, neither if the material is black; whether light passes through; whether a colour is from a
+// texture.
+enum MaterialFlags { MATERIAL_FRONT = 1, MATERIAL_BACK = 2, MATERIAL_TRANSMITS = 4, MATERIAL_TEXTURED = 8 };
 
 // A texture: a colour at (u, v) = to_uv (1, its surface's u and v).
 enum TextureKinds { TEXTURE_CHECKERBOARD = 0, TEXTURE_BYTES = 1, TEXTURE_FLOATS = 2 };

@@ -15,6 +15,7 @@ typedef struct {
   Real error;    // bounds the rounding error of `position` and of a ray's intersection near it
   Mask front;    // that side is the front
   Mask shaded_front; // the ray came from the front by the shading normal
+  Mask transmits; // light passes through
   Int material, light;
   TextureCoordinates uv; // HAS_TEXTURES, where the material has some
 } SurfacePoint;
@@ -151,6 +152,8 @@ static inline SurfacePoint surface_point(const Scene* scene, Ray ray, Hit hit) {
   const Vec3 shading = vec_select(s.shaded_front, p.shading_normal, vec_scale((Real)(-1.0f), p.shading_normal));
   s.frame = HAS_TANGENTS ? frame_along(shading, p.tangent) : frame_about(shading);
   s.material = PRIMITIVE_INT(scene, primitive, material);
+  s.transmits = NO_LANES;
+  if (HAS_TRANSMISSION) s.transmits = (material_int(scene, s.material, MATERIAL_FLAGS) & MATERIAL_TRANSMITS) != 0;
   s.light = PRIMITIVE_INT(scene, primitive, light);
   s.uv.u = s.uv.v = (Real)(0.0f);
   if (HAS_TEXTURES) {

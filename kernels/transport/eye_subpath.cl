@@ -116,8 +116,9 @@ static inline FoundLight sample_light(const Scene* scene, const Subpath* s, Vert
   found.found = m & light->valid & leaves(generated, cosine);
   if (!any_lane(found.found)) return found;
   const LobeValue lobe = material_evaluate(v.material, v.fixed, generated);
-  const Vec3 reflected = vec_mul(s->throughput, lobe.value);
-  found.value = vec_scale(generated.z / light->density, vec_mul(light->radiance, reflected));
+  const Vec3 scattered = vec_mul(s->throughput, lobe.value);
+  found.value = vec_scale(size_of_cosine(generated.z) / light->density, vec_mul(light->radiance, scattered));
+  if (HAS_TRANSMISSION) found.value = vec_scale(radiance_scale(v.material, generated), found.value);
   found.weight = weight_of_sampled_light(scene, s, *light, lobe, size_of_cosine(cosine));
   if (HAS_DELTA) found.found &= vec_max(lobe.value) > 0.0f;
   return found;

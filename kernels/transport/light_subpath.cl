@@ -147,7 +147,7 @@ static inline Real density_of_start(const Scene* scene, const Subpath* s, Vertex
   }
   if (HAS_POINTLIKE_LIGHTS) density = is_pointlike(kind) ? choice * distance * distance : density;
   if (HAS_SKY) {
-    const Real by_sky = HAS_ENVIRONMENT_MAP ? choice * s->light_cosine : choice * v.fixed.z * INV_PI;
+    const Real by_sky = HAS_ENVIRONMENT_MAP ? choice * s->light_cosine : choice * sky_sample_density(v.point, v.fixed.z);
     density = is_sky(kind) ? by_sky : density;
   }
   return density;

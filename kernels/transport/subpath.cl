@@ -26,7 +26,7 @@ typedef struct {
   Int path;        // number in the batch
   RandomSequence sequence;
   // Of the vertex where the ray starts, for the weights of what it finds:
-  Vec3 normal;         // by which a light is chosen (lit_normal)
+  Vec3 normal;         // by which a light is chosen: lit_normal
   Real density;        // of the ray's direction, per solid angle
   Real cosine_density; // of the same direction by the cosine, with which a constant sky is sampled
   Mask delta;          // the direction was sampled from a delta distribution
@@ -76,7 +76,8 @@ static inline Arrival next_vertex(const Scene* scene, Subpath* s, PathLimits lim
   a.distance = hit.distance;
   a.hits = alive & (hit.primitive >= 0);
   a.vertex.point = surface_point(scene, s->ray, hit);
-  a.vertex.material = material_at(scene, a.vertex.point.material, a.vertex.point.uv);
+  a.vertex.material =
+      material_at(scene, a.vertex.point.material, a.vertex.point.uv, a.vertex.point.shaded_front);
   a.vertex.fixed = to_frame(a.vertex.point.frame, vec_scale((Real)(-1.0f), s->ray.direction));
   a.scattered = a.hits & (s->edges < limits.longest) & (a.vertex.fixed.z > 0.0f) &
                 reflects(scene, a.vertex.point.material, a.vertex.point.shaded_front);
@@ -88,21 +89,21 @@ static inline Real size_of_cosine(Real cosine) { return HAS_SIGNED_COSINES ? fab
 
 // The cosine factor at the vertex of a light subpath that arrives along `fixed` and leaves along `generated` (in the
 // shading frame; with its cosine to the geometric normal): Veach's (1997, 5.3) adjoint BSDF times cosine, over f_r.
-// Without interpolated normals, the cosine of `generated`.
+// Without interpolated normals, the cosine of `generated`. Cosines are not negative.
 static inline Real adjoint_cosine(Vertex v, Vec3 generated, Real geometric_cosine) {
-  if (!HAS_SMOOTH_NORMALS) return generated.z;
+  if (!HAS_SMOOTH_NORMALS) return size_of_cosine(generated.z);
   return v.fixed.z * size_of_cosine(geometric_cosine) / vec_dot(v.point.normal, from_frame(v.point.frame, v.fixed));
 }
 
-// Lanes whose direction leaves the surface by both normals, so that no light leaks through; by the shading normal alone
-// if strictNormals is false.
+// Lanes whose direction leaves the surface on the same side by both normals, so that no light leaks through; by the
+// shading normal alone if strictNormals is false. A material that does not transmit scatters nothing below.
 static inline Mask leaves(Vec3 generated, Real geometric_cosine) {
-  if (SIDES_BY_SHADING) return generated.z > 0.0f;
-  return (generated.z > 0.0f) & (geometric_cosine > 0.0f);
+  const Mask above = SIDES_BY_SHADING ? (Mask)(generated.z > 0.0f) : (generated.z > 0.0f) & (geometric_cosine > 0.0f);
+  const Mask below = SIDES_BY_SHADING ? (Mask)(generated.z < 0.0f) : (generated.z < 0.0f) & (geometric_cosine < 0.0f);
+  return HAS_TRANSMISSION ? above | below : above;
 }
 
-// Scatters the subpaths of m. Returns those that continue: not absorbed by roulette, and above the surface. `adjoint`:
-// light subpaths. *sample is the event.
+// Scatters the subpaths of m. Returns those that continue: not absorbed by roulette. `adjoint`: light subpaths. *sample is the event.
 static inline Mask scatter(Subpath* s, Vertex v, int adjoint, Uint dimension, PathLimits limits, MaterialSample* sample,
                            Mask m) {
   *sample = material_sample(v.material, v.fixed, random_draws(s->sequence, dimension),
@@ -111,7 +112,10 @@ static inline Mask scatter(Subpath* s, Vertex v, int adjoint, Uint dimension, Pa
   const Real cosine = vec_dot(v.point.normal, direction);
   s->throughput = vec_mul(s->throughput, sample->weight);
   if (HAS_SMOOTH_NORMALS && adjoint)
-    s->throughput = vec_scale(adjoint_cosine(v, sample->direction, cosine) / sample->direction.z, s->throughput);
+    s->throughput =
+        vec_scale(adjoint_cosine(v, sample->direction, cosine) / size_of_cosine(sample->direction.z), s->throughput);
+  if (HAS_TRANSMISSION && !adjoint)
+    s->throughput = vec_scale(radiance_scale(v.material, sample->direction), s->throughput);
   if (IS_BIDIR) {
     const Real reverse = material_evaluate(v.material, v.fixed, sample->direction).reverse;
     s->mis = mis_scattered(s->mis, sample->density, reverse, size_of_cosine(cosine), sample->delta);
@@ -119,7 +123,7 @@ static inline Mask scatter(Subpath* s, Vertex v, int adjoint, Uint dimension, Pa
   const Mask continues = m & sample->survives & leaves(sample->direction, cosine) & (vec_max(s->throughput) > 0.0f);
   s->normal = lit_normal(v.point);
   s->density = sample->density;
-  s->cosine_density = sample->direction.z * INV_PI;
+  s->cosine_density = sky_sample_density(v.point, sample->direction.z);
   s->delta = sample->delta;
   s->ray.origin = offset_origin(v.point.position, v.point.normal, v.point.error, direction);
   s->ray.direction = direction;

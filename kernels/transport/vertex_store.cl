@@ -12,7 +12,7 @@ typedef struct {
   Vec3 back; // along the subpath, in world space
   Vec3 throughput;
   Real error;
-  Int material;
+  Int material; // its complement where the vertex is on the back of a surface (HAS_TRANSMISSION)
   MisQuantities mis;
   Vec3 normal;  // HAS_SMOOTH_NORMALS
   Vec3 tangent; // HAS_TANGENTS
@@ -85,7 +85,7 @@ static inline void store_vertices(const VertexStore* store, int row, const Subpa
   record.back = vec_scale((Real)(-1.0f), s->ray.direction);
   record.throughput = s->throughput;
   record.error = v.point.error;
-  record.material = v.point.material;
+  record.material = HAS_TRANSMISSION ? (v.point.shaded_front ? v.point.material : ~v.point.material) : v.point.material;
   record.mis = s->mis;
   record.normal = v.point.normal;
   record.tangent = v.point.frame.x;
@@ -146,7 +146,8 @@ static inline StoredVertex stored_vertex(const Scene* scene, const VertexStore* 
     s.vertex.point.frame.y = vec_cross(record.shading_normal, record.tangent);
   }
   s.vertex.fixed = to_frame(s.vertex.point.frame, record.back);
-  s.vertex.material = material_at(scene, record.material, record.uv);
+  const Mask front = HAS_TRANSMISSION ? (Mask)(record.material >= 0) : ALL_LANES;
+  s.vertex.material = material_at(scene, front ? record.material : ~record.material, record.uv, front);
   s.throughput = record.throughput;
   s.mis = record.mis;
   return s;

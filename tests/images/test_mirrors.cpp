@@ -24,7 +24,7 @@ render::Settings with(const Method& method, int samples, int max_depth = -1) {
 // A mirror of 3 x 3 on the plane x = -1, facing +x, beside a diffuse floor that the camera looks down on.
 scene::Scene floor_beside_mirror(double albedo, const Rgb& reflectance) {
   scene::Scene scene;
-  scene.materials = {diffuse(Rgb(albedo)), lobes::conductor(reflectance)};
+  scene.materials = {diffuse(Rgb(albedo)), lobes::mirror(reflectance)};
   scene.patches = {square({0, 0, 0}, {0, 0, 1}, {1, 0, 0}, 2, {0, -1}),
                    square({-1, 1.5, 0}, {0, 1, 0}, {0, 0, 1}, 1.5, {1, -1})};
   scene.camera = look_at({0.2, 2, 0}, {0.2, 0, 0.01}, 25, 8, 8);
@@ -37,7 +37,7 @@ TEST_CASE("mirrors: a ball in a furnace shows the sky times its reflectance") {
   const Rgb reflectance(0.9, 0.5, 0.2), sky(1.0, 0.5, 2.0);
   scene::Scene scene = shipped("furnace-sphere", 6, 6);
   scene.camera = look_at({0, 0, 4}, {0, 0, 0}, 18, 6, 6); // nothing but the sphere
-  scene.materials.assign(scene.materials.size(), lobes::conductor(reflectance));
+  scene.materials.assign(scene.materials.size(), lobes::mirror(reflectance));
   scene.constant_radiance = sky;
   const Rgb seen = reflectance * sky;
   for (const Method& method : {path, path_hits, path_light_samples, bidir, bidir_power, bidir_uniform}) {
@@ -51,7 +51,7 @@ TEST_CASE("mirrors: a ball in a furnace shows the sky times its reflectance") {
 
 TEST_CASE("mirrors: a lossless ball in a closed furnace cannot be told from its walls, with roulette") {
   scene::Scene scene = shipped("furnace-box", 6, 6);
-  scene.materials.push_back(lobes::conductor(Rgb(1.0)));
+  scene.materials.push_back(lobes::mirror(Rgb(1.0)));
   scene.spheres.push_back(
       {{-0.3, -0.1, -0.6}, 0.25, false, {static_cast<int>(scene.materials.size()) - 1, -1}});
   for (const Method& method : {path, path_hits, bidir, bidir_power}) {

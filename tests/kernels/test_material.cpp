@@ -1,4 +1,6 @@
 // The material of a scene with several models: each is loaded from its own record.
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "device_test.h"
@@ -55,4 +57,30 @@ TEST_CASE("materials: a model with more parameters than the Phong model stands b
     CHECK(both.evaluate(1, {{fixed, generated}})[0].density == Approx(0.64 / std::numbers::pi).epsilon(1e-6));
     CHECK(both.evaluate(1, {{fixed, generated}})[0].value.y == Approx(0.5 / std::numbers::pi).epsilon(1e-6));
   }
+}
+
+TEST_CASE("materials: a dielectric bends light by Snell's law from either side, and equal media do not") {
+  for (const Variant v : {Variant{1}, Variant{16}})
+    for (const double index : {1.5, 0.7, 1.0}) {
+      const auto model = device_model(v, {phlux::lobes::dielectric(index)}, "exact");
+      for (const double side : {1.0, -1.0})
+        for (const double sine : {0.0, 1e-3, 0.3, 0.66, 0.9, 0.99999}) {
+          CAPTURE(v, index, side, sine);
+          const glm::dvec3 fixed(0.6 * sine, 0.8 * sine, side * std::sqrt(1 - sine * sine));
+          const double bent = sine * (side > 0 ? 1 / index : index); // of the refracted direction
+          int through = 0;
+          for (const Sample& s : model.sample(0, fixed, 400, 7, false)) {
+            CHECK(s.delta);
+            CHECK(s.weight.x == 1);
+            const bool reflected = s.direction.z * side > 0;
+            through += reflected ? 0 : 1;
+            const double scale = reflected ? -1 : -bent / std::max(sine, 1e-30);
+            CHECK(s.direction.x == Approx(scale * fixed.x).margin(1e-7));
+            CHECK(s.direction.y == Approx(scale * fixed.y).margin(1e-7));
+          }
+          if (bent >= 1) CHECK(through == 0);
+          if (index == 1) CHECK(through == 400);
+          if (index != 1 && bent < 0.9) CHECK((through > 300 && through < 400));
+        }
+    }
 }

@@ -19,7 +19,7 @@ MUTANTS = [
     ("pow for exp of log1p", "phong/phong.cl", "exp(m.exponent * log1p(-one_minus_cosine))",
      "pow(1.0f - one_minus_cosine, m.exponent)"),
     ("f_r below the surface", "lobes/material.cl",
-     "v.value = vec_select((fixed.z > 0.0f) & (generated.z > 0.0f), v.value, vec_all((Real)(0.0f)));", ""),
+     "v.value = vec_select((fixed.z > 0.0f) & may_scatter_into(m, generated), v.value, vec_all((Real)(0.0f)));", ""),
     ("f_r without 1 / pi", "phong/phong.cl", "vec_scale((Real)(INV_PI), vec_along(",
      "vec_scale((Real)(1.0f), vec_along("),
     ("table not interpolated", "phong/phong.cl", "v1 = gather_real(m.tables, index + 1)",
@@ -37,7 +37,7 @@ MUTANTS = [
     ("missing cosine in the weight of a lobe", "phong/one_part.cl",
      "(m.exponent + 2.0f) / (m.exponent + 1.0f) * direction.z;", "(m.exponent + 2.0f) / (m.exponent + 1.0f);"),
     ("weight kept below the surface", "lobes/material.cl",
-     "vec_select(s.direction.z > 0.0f, vec_scale(inverse_survival, s.weight), vec_all((Real)(0.0f)))",
+     "vec_select(may_scatter_into(m, s.direction), vec_scale(inverse_survival, s.weight), vec_all((Real)(0.0f)))",
      "vec_scale(inverse_survival, s.weight)"),
     ("n + 2 for n + 1 in a lobe's density", "phong/one_part.cl", "* (m.exponent + 1.0f) / (m.exponent + 2.0f);", ";"),
     ("density for the wrong fixed direction", "phong/one_part.cl",
@@ -119,6 +119,7 @@ SMOOTH, FLAT = ("test_images", "a ball of eight*"), ("test_images", "a low gap*"
 CAMERA, EMISSION, LIGHTS, WEIGHTS, BATCHES = (
     ("test_kernels", name + ":*") for name in ("camera", "emission", "lights", "weights", "batches"))
 MIRRORS, MATERIALS = ("test_images", "mirrors: *"), ("test_kernels", "materials:*")
+GLASS, GLASS_PLANE = ("test_images", "glass: balls*"), ("test_images", "glass: reflectance*")
 MIRROR_BALL = ("test_images", "mirrors: a ball in a furnace*")
 MAPS, MAP_RENDERS = ("test_kernels", "environment maps:*"), ("test_images", "environment maps:*")
 CAMERA_RENDERS = ("test_images", "cameras:*")
@@ -165,7 +166,8 @@ INTEGRATOR_MUTANTS = [
     ("connection without 1 / distance^2", "transport/bidir.cl",
      "adjoint_cosine(light.vertex, to_eye, light_cosine) / distance2;",
      "adjoint_cosine(light.vertex, to_eye, light_cosine);", INTEGRATORS),
-    ("connection without a cosine", "transport/bidir.cl", "to_light.z * adjoint_cosine(light.vertex",
+    ("connection without a cosine", "transport/bidir.cl",
+     "size_of_cosine(to_light.z) * adjoint_cosine(light.vertex",
      "adjoint_cosine(light.vertex", INTEGRATORS),
     ("connections make paths that are too long", "transport/bidir.cl", "work->limits.longest - 2 - pair->eye_index",
      "work->limits.longest - 1 - pair->eye_index", ("test_images", "furnace box by light and bidir: every*")),
@@ -173,7 +175,7 @@ INTEGRATOR_MUTANTS = [
      "work->limits.longest - 3 - pair->eye_index", ("test_images", "furnace box by light and bidir: every*")),
     ("wrong density of the sky as it is hit", "transport/eye_subpath.cl", "sampled = s->cosine_density",
      "sampled = (Real)(INV_PI)", INTEGRATORS),
-    ("wrong density of the sky as a path's start", "transport/light_subpath.cl", "choice * v.fixed.z * INV_PI",
+    ("wrong density of the sky as a path's start", "transport/light_subpath.cl", "choice * sky_sample_density(v.point, v.fixed.z)",
      "choice * INV_PI", INTEGRATORS),
     ("point light's start without its distance", "transport/light_subpath.cl",
      "is_pointlike(kind) ? choice * distance * distance : density", "is_pointlike(kind) ? choice : density",
@@ -210,6 +212,18 @@ INTEGRATOR_MUTANTS = [
      "m & !light_sample_possible(s) : m", "m & !(s->edges > 1) : m", MIRROR_BALL),
     ("path's hit after a delta event weighted below 1", "transport/eye_subpath.cl",
      "return light_sample_possible(s) ? s->density", "return s->edges > 1 ? s->density", MIRROR_BALL),
+    ("radiance beyond a surface not scaled", "transport/subpath.cl",
+     "vec_scale(radiance_scale(v.material, sample->direction), s->throughput)", "s->throughput", GLASS_PLANE),
+    ("radiance beyond a surface scaled by the index itself", "lobes/material.cl", "1.0f / (index * index)",
+     "1.0f / index", GLASS_PLANE),
+    ("power scaled as radiance", "transport/subpath.cl", "if (HAS_TRANSMISSION && !adjoint)", "if (HAS_TRANSMISSION)",
+     GLASS),
+    ("glass that is the same from inside", "lobes/dielectric.cl", "((m).front ? (m).int_ior / (m).ext_ior :",
+     "((m).front | 1 ? (m).int_ior / (m).ext_ior :", GLASS_PLANE),
+    ("one polarisation", "math/fresnel.h", "return 0.5f * fma(s, s, p * p);", "return s * s;", GLASS_PLANE),
+    ("a normal that forgets its other side", "transport/subpath.cl",
+     "return HAS_TRANSMISSION ? above | ((generated.z < 0.0f) & (geometric_cosine < 0.0f)) : above;", "return above;",
+     GLASS_PLANE),
     ("indices read from the records of other models", "lobes/material.cl",
      "of_model ? material_int(scene, index, WORD_OF(record, name)) : (Int)(0)",
      "material_int(scene, index, WORD_OF(record, name))", MATERIALS),

@@ -26,9 +26,9 @@ using render::Weights;
 using scene::Vec3;
 
 constexpr double sharp = 100, sharp_for_eye = 50;
-constexpr int longest_path = 9;       // edges; longer paths carry little light
-constexpr double narrow_view = 0.002; // few light paths end in it
-constexpr double small_light = 1e-3;  // in the unit of SceneFacts
+constexpr int longest_path = 9;                          // edges; longer paths carry little light
+constexpr double narrow_view = 0.002;                    // few light paths end in it
+constexpr double small_light = 1e-3, large_light = 0.02; // in the unit of SceneFacts
 constexpr double small_spot = 0.02, little_power = 0.05;
 
 struct Kind {
@@ -186,8 +186,9 @@ SceneFacts facts_of(const scene::Scene& scene) {
   for (const PrimitiveRecord& p : host.geometry.primitives) {
     if (p.region == REGION_NONE) continue;
     const scene::Material& m = scene.materials[static_cast<std::size_t>(p.material)];
+    facts.delta |= m.model->has_delta;
     const bool anisotropic = m.model == lobes::shipped("anisotropicphong");
-    if (anisotropic || phlux::test::specular_of(m) != scene::Rgb(0.0))
+    if (anisotropic || (m.model == lobes::shipped("phong") && phlux::test::specular_of(m) != scene::Rgb(0.0)))
       facts.largest_exponent = std::max({facts.largest_exponent, phlux::test::exponent_of(m),
                                          anisotropic ? phlux::test::exponent_v_of(m) : 0.0});
   }
@@ -231,6 +232,10 @@ std::vector<Settings> methods_of_family(std::uint64_t family, int count) {
 
 Settings for_scene(Settings method, const scene::Scene& scene, const SceneFacts& facts) {
   if (method.connect == Connect::none && facts.lights_without_area) method.connect = Connect::mis;
+  // Light tracing shows mirrors and glass black, and path tracing lacks light of points that they reflect.
+  if (facts.delta &&
+      (method.integrator == "light" || (method.integrator == "path" && facts.lights_without_area)))
+    method.integrator = "bidir";
   method.max_depth = scene.defaults.max_depth;
   method.rr_depth = scene.defaults.rr_depth;
   return method;
@@ -246,6 +251,7 @@ std::string doubts(const Settings& method, const SceneFacts& facts) {
   if (facts.lights_without_area && lobes) return "points connected to lobes";
   if (!sampled_by_shape(method.strategy) && too_sharp(facts.largest_exponent, edges - 1, sharp))
     return "lobes found by chance";
+  if (facts.delta && facts.smallest_light < large_light) return "small light in mirrors";
   if (path && method.connect == Connect::none && facts.smallest_light < small_light) return "small light hit";
   if (path && facts.in_small_spots > little_power) return "small spot hit";
   return "";

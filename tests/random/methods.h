@@ -19,6 +19,7 @@ struct SceneFacts {
                                ///< to it as the nearest thing in view
   double in_small_spots = 0;   ///< part of the lights' power that falls on surfaces next to them: spots that
                                ///< paths from the eye must hit
+  bool delta = false;          ///< mirrors and smooth glass
   bool lights_without_area = false; ///< point, spot or directional: nothing can hit them
 };
 

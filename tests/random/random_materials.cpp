@@ -20,11 +20,20 @@ RandomMaterials::RandomMaterials(SceneDraft& draft, double most_exponent)
 void RandomMaterials::write() {
   count_ = 2 + draft_.structure.below(3);
   for (int i = 0; i < count_; ++i) {
-    const bool two_sided = draft_.structure.chance(0.4);
+    const bool polished =
+        draft_.structure.chance(0.12); // or rough: with a surface that Fresnel's equations describe
+    const std::string type =
+        polished
+            ? draft_.structure.pick({"conductor", "dielectric", "thindielectric", "plastic", "roughconductor",
+                                     "roughdielectric", "roughplastic"})
+            : draft_.structure.pick({"diffuse", "diffuse", "phong", "phong", "phong", "anisotropicphong"});
+    const bool two_sided = draft_.structure.chance(0.4) && !type.ends_with("dielectric");
     const std::string id = fmt::format("id=\"material{}\"", i);
     if (two_sided) draft_.text.open("bsdf", "type=\"twosided\" " + id);
-    lobes(draft_.structure.pick({"diffuse", "diffuse", "phong", "phong", "phong", "anisotropicphong"}),
-          two_sided ? "" : " " + id);
+    if (polished)
+      fresnel(type, two_sided ? "" : " " + id);
+    else
+      lobes(type, two_sided ? "" : " " + id);
     if (two_sided) draft_.text.close("bsdf");
   }
 }
@@ -62,6 +71,35 @@ void RandomMaterials::lobes(const std::string& type, const std::string& id) {
       text.real("exponent_u", exponent());
       text.real("exponent_v", exponent());
     }
+  }
+  text.close("bsdf");
+}
+
+void RandomMaterials::fresnel(const std::string& type, const std::string& id) {
+  RandomNumbers& values = draft_.values;
+  SceneText& text = draft_.text;
+  const auto colour = [&](double lowest, double highest) { return triple(values, lowest, highest); };
+  text.open("bsdf", fmt::format("type=\"{}\"{}", type, id));
+  const bool metal = type.ends_with("conductor"), rough = type.starts_with("rough");
+  if (metal && values.chance(0.5)) {
+    text.string("material", values.pick({"Au", "Cu", "Al", "none"}));
+  } else if (metal) {
+    text.color("eta", colour(0.1, 3));
+    text.color("k", colour(0, 4));
+  } else if (values.chance(0.5)) {
+    text.string("int_ior", "water");
+  } else {
+    text.real("int_ior", values.uniform(1.2, 2.4));
+  }
+  if (values.chance(0.5)) text.color("specular_reflectance", colour(0.5, 1));
+  if (type.ends_with("dielectric")) text.color("specular_transmittance", colour(0.5, 1));
+  if (type.ends_with("plastic")) {
+    text.color("diffuse_reflectance", colour(0, 1));
+    text.boolean("nonlinear", values.chance(0.5));
+  }
+  if (rough) {
+    text.real("alpha", values.uniform(0.2, 1));
+    text.string("distribution", values.pick({"beckmann", "ggx", "phong"}));
   }
   text.close("bsdf");
 }

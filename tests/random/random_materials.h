@@ -17,6 +17,7 @@ public:
 
 private:
   void lobes(const std::string& type, const std::string& id);
+  void fresnel(const std::string& type, const std::string& id);
   double exponent();
 
   SceneDraft& draft_;

@@ -110,9 +110,8 @@ TEST_CASE("Impossible materials are errors") {
              StartsWith("scene.xml:3: ") && Contains("must be in [0, 1]"));
   CHECK_THAT(error_in("<bsdf type=\"phong\">\n<float name=\"exponent\" value=\"-1\"/></bsdf>"),
              StartsWith("scene.xml:3: ") && Contains("-1 is out of range"));
-  CHECK_THAT(
-      error_in("<bsdf type=\"roughplastic\"/>"),
-      StartsWith("scene.xml:2: <bsdf type=\"roughplastic\"> is not supported: supported are diffuse, phong"));
+  CHECK_THAT(error_in("<bsdf type=\"hair\"/>"),
+             StartsWith("scene.xml:2: <bsdf type=\"hair\"> is not supported: supported are diffuse, phong"));
   CHECK(error_in("<bsdf type=\"anisotropicphong\"><rgb name=\"specularReflectance\" value=\"1\"/></bsdf>")
             .empty());
 }
@@ -131,4 +130,65 @@ TEST_CASE("ensureEnergyConservation scales by .99 / max, with a warning") {
             .materials.at(0)
             .values.at(0)
             .r == 0.5);
+}
+
+TEST_CASE("Mirrors and metals: by name, by eta and k, and copper by default in version 0") {
+  const auto conductor = [](const std::string& inside, const std::string& version = "0.6.0") {
+    return material("<bsdf type=\"conductor\">" + inside + "</bsdf>", version);
+  };
+  const std::string none = "<string name=\"material\" value=\"none\"/>";
+  CHECK(conductor(none).model->name == "mirror");
+  CHECK(conductor("", "3.0.0").model->name == "mirror");
+  CHECK(conductor("").value("k").r == Approx(3.27 / 1.000277));
+  const std::string own = "<rgb name=\"eta\" value=\"0.2 0.4 1.4\"/><rgb name=\"k\" value=\"4\"/>";
+  CHECK(conductor(own, "3.0.0").value("eta") == Rgb(0.2, 0.4, 1.4));
+  CHECK(conductor(own + "<string name=\"extEta\" value=\"water\"/>").value("k").g == Approx(4 / 1.333));
+  const Material gold = conductor("<string name=\"material\" value=\"Au\"/>", "3.0.0");
+  CHECK(gold.value("eta").r < gold.value("eta").b);
+  CHECK_THAT(error_in("<bsdf type=\"conductor\">\n<string name=\"material\" value=\"Xx\"/></bsdf>"),
+             StartsWith("scene.xml:3: ") && Contains("no metal is named 'Xx'") && Contains("Au"));
+  CHECK_THAT(
+      error_in("<bsdf type=\"conductor\">\n<string name=\"material\" value=\"Au\"/>" + own + "</bsdf>"),
+      StartsWith("scene.xml:3: "));
+}
+
+TEST_CASE("Dielectrics: indices of refraction as numbers and by Mitsuba's names") {
+  const Material glass = material("<bsdf type=\"dielectric\"/>");
+  CHECK(glass.value("int_ior").x == 1.5046);
+  CHECK(glass.value("ext_ior").x == 1.000277);
+  CHECK(glass.value("specular_transmittance") == Rgb(1));
+  const std::string named = "<bsdf type=\"thindielectric\"><string name=\"intIOR\" value=\"diamond\"/>"
+                            "<float name=\"extIOR\" value=\"1.1\"/></bsdf>";
+  CHECK(material(named).value("int_ior").x == 2.419);
+  CHECK(material(named).value("ext_ior").x == 1.1);
+  CHECK(material("<bsdf type=\"dielectric\"><float name=\"int_ior\" value=\"1.3\"/></bsdf>", "3.0.0")
+            .value("int_ior")
+            .x == 1.3);
+  for (const char* bad : {"<string name=\"intIOR\" value=\"butter\"/>",
+                          "<float name=\"intIOR\" value=\"0\"/>", "<float name=\"intIOR\" value=\"-1.5\"/>"})
+    CHECK_THAT(error_in("<bsdf type=\"dielectric\">\n" + std::string(bad) + "</bsdf>"),
+               StartsWith("scene.xml:3: ") && Contains("intIOR"));
+  CHECK_THAT(error_in("<bsdf type=\"twosided\"><bsdf type=\"dielectric\"/></bsdf>"),
+             StartsWith("scene.xml:2: ") && Contains("leave twosided out"));
+}
+
+TEST_CASE("Rough surfaces and plastic: Mitsuba's parameters and defaults") {
+  const auto rough = [](const std::string& type, const std::string& inside) {
+    return material("<bsdf type=\"" + type + "\">" + inside + "</bsdf>");
+  };
+  CHECK(rough("roughplastic", "").value("alpha").x == 0.1);
+  CHECK(rough("roughplastic", "").value("int_ior").x == 1.49);
+  CHECK(rough("roughconductor", "").value("k").r == Approx(3.27 / 1.000277)); // copper
+  CHECK(rough("roughdielectric", "<string name=\"distribution\" value=\"ggx\"/>").value("distribution").x ==
+        1);
+  CHECK(rough("roughconductor", "<float name=\"alphaU\" value=\"0.3\"/><float name=\"alphaV\" value=\"0.3\"/>"
+                                "<boolean name=\"sampleVisible\" value=\"false\"/>")
+            .value("alpha")
+            .x == 0.3);
+  CHECK(rough("plastic", "<boolean name=\"nonlinear\" value=\"true\"/>").value("nonlinear").x == 1);
+  CHECK(rough("plastic", "<rgb name=\"specularReflectance\" value=\"0\"/>").model->name == "plastic");
+  for (const char* bad : {"<float name=\"alpha\" value=\"0\"/>", "<float name=\"alphaV\" value=\"0.2\"/>",
+                          "<string name=\"distribution\" value=\"cauchy\"/>"})
+    CHECK_THAT(error_in("<bsdf type=\"roughconductor\">\n" + std::string(bad) + "</bsdf>"),
+               StartsWith("scene.xml:3: "));
 }

@@ -68,8 +68,11 @@ TEST_CASE("verify: every model that ships passes without closed forms", "[slow]"
   const lobes::Library shipped;
   for (const lobes::ModelPointer& model : shipped.models())
     for (const int lanes : {1, 16}) {
+      if (lanes == 1 && model->name.ends_with("plastic")) continue; // made of parts of the other models
       CAPTURE(model->name, lanes);
-      const Verified verified = run_quick(model, {}, "exact", lanes);
+      const bool rough = model->name.starts_with("rough");
+      const verify::Assignments ggx = {{"distribution", "1"}}; // neither end of the range
+      const Verified verified = run_quick(model, rough ? ggx : verify::Assignments(), "exact", lanes);
       CHECK(verified.failures() == "");
       CHECK(verified.report.p_values() > 5);
     }

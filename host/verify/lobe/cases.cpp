@@ -54,7 +54,7 @@ std::vector<NamedMaterial> materials_of(const lobes::ModelPointer& model, const 
   return materials;
 }
 
-std::vector<FixedDirection> fixed_directions(bool quick) {
+std::vector<FixedDirection> fixed_directions(bool quick, bool both_sides) {
   std::vector<FixedDirection> list{{{0, 0, 1}, "0 degrees"}};
   const std::vector<double> angles =
       quick ? std::vector<double>{50, 89.9} : std::vector<double>{30, 60, 80, 89.9};
@@ -64,6 +64,9 @@ std::vector<FixedDirection> fixed_directions(bool quick) {
     for (const double longitude : longitudes)
       list.push_back({as_float(polar(angle * radians, longitude * radians)),
                       fmt::format("{:g} degrees, longitude {:g}", angle, longitude)});
+  if (both_sides)
+    for (std::size_t i = 0, above = list.size(); i < above; ++i)
+      list.push_back({list[i].direction * Direction(1, 1, -1), list[i].name + ", on the back"});
   return list;
 }
 

@@ -29,7 +29,8 @@ struct FixedDirection {
   Direction direction;
   std::string name; ///< such as "60 degrees, longitude 126"
 };
-/// From the normal to 89.9 degrees, at several longitudes: models may be anisotropic.
-[[nodiscard]] std::vector<FixedDirection> fixed_directions(bool quick);
+/// From the normal to 89.9 degrees, at several longitudes: models may be anisotropic; on the back of the
+/// surface too if light passes through.
+[[nodiscard]] std::vector<FixedDirection> fixed_directions(bool quick, bool both_sides);
 
 } // namespace phlux::verify

@@ -15,11 +15,20 @@ bool is_valid(const PairValues& v) {
          density(v.reverse) && density(v.reversed_reverse);
 }
 
-double disagreement_of_values(const Rgb& a, const Rgb& b) {
+double disagreement_of_values(const Rgb& a, const Rgb& b, double floor) {
   double worst = 0;
   for (int channel = 0; channel < 3; ++channel)
-    worst = std::max(worst, disagreement(a[channel], b[channel], density_floor));
+    worst = std::max(worst, disagreement(a[channel], b[channel], floor));
   return worst;
+}
+
+// What rounding of directions may change: at the edge of a lobe, where cosines to a facet approach 0, that is
+// a small part of the lobe's height and a large one of the value itself.
+double floor_of(const std::vector<PairValues>& values) {
+  double highest = 0;
+  for (const PairValues& v : values)
+    if (is_valid(v)) highest = std::max({highest, v.density, v.reverse, v.value.r, v.value.g, v.value.b});
+  return std::max(density_floor, 1e-6 * highest);
 }
 
 // Records values that are not finite and replaces them by 0 for the integrals.
@@ -27,14 +36,15 @@ std::vector<PairValues> evaluate(const LobeSubject& subject, const LobeCase& one
                                  const std::vector<Pair>& pairs) {
   std::vector<PairValues> values = subject.device.evaluate(one.material, pairs);
   double wrong = 0, asymmetry = 0, reverse = 0;
+  const double floor = floor_of(values);
   for (PairValues& v : values) {
     if (!is_valid(v)) {
       ++wrong;
       v = PairValues();
     }
-    asymmetry = std::max(asymmetry, disagreement_of_values(v.value, v.reversed));
-    reverse = std::max({reverse, disagreement(v.reverse, v.reversed_density, density_floor),
-                        disagreement(v.reversed_reverse, v.density, density_floor)});
+    asymmetry = std::max(asymmetry, disagreement_of_values(v.value, v.reversed, floor));
+    reverse = std::max({reverse, disagreement(v.reverse, v.reversed_density, floor),
+                        disagreement(v.reversed_reverse, v.density, floor)});
   }
   subject.record("evaluate finite", wrong, 0, one.where);
   subject.record("reciprocity", asymmetry, agreement, one.where);
@@ -46,21 +56,21 @@ constexpr int levels_about_lobes = 5; // cells of 2 degrees
 
 } // namespace
 
-HemisphereTree integrate_lobe(const LobeSubject& subject, const LobeCase& one) {
-  HemisphereTree tree;
+DirectionTree integrate_lobe(const LobeSubject& subject, const LobeCase& one) {
+  DirectionTree tree(subject.model.transmits);
   const Direction& d = one.fixed;
-  for (const Direction& likely : {Direction(0, 0, 1), d, Direction(-d.x, -d.y, d.z)})
+  for (const Direction& likely : {Direction(0, 0, 1), d, Direction(-d.x, -d.y, d.z), -d})
     tree.split_about(likely, levels_about_lobes);
   std::vector<Direction> pilots;
   for (const Sample& s : subject.device.sample(one.material, d, subject.samples / 4, one.seed + 1, false))
-    if (!s.delta && is_finite(s.direction) && s.direction.z > 0) pilots.push_back(s.direction);
+    if (!s.delta && is_finite(s.direction) && subject.counts(s)) pilots.push_back(s.direction);
   tree.split_by(pilots);
   tree.integrate([&](const std::vector<Direction>& directions) {
     std::vector<Pair> pairs;
     for (const Direction& b : directions) pairs.push_back({d, as_float(b)});
     std::vector<Integrals> integrands;
     for (const PairValues& v : evaluate(subject, one, pairs))
-      integrands.push_back({v.density, v.value * pairs[integrands.size()].b.z});
+      integrands.push_back({v.density, v.value * std::abs(pairs[integrands.size()].b.z)});
     return integrands;
   });
   return tree;
@@ -98,7 +108,7 @@ void check_isotropy(const LobeSubject& subject, const LobeCase& one) {
   const auto values = evaluate(subject, one, pairs);
   double worst = 0;
   for (std::size_t i = 0; i < values.size(); i += 2)
-    worst = std::max({worst, disagreement_of_values(values[i].value, values[i + 1].value),
+    worst = std::max({worst, disagreement_of_values(values[i].value, values[i + 1].value, density_floor),
                       disagreement(values[i].density, values[i + 1].density, density_floor)});
   subject.record("isotropy", worst, agreement, one.where);
 }

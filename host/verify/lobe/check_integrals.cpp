@@ -18,7 +18,7 @@ double p_of(double off, double allowed, double error) {
 
 } // namespace
 
-void check_integrals(const LobeSubject& subject, const LobeCase& one, const HemisphereTree& tree,
+void check_integrals(const LobeSubject& subject, const LobeCase& one, const DirectionTree& tree,
                      const SampleMeans& means) {
   const Integrals total = tree.total();
   const double quadrature = quadrature_errors * tree.error();

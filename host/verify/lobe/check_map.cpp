@@ -54,10 +54,10 @@ bool is_covered_twice(const std::vector<Sample>& grid, int side, const NumberPai
 
 // Relative error of the density, or nothing where differences of different steps show that the map is not
 // smooth.
-std::optional<double> density_error(const Sample* stencil) {
+std::optional<double> density_error(const LobeSubject& subject, const Sample* stencil) {
   constexpr double smooth = 0.02;
   for (std::size_t i = 0; i < stencil_size; ++i)
-    if (stencil[i].delta || !is_finite(stencil[i].direction) || stencil[i].direction.z <= 0)
+    if (stencil[i].delta || !is_finite(stencil[i].direction) || !subject.counts(stencil[i]))
       return std::nullopt;
   const double fine = jacobian(stencil), coarse = coarse_jacobian(stencil, 1),
                coarser = coarse_jacobian(stencil, 2);
@@ -88,7 +88,7 @@ void check_map(const LobeSubject& subject, const LobeCase& one) {
   std::size_t smooth = 0;
   for (std::size_t i = 0; i < stencils; ++i) {
     const Sample* stencil = &samples[i * stencil_size];
-    const auto error = density_error(stencil);
+    const auto error = density_error(subject, stencil);
     if (!error) continue;
     const double spacing = std::sqrt(jacobian(stencil)) / side;
     if (*error > jacobian_error && is_covered_twice(grid, side, inner_points()[i], *stencil, spacing)) return;

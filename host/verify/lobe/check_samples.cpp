@@ -11,10 +11,6 @@ namespace {
 constexpr double unit_error = 16 * 0x1p-23; // of a float32 direction's length
 constexpr double weight_floor = 1e-4;
 
-bool is_above(const Sample& s) {
-  return s.direction.z > 0;
-}
-
 bool is_valid(const Sample& s) {
   return is_finite(s.direction) && is_finite(s.weight) &&
          std::min({s.weight.r, s.weight.g, s.weight.b}) >= 0 && std::isfinite(s.density) && s.density >= 0 &&
@@ -24,7 +20,7 @@ bool is_valid(const Sample& s) {
 double weight_disagreement(const Sample& s, const PairValues& at) {
   double worst = 0;
   for (int channel = 0; channel < 3; ++channel) {
-    const double right = at.density > 0 ? at.value[channel] * s.direction.z / at.density : 0;
+    const double right = at.density > 0 ? at.value[channel] * std::abs(s.direction.z) / at.density : 0;
     worst = std::max(worst, disagreement(s.weight[channel], right, weight_floor));
   }
   return worst;
@@ -36,7 +32,7 @@ void check_against_evaluate(const LobeSubject& subject, const LobeCase& one,
   std::vector<Pair> pairs;
   std::vector<const Sample*> smooth;
   for (const Sample& s : samples)
-    if (!s.delta && is_above(s)) {
+    if (!s.delta && subject.counts(s)) {
       pairs.push_back({one.fixed, s.direction});
       smooth.push_back(&s);
     }
@@ -53,14 +49,14 @@ void check_against_evaluate(const LobeSubject& subject, const LobeCase& one,
 
 // Chi-square of directions against the density. Delta events and samples below the surface have a cell of
 // their own, with the probability that the density leaves.
-void check_directions(const LobeSubject& subject, const LobeCase& one, const HemisphereTree& tree,
+void check_directions(const LobeSubject& subject, const LobeCase& one, const DirectionTree& tree,
                       const std::vector<Sample>& samples) {
   const auto count = static_cast<double>(samples.size());
-  HemisphereTree::Cells cells = tree.cells(count);
+  DirectionTree::Cells cells = tree.cells(count);
   const std::size_t aside = cells.expected.size();
   std::vector<double> observed(aside + 1);
   for (const Sample& s : samples)
-    observed[!s.delta && is_above(s) ? cells.of_leaf[tree.leaf_of(s.direction)] : aside] += 1;
+    observed[!s.delta && subject.counts(s) ? cells.of_leaf[tree.leaf_of(s.direction)] : aside] += 1;
   // A wrong integral of the density is the failure of another check; here the density is scaled to its
   // samples.
   const double integral = tree.total().density, share = 1 - observed[aside] / count;
@@ -86,7 +82,7 @@ bool enough_carry(const std::vector<Sample>& samples) {
   return squares == 0 || sum * sum / squares >= fewest;
 }
 
-SampleMeans means_of(const std::vector<Sample>& samples) {
+SampleMeans means_of(const LobeSubject& subject, const std::vector<Sample>& samples) {
   SampleMeans means;
   const auto mean = [&](const auto& quantity, double& value, double& error) {
     PowerSums sums;
@@ -95,7 +91,8 @@ SampleMeans means_of(const std::vector<Sample>& samples) {
     value = moments.mean;
     error = moments.mean_standard_error;
   };
-  mean([](const Sample& s) { return s.delta || !is_above(s) ? 1 : 0; }, means.aside, means.aside_error);
+  mean([&](const Sample& s) { return s.delta || !subject.counts(s) ? 1 : 0; }, means.aside,
+       means.aside_error);
   for (int channel = 0; channel < 3; ++channel) {
     const auto weight = [=](const Sample& s) { return s.weight[channel]; };
     mean([=](const Sample& s) { return s.delta ? 0 : weight(s); }, means.reflected[channel],
@@ -115,9 +112,9 @@ void check_each(const LobeSubject& subject, const std::string& where, std::vecto
     if (!s.survives) continue;
     if (!is_valid(s)) {
       ++wrong;
-      s = Sample{{0, 0, -1}, Rgb(0)};
+      s = Sample{{1, 0, 0}, Rgb(0)};
     }
-    if (is_above(s)) length = std::max(length, std::abs(glm::length(s.direction) - 1));
+    if (subject.counts(s)) length = std::max(length, std::abs(glm::length(s.direction) - 1));
     if (s.delta && !subject.model.has_delta) ++undeclared;
   }
   subject.record("sample finite", wrong, 0, where);
@@ -130,8 +127,8 @@ void check_roulette(const LobeSubject& subject, const LobeCase& one, const Sampl
   auto samples = subject.device.sample(one.material, one.fixed, subject.samples, one.seed + 2, true);
   check_each(subject, one.where + ", roulette", samples);
   for (Sample& s : samples)
-    if (!s.survives) s = Sample{{0, 0, -1}, Rgb(0)};
-  const SampleMeans with = means_of(samples);
+    if (!s.survives) s = Sample{{1, 0, 0}, Rgb(0)};
+  const SampleMeans with = means_of(subject, samples);
   if (!with.trusted || !without.trusted) return;
   for (int channel = 0; channel < 3; ++channel) {
     const double off = std::abs(with.all[channel] - without.all[channel]);
@@ -143,12 +140,12 @@ void check_roulette(const LobeSubject& subject, const LobeCase& one, const Sampl
 
 } // namespace
 
-SampleMeans check_lobe_samples(const LobeSubject& subject, const LobeCase& one, const HemisphereTree& tree) {
+SampleMeans check_lobe_samples(const LobeSubject& subject, const LobeCase& one, const DirectionTree& tree) {
   auto samples = subject.device.sample(one.material, one.fixed, subject.samples, one.seed, false);
   check_each(subject, one.where, samples);
   check_against_evaluate(subject, one, samples);
   check_directions(subject, one, tree, samples);
-  const SampleMeans means = means_of(samples);
+  const SampleMeans means = means_of(subject, samples);
   check_roulette(subject, one, means);
   return means;
 }
@@ -158,7 +155,10 @@ void check_lobe_extremes(const LobeSubject& subject, int material, const std::st
   const std::vector<Direction> directions = extreme_directions();
   std::vector<Direction> above;
   for (const Direction& fixed : directions)
-    if (fixed.z > 0) above.push_back(fixed); // as the interface requires
+    if (fixed.z > 0) { // as the interface requires
+      above.push_back(fixed);
+      if (subject.model.transmits) above.push_back(fixed * Direction(1, 1, -1));
+    }
   for (const Direction& fixed : above)
     for (const bool roulette : {false, true}) {
       auto samples = subject.device.drive(material, fixed, words, roulette);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "measure/device_model.h"
-#include "verify/lobe/hemisphere_tree.h"
+#include "verify/lobe/direction_tree.h"
 #include "verify/report.h"
 
 namespace phlux::verify {
@@ -33,6 +33,10 @@ struct LobeSubject {
   bool weighs_by_part; ///< weights may be of the sampled part only, and so correct only in the mean
   Report& report;
 
+  /// Whether a sample has a direction above the surface, or below one that transmits.
+  [[nodiscard]] bool counts(const Sample& s) const {
+    return s.direction.z > 0 || (model.transmits && s.direction.z < 0);
+  }
   void record(const char* check, double figure, double limit, const std::string& where) const {
     report.record(name, check, figure, limit, where);
   }
@@ -45,9 +49,10 @@ struct LobeCase {
   std::uint32_t seed = 0;
 };
 
-/// Integrates evaluate over the hemisphere. Checks all of its values: they are finite and not negative, f_r
-/// is reciprocal, and densities are the reverse densities with exchanged directions.
-[[nodiscard]] HemisphereTree integrate_lobe(const LobeSubject& subject, const LobeCase& one);
+/// Integrates evaluate over the hemisphere, or the sphere if the model transmits. Checks all of its values:
+/// they are finite and not negative, f_r is reciprocal, and densities are the reverse densities with
+/// exchanged directions.
+[[nodiscard]] DirectionTree integrate_lobe(const LobeSubject& subject, const LobeCase& one);
 /// Densities below the surface are finite, as weights need them even where f_r is 0.
 void check_below(const LobeSubject& subject, const LobeCase& one);
 /// f_r and densities do not depend on the longitude, unless the model declares that it needs tangents.
@@ -58,16 +63,16 @@ struct SampleMeans {
   Rgb reflected{0}, reflected_error{0}; ///< weight, without delta events
   Rgb delta{0}, delta_error{0};         ///< weight of delta events
   Rgb all{0}, all_error{0};             ///< weight of both
-  double aside = 0, aside_error = 0;    ///< share of samples that are delta events or below the surface
+  double aside = 0, aside_error = 0;    ///< share of samples that are delta events or do not count
   bool trusted = false;                 ///< enough effective samples for normal means
 };
 /// Samples against evaluate: densities, weights, directions. Values are finite, directions of unit length,
 /// delta events declared.
 [[nodiscard]] SampleMeans check_lobe_samples(const LobeSubject& subject, const LobeCase& one,
-                                             const HemisphereTree& tree);
+                                             const DirectionTree& tree);
 
 /// The integral of evaluate, the mean of sample's weights and reflectivity against one another; energy.
-void check_integrals(const LobeSubject& subject, const LobeCase& one, const HemisphereTree& tree,
+void check_integrals(const LobeSubject& subject, const LobeCase& one, const DirectionTree& tree,
                      const SampleMeans& means);
 
 /// Density against finite differences, if directions are a smooth one-to-one map of two random numbers.

@@ -8,7 +8,7 @@ namespace phlux::verify {
 namespace {
 
 void check_case(const LobeSubject& subject, const LobeCase& one) {
-  const HemisphereTree tree = integrate_lobe(subject, one);
+  const DirectionTree tree = integrate_lobe(subject, one);
   const SampleMeans means = check_lobe_samples(subject, one, tree);
   check_integrals(subject, one, tree, means);
   check_map(subject, one);
@@ -27,7 +27,7 @@ void check_lobe(const device::Device& device, const Settings& settings, const Lo
   std::uint32_t seed = 1;
   for (std::size_t m = 0; m < named.size(); ++m) {
     const auto material = static_cast<int>(m);
-    for (const FixedDirection& fixed : fixed_directions(settings.quick)) {
+    for (const FixedDirection& fixed : fixed_directions(settings.quick, lobe.model->transmits)) {
       check_case(subject, {material, fixed.direction,
                            fmt::format("{}, fixed at {}", named[m].name, fixed.name), seed});
       seed += 3; // for samples, pilot samples, and samples with roulette

@@ -1,5 +1,5 @@
-// Adaptive quadrature over the hemisphere: cells are split where a function varies fast, and integrated by
-// the Gauss-Legendre rule.
+// Adaptive quadrature over the hemisphere, or the sphere: cells are split where a function varies fast, and
+// integrated by the Gauss-Legendre rule.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace phlux::verify {
 
-/// Values or integrals of a density, and of f_r cos per channel.
+/// Values or integrals of a density, and of f_r |cos| per channel.
 struct Integrals {
   double density = 0;
   Rgb reflected{0};
@@ -19,15 +19,15 @@ struct Integrals {
   Integrals& operator+=(const Integrals& other);
 };
 
-class HemisphereTree {
+class DirectionTree {
 public:
   /// Values at a batch of directions.
   using Function = std::function<std::vector<Integrals>(const std::vector<Direction>&)>;
 
-  HemisphereTree();
+  explicit DirectionTree(bool below); ///< `below`: directions below the surface too
   /// Splits the cells about a direction until their sides are about 2^-`levels`.
   void split_about(const Direction& direction, int levels);
-  /// Splits cells until none has more than one in 64 of these directions.
+  /// Splits cells until none has more than one in 512 of these directions.
   void split_by(const std::vector<Direction>& directions);
   /// Splits cells until a finer rule changes none of their integrals by more than 1e-5.
   void integrate(const Function& function);
@@ -42,11 +42,12 @@ public:
     std::vector<double> expected;     ///< counts
   };
   [[nodiscard]] Cells cells(double samples) const;
-  /// The leaf of a direction above the surface.
+  /// The leaf of a direction, above the surface unless the tree has directions below it.
   [[nodiscard]] std::size_t leaf_of(const Direction& direction) const;
 
 private:
-  // A rectangle on a face of the cube about the sphere: 0 is z = 1, 1 to 4 are x = 1, x = -1, y = 1, y = -1.
+  // A rectangle on a face of the cube about the sphere: 0 is z = 1, 1 to 4 are x = 1, x = -1, y = 1, y = -1,
+  // and 5 to 9 are their mirror images in z.
   struct Node {
     int face;
     double a0, a1, b0, b1;
@@ -60,6 +61,8 @@ private:
   [[nodiscard]] double refine(std::size_t node);
   void number_cells(std::size_t node, std::size_t cell, double samples, Cells& cells) const;
 
+  std::size_t roots_;
+  bool below_;
   std::vector<Node> nodes_;
   double error_ = 0;
 };

@@ -1,4 +1,4 @@
-#include "verify/lobe/hemisphere_tree.h"
+#include "verify/lobe/direction_tree.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,18 +12,24 @@ namespace {
 
 constexpr int top_side = 4;                    // cells along the edge of the face z = 1
 constexpr int side_columns = 4, side_rows = 2; // of the upper half of another face
-constexpr std::size_t roots = top_side * top_side + 4 * side_columns * side_rows;
-constexpr int deepest = 14;
+constexpr std::size_t roots_above = top_side * top_side + 4 * side_columns * side_rows;
+constexpr int faces_above = 5;
+constexpr int deepest = 18;
 constexpr std::size_t most_nodes = 40000;
 constexpr double largest_change = 1e-5;
 constexpr std::size_t points = 4; // of the quadrature rule, per dimension
 
 struct OnFace {
-  int face;
+  int face; // from faces_above on: its mirror image below the surface
   double a, b;
 };
 
 OnFace on_face(const Direction& d) {
+  if (d.z < 0) {
+    OnFace image = on_face(Direction(d.x, d.y, -d.z));
+    image.face += faces_above;
+    return image;
+  }
   const double x = std::abs(d.x), y = std::abs(d.y);
   if (d.z >= std::max(x, y)) return {0, d.x / d.z, d.y / d.z};
   if (x >= y) return {d.x > 0 ? 1 : 2, d.y / x, d.z / x};
@@ -31,6 +37,7 @@ OnFace on_face(const Direction& d) {
 }
 
 Direction direction_of(const OnFace& p) {
+  if (p.face >= faces_above) return direction_of({p.face - faces_above, p.a, p.b}) * Direction(1, 1, -1);
   switch (p.face) {
   case 0:
     return glm::normalize(Direction(p.a, p.b, 1));
@@ -55,6 +62,7 @@ std::size_t step_of(double x, double from, double width, int count) {
 }
 
 std::size_t root_of(const OnFace& p) {
+  if (p.face >= faces_above) return roots_above + root_of({p.face - faces_above, p.a, p.b});
   if (p.face == 0) return step_of(p.b, -1, 2, top_side) * top_side + step_of(p.a, -1, 2, top_side);
   const std::size_t first =
       top_side * top_side + static_cast<std::size_t>(p.face - 1) * side_columns * side_rows;
@@ -74,7 +82,7 @@ Integrals& Integrals::operator+=(const Integrals& other) {
   return *this;
 }
 
-HemisphereTree::HemisphereTree() {
+DirectionTree::DirectionTree(bool below) : roots_(below ? 2 * roots_above : roots_above), below_(below) {
   const auto add = [&](int face, int columns, int rows, double b_from) {
     for (int row = 0; row < rows; ++row)
       for (int column = 0; column < columns; ++column) {
@@ -83,11 +91,13 @@ HemisphereTree::HemisphereTree() {
                           b_from + b * (row + 1), 1, 0, Integrals()});
       }
   };
-  add(0, top_side, top_side, -1);
-  for (int face = 1; face <= 4; ++face) add(face, side_columns, side_rows, 0);
+  for (int first = 0; first <= (below ? faces_above : 0); first += faces_above) {
+    add(first, top_side, top_side, -1);
+    for (int face = first + 1; face < first + faces_above; ++face) add(face, side_columns, side_rows, 0);
+  }
 }
 
-void HemisphereTree::split(std::size_t node) {
+void DirectionTree::split(std::size_t node) {
   const Node parent = nodes_[node];
   nodes_[node].first_child = nodes_.size();
   const double a = (parent.a0 + parent.a1) / 2, b = (parent.b0 + parent.b1) / 2;
@@ -101,7 +111,7 @@ void HemisphereTree::split(std::size_t node) {
   }
 }
 
-std::size_t HemisphereTree::leaf_of(const Direction& direction) const {
+std::size_t DirectionTree::leaf_of(const Direction& direction) const {
   const OnFace p = on_face(direction);
   std::size_t node = root_of(p);
   while (nodes_[node].first_child != 0) {
@@ -112,14 +122,14 @@ std::size_t HemisphereTree::leaf_of(const Direction& direction) const {
   return node;
 }
 
-void HemisphereTree::split_about(const Direction& direction, int levels) {
-  if (direction.z < 0) return;
+void DirectionTree::split_about(const Direction& direction, int levels) {
+  if (direction.z < 0 && !below_) return;
   for (std::size_t leaf = leaf_of(direction); nodes_[leaf].level < levels; leaf = leaf_of(direction))
     split(leaf);
 }
 
-void HemisphereTree::split_by(const std::vector<Direction>& directions) {
-  const std::size_t most = std::max<std::size_t>(directions.size() / 64, 4);
+void DirectionTree::split_by(const std::vector<Direction>& directions) {
+  const std::size_t most = std::max<std::size_t>(directions.size() / 512, 4);
   for (bool changed = true; changed;) {
     std::vector<std::size_t> counts(nodes_.size());
     for (const Direction& d : directions) ++counts[leaf_of(d)];
@@ -132,14 +142,14 @@ void HemisphereTree::split_by(const std::vector<Direction>& directions) {
   }
 }
 
-std::vector<std::size_t> HemisphereTree::leaves() const {
+std::vector<std::size_t> DirectionTree::leaves() const {
   std::vector<std::size_t> list;
   for (std::size_t i = 0; i < nodes_.size(); ++i)
     if (nodes_[i].first_child == 0) list.push_back(i);
   return list;
 }
 
-void HemisphereTree::evaluate(const std::vector<std::size_t>& nodes, const Function& function) {
+void DirectionTree::evaluate(const std::vector<std::size_t>& nodes, const Function& function) {
   std::vector<Direction> directions;
   std::vector<double> weights;
   for (const std::size_t node : nodes) {
@@ -159,7 +169,7 @@ void HemisphereTree::evaluate(const std::vector<std::size_t>& nodes, const Funct
 }
 
 // Replaces the integrals of a node by the sums over its children; returns the change.
-double HemisphereTree::refine(std::size_t node) {
+double DirectionTree::refine(std::size_t node) {
   Integrals sum;
   for (std::size_t child = 0; child < 4; ++child) sum += nodes_[nodes_[node].first_child + child].integrals;
   const double change = difference(sum, nodes_[node].integrals);
@@ -167,7 +177,7 @@ double HemisphereTree::refine(std::size_t node) {
   return change;
 }
 
-void HemisphereTree::integrate(const Function& function) {
+void DirectionTree::integrate(const Function& function) {
   std::vector<std::size_t> pending = leaves();
   evaluate(pending, function);
   double squares = 0;
@@ -195,14 +205,14 @@ void HemisphereTree::integrate(const Function& function) {
     if (nodes_[i].first_child != 0) static_cast<void>(refine(i));
 }
 
-Integrals HemisphereTree::total() const {
+Integrals DirectionTree::total() const {
   Integrals sum;
-  for (std::size_t i = 0; i < roots; ++i) sum += nodes_[i].integrals;
+  for (std::size_t i = 0; i < roots_; ++i) sum += nodes_[i].integrals;
   return sum;
 }
 
 // Children with enough expected samples become one or more cells; the others of a node share one.
-void HemisphereTree::number_cells(std::size_t node, std::size_t cell, double samples, Cells& cells) const {
+void DirectionTree::number_cells(std::size_t node, std::size_t cell, double samples, Cells& cells) const {
   constexpr double enough = 25;
   const Node& n = nodes_[node];
   if (n.first_child == 0) {
@@ -217,9 +227,9 @@ void HemisphereTree::number_cells(std::size_t node, std::size_t cell, double sam
   }
 }
 
-HemisphereTree::Cells HemisphereTree::cells(double samples) const {
+DirectionTree::Cells DirectionTree::cells(double samples) const {
   Cells cells{std::vector<std::size_t>(nodes_.size()), {}};
-  for (std::size_t i = 0; i < roots; ++i) {
+  for (std::size_t i = 0; i < roots_; ++i) {
     cells.expected.push_back(0);
     number_cells(i, cells.expected.size() - 1, samples, cells);
   }

@@ -1,0 +1,174 @@
+// Surfaces of microfacets (Torrance and Sparrow 1967; Walter et al. 2007): distributions of their normals h and Smith's
+// masking, for roughness alpha alike in all directions.
+//
+// Of what a surface shows to a direction v, facets with normals about h have the part D(h) (v.h)+ / sigma(v), the density of
+// visible normals (Heitz 2014), where sigma(v) = cos / G1(v) is the area of what is seen per area of the surface. Written
+// with sigma, nothing is divided by a cosine. Slopes are taken from x and y of h: 1 - cos^2 would lose every digit of a
+// slope of 1e-3.
+#ifndef PHLUX_MICROFACETS_H
+#define PHLUX_MICROFACETS_H
+
+#include "math/directions.h"
+#include "math/random.h"
+#include "phong/reflectivity.h"
+
+// How a model's NUMBER `distribution` names the distributions.
+#define FACETS_BECKMANN 0
+#define FACETS_GGX 1
+#define FACETS_PHONG 2
+
+typedef struct {
+  Real alpha;
+  Mask ggx, phong; // neither: Beckmann's
+} Facets;
+
+static inline Facets facets_of(Real alpha, Real distribution) {
+  Facets f;
+  f.alpha = alpha;
+  f.ggx = distribution == (Real)(FACETS_GGX);
+  f.phong = distribution == (Real)(FACETS_PHONG);
+  return f;
+}
+
+// The exponent of Phong's distribution that resembles Beckmann's with this alpha (Walter et al. 2007, equation 40).
+static inline Real facet_exponent(Real alpha) { return 2.0f / (alpha * alpha) - 2.0f; }
+
+// D(h), per solid angle, for h.z > 0: the integral of D(h) h.z is 1.
+static inline Real facet_density(Facets f, Vec3 h) {
+  const Real sine2 = fma(h.x, h.x, h.y * h.y), cosine2 = larger(1.0f - sine2, (Real)(1e-9f));
+  const Real alpha2 = f.alpha * f.alpha, ellipsoid = fma(alpha2, cosine2, sine2);
+  const Real ggx = alpha2 * INV_PI / (ellipsoid * ellipsoid);
+  if (all_lanes(f.ggx)) return ggx;
+  const Real beckmann = INV_PI * exp(-sine2 / (alpha2 * cosine2)) / (alpha2 * cosine2 * cosine2);
+  const Real exponent = facet_exponent(f.alpha);
+  const Real phong = (exponent + 2.0f) * (0.5f * INV_PI) * exp(0.5f * exponent * log1p(-smaller(sine2, (Real)(ONE_MINUS_EPSILON))));
+  return f.ggx ? ggx : f.phong ? phong : beckmann;
+}
+
+// sigma(v): GGX by Heitz 2014, equation 72; Beckmann by his equation 65. For Phong it is the reflectivity of the modified
+// Phong lobe, an integral of the same form. (Walter et al. 2007 take Beckmann's masking for it, approximately, and with
+// alpha = 1 reflect a third more than arrives.)
+static inline Real shown_area(Facets f, Vec3 v) {
+  const Real cosine = fabs(v.z), sine = sqrt(fma(v.x, v.x, v.y * v.y));
+  const Real spread = f.alpha * sine;
+  const Real ggx = 0.5f * (cosine + sqrt(fma(cosine, cosine, spread * spread)));
+  if (all_lanes(f.ggx)) return ggx;
+  const Real a = cosine / larger(spread, (Real)(1e-20f));
+  const Real tail = spread * (0.28209479f * exp(-a * a)) - 0.5f * cosine * erfc(a); // cos Lambda; 1 / (2 sqrt(pi))
+  const Real beckmann = cosine + larger(tail, (Real)(0.0f));
+  const Real phong = phong_reflectivity_of(facet_exponent(f.alpha), smaller(cosine, (Real)(ONE_MINUS_EPSILON)));
+  return f.ggx ? ggx : f.phong ? phong : beckmann;
+}
+
+// The density with which sample_facet gives h for `fixed`, per solid angle about h: of visible normals; of all normals for
+// Phong. `density` is D(h), `shown` sigma(fixed).
+static inline Real facet_sample_density(Facets f, Real density, Real shown, Vec3 h, Real fixed_h) {
+  return density * (f.phong ? larger(h.z, (Real)(0.0f)) : fixed_h / shown);
+}
+
+// A visible normal of GGX (Heitz 2018): of the hemisphere that remains after the surface is stretched by 1 / alpha.
+static inline Vec3 sample_ggx_facet(Real alpha, Vec3 fixed, Real u1, Real u2) {
+  const Vec3 v = vec_normalize(vec3(alpha * fixed.x, alpha * fixed.y, fixed.z));
+  const Real length2 = fma(v.x, v.x, v.y * v.y);
+  const Mask tilted = length2 > 0.0f;
+  const Real inverse = 1.0f / sqrt(tilted ? length2 : (Real)(1.0f));
+  const Vec3 t1 = vec3(tilted ? -v.y * inverse : (Real)(1.0f), tilted ? v.x * inverse : (Real)(0.0f), (Real)(0.0f));
+  const Vec3 t2 = vec_cross(v, t1);
+  Real cos_phi, sin_phi;
+  cos_sin_turns(u2, &cos_phi, &sin_phi);
+  const Real r = sqrt(u1), s = 0.5f * (1.0f + v.z), p1 = r * cos_phi;
+  const Real p2 = fma(s, r * sin_phi, (1.0f - s) * sqrt(larger(fma(-p1, p1, (Real)(1.0f)), (Real)(0.0f))));
+  const Real p3 = sqrt(larger(fma(-p2, p2, fma(-p1, p1, (Real)(1.0f))), (Real)(0.0f)));
+  const Vec3 n = vec_along(vec_along(vec_scale(p3, v), p1, t1), p2, t2);
+  return vec_normalize(vec3(alpha * n.x, alpha * n.y, larger(n.z, (Real)(1e-7f))));
+}
+
+// The inverse of the error function, to 3e-7 of its value (Giles 2012).
+static inline Real inverse_erf(Real x) {
+  const Real w = -log((1.0f - x) * (1.0f + x));
+  const Real a = w - 2.5f, b = sqrt(w) - 3.0f;
+  Real p = (Real)(2.81022636e-08f), q = (Real)(-2.00214257e-04f);
+  p = fma(p, a, (Real)(3.43273939e-07f));
+  p = fma(p, a, (Real)(-3.5233877e-06f));
+  p = fma(p, a, (Real)(-4.39150654e-06f));
+  p = fma(p, a, (Real)(2.1858087e-04f));
+  p = fma(p, a, (Real)(-1.25372503e-03f));
+  p = fma(p, a, (Real)(-4.17768164e-03f));
+  p = fma(p, a, (Real)(2.46640727e-01f));
+  p = fma(p, a, (Real)(1.50140941f));
+  q = fma(q, b, (Real)(1.00950558e-04f));
+  q = fma(q, b, (Real)(1.34934322e-03f));
+  q = fma(q, b, (Real)(-3.67342844e-03f));
+  q = fma(q, b, (Real)(5.73950773e-03f));
+  q = fma(q, b, (Real)(-7.6224613e-03f));
+  q = fma(q, b, (Real)(9.43887047e-03f));
+  q = fma(q, b, (Real)(1.00167406f));
+  q = fma(q, b, (Real)(2.83297682f));
+  return (w < 5.0f ? p : q) * x;
+}
+
+// A visible normal of Beckmann's distribution (Heitz and d'Eon 2014): of the surface stretched to alpha = 1, whose slopes
+// are normally distributed. Across `fixed` the slope is independent of it; along `fixed`, of density
+// (cos - x sin)+ exp(-x^2), its distribution is inverted by Newton's method within a bracket.
+static inline Vec3 sample_beckmann_facet(Real alpha, Vec3 fixed, Real u1, Real u2) {
+  const Vec3 v = vec_normalize(vec3(alpha * fixed.x, alpha * fixed.y, fixed.z));
+  const Real sine = sqrt(fma(v.x, v.x, v.y * v.y));
+  const Real tail = 0.28209479f * sine, half_cosine = 0.5f * v.z; // 1 / (2 sqrt(pi))
+  Real low = (Real)(-5.0f), high = sine * 5.0f > v.z ? v.z / sine : (Real)(5.0f);
+  const Real wanted = u1 * fma(half_cosine, erfc(-high), tail * exp(-high * high));
+  Real x = smaller((Real)(0.0f), 0.5f * (low + high));
+  for (int i = 0; i < 12; ++i) {
+    const Real gauss = exp(-x * x);
+    const Real excess = fma(half_cosine, erfc(-x), tail * gauss) - wanted;
+    const Mask above = excess > 0.0f;
+    high = above ? x : high;
+    low = above ? low : x;
+    const Real next = x - excess / ((v.z - x * sine) * (gauss * 0.56418958f)); // 1 / sqrt(pi)
+    x = ((next >= low) & (next <= high)) ? next : 0.5f * (low + high);
+  }
+  const Real y = inverse_erf(2.0f * u2 - 1.0f);
+  const Mask tilted = sine > 0.0f;
+  const Real p = tilted ? v.x / sine : (Real)(1.0f), q = tilted ? v.y / sine : (Real)(0.0f);
+  return vec_normalize(vec3(-alpha * fma(p, x, -q * y), -alpha * fma(q, x, p * y), (Real)(1.0f)));
+}
+
+// A normal for `fixed`, of facet_sample_density.
+static inline Vec3 sample_facet(Facets f, Vec3 fixed, Real u1, Real u2) {
+  if (all_lanes(f.ggx)) return sample_ggx_facet(f.alpha, fixed, u1, u2);
+  if (all_lanes(f.phong)) return cosine_power_direction(facet_exponent(f.alpha) + 1.0f, u1, u2);
+  const Vec3 visible =
+      vec_select(f.ggx, sample_ggx_facet(f.alpha, fixed, u1, u2), sample_beckmann_facet(f.alpha, fixed, u1, u2));
+  return vec_select(f.phong, cosine_power_direction(facet_exponent(f.alpha) + 1.0f, u1, u2), visible);
+}
+
+// ---- Reflection
+
+// The mirror image of `fixed` about h; z = -1 where `fixed` cannot see the facet.
+static inline Vec3 reflected_by_facet(Vec3 fixed, Vec3 h) {
+  const Real cosine = vec_dot(fixed, h);
+  const Vec3 d = vec_along(vec_scale((Real)(-1.0f), fixed), 2.0f * cosine, h);
+  return vec3(d.x, d.y, cosine > 0.0f ? d.z : (Real)(-1.0f));
+}
+
+typedef struct {
+  Real cosine;           // fixed.h
+  Real value;            // D(h) / (4 sigma(fixed) sigma(generated)), 1 / sr
+  Real density, reverse; // of LobeValue, if all facets reflect
+} FacetReflection;
+
+static inline FacetReflection facet_reflection(Facets f, Vec3 fixed, Vec3 generated) {
+  const Vec3 sum = vec_add(fixed, generated);
+  const Real length2 = vec_dot(sum, sum), length = sqrt(larger(length2, (Real)(1e-30f)));
+  const Vec3 h = vec_scale(1.0f / length, sum);
+  const Real density = facet_density(f, h);
+  const Real by_fixed = shown_area(f, fixed), by_generated = shown_area(f, generated);
+  FacetReflection r;
+  r.cosine = 0.5f * length; // fixed.h = generated.h, without favouring either
+  const Real jacobian = 0.25f / r.cosine; // dh / d(generated)
+  r.value = 0.25f * density / (by_fixed * by_generated);
+  r.density = jacobian * facet_sample_density(f, density, by_fixed, h, r.cosine);
+  r.reverse = jacobian * facet_sample_density(f, density, by_generated, h, r.cosine);
+  return r;
+}
+
+#endif
