@@ -36,14 +36,15 @@ __kernel void reflect(SCENE_PARAMETERS, __global const Int* number, __global con
                       __global const Vec3* fixed, __global const Vec3* generated, __global Reflection* reflection) {
   SCENE_FROM_PARAMETERS
   const size_t i = get_global_id(0);
-  const Material material = material_at(&scene, number[i], at[i]);
+  const Material material = material_at(&scene, number[i], at[i], ALL_LANES);
   const LobeValue v = material_evaluate(material, fixed[i], generated[i]);
   RandomSequence sequence;
   sequence.pixel = (Uint)((uint)i);
   sequence.sample = (Uint)(0u);
   sequence.seed = (uint2)(1u, 2u);
   const MaterialSample s =
-      material_sample(material, fixed[i], random_draws(sequence, (Uint)(0)), ALL_LANES, ALL_LANES);
+      material_sample(material, fixed[i], random_draws(sequence, (Uint)(0)), vec_all((Real)(1.0f)), ALL_LANES,
+                      ALL_LANES);
   Reflection r;
   r.value = v.value;
   r.density = v.density;
