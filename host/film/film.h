@@ -34,6 +34,20 @@ struct Pixel {
   }
 };
 
+/// Sums over the blocks of a pixel, where samples of a block are not independent.
+struct BlockMoments {
+  std::array<double, 3> squares{};  ///< of the sums of blocks
+  std::array<double, 3> weighted{}; ///< sums of blocks x their numbers of samples
+  double squared_samples = 0.0;     ///< of the numbers of samples
+
+  void add(const BlockSum& block, std::uint32_t samples);
+
+  template<class Archive>
+  void serialize(Archive& archive) {
+    archive(squares, weighted, squared_samples);
+  }
+};
+
 /// Sums over the splats onto a pixel by paths of other pixels; each square is of the sum of one path's
 /// splats. Aligned to a cache line, as splats have no locality.
 struct alignas(64) Splats {
@@ -99,6 +113,10 @@ public:
   void add_splatting_paths(std::uint64_t paths);
   [[nodiscard]] bool splats() const { return !splats_.empty(); }
 
+  /// Samples of a block are not independent of each other, but blocks are: variances are estimated from the
+  /// sums of blocks. To be called before the first add().
+  void use_dependent_samples() { blocks_of_pixels_.resize(pixels_.size()); }
+
   /// Also records the contributions of each technique from here on.
   void use_techniques() {
     if (!techniques_) techniques_.emplace(pixels_.size());
@@ -142,7 +160,8 @@ public:
   template<class Archive>
   void serialize(Archive& archive) {
     archive(width_, height_, unit_, pixels_, splats_, splatting_paths_, own_samples_, blocks_,
-            squared_block_samples_, evidence_, clamp_, clamped_, clamped_of_splats_, techniques_);
+            squared_block_samples_, evidence_, clamp_, clamped_, clamped_of_splats_, techniques_,
+            blocks_of_pixels_);
   }
 
 private:
@@ -150,6 +169,10 @@ private:
   void count_splat(std::size_t pixel, double square, double sum);
   [[nodiscard]] double splatting_paths_per_pixel() const;
   [[nodiscard]] double equal_blocks_per_pixel() const;
+  // Of independent values, sum over them of (value - number of samples x mean of the pixel)^2.
+  [[nodiscard]] double squared_deviations(std::size_t pixel, std::size_t channel) const;
+  [[nodiscard]] double variance_of_own(std::size_t pixel, std::size_t channel) const;
+  [[nodiscard]] bool has_variance(std::size_t pixel) const;
   [[nodiscard]] double variance_of_squares(const Pixel& own, double squares, double mean) const;
   [[nodiscard]] double mean_in_units(std::size_t pixel, std::size_t channel) const;
   [[nodiscard]] double variance_in_units(std::size_t pixel, std::size_t channel) const;
@@ -159,7 +182,8 @@ private:
   int width_, height_;
   double unit_ = 1.0;
   std::vector<Pixel> pixels_;
-  std::vector<Splats> splats_; ///< empty where nothing splats
+  std::vector<Splats> splats_;                 ///< empty where nothing splats
+  std::vector<BlockMoments> blocks_of_pixels_; ///< empty where samples are independent
   std::uint64_t splatting_paths_ = 0, own_samples_ = 0, blocks_ = 0;
   double squared_block_samples_ = 0.0; ///< sum over blocks of samples^2
   Evidence evidence_;

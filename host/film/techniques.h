@@ -28,10 +28,11 @@ public:
   /// Sums over all paths, row by row from the top.
   struct Sums {
     std::vector<std::array<double, 3>> weighted, unweighted;
+    std::uint64_t contributions = 0; ///< occluded ones included: the shadow rays, where s > 0
 
     template<class Archive>
     void serialize(Archive& archive) {
-      archive(weighted, unweighted);
+      archive(weighted, unweighted, contributions);
     }
   };
 

@@ -66,7 +66,7 @@ DispatchLoop::DispatchLoop(const Settings& settings, film::Film& film, const Eve
       seconds_before_(from.seconds_render), open_ended_(settings.time_limit || settings.target_error),
       schedule_(static_cast<std::int64_t>(film.pixels().size()),
                 open_ended_ ? std::nullopt : std::optional<std::int64_t>(settings.samples_per_pixel),
-                from.position),
+                from.position, samples_point_sets(settings) ? Blocks::of_point_sets : Blocks::of_independent),
       counts_(from), started_paths_(from.paths) {
   if (settings.target_error) target_.emplace(*settings.target_error, film.pixels().size());
   ended_ = from.paths > 0 && precise_enough();

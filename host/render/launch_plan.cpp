@@ -29,7 +29,8 @@ int least_lane_jobs(int lanes, int block_samples) {
 
 int vertex_words(const Parts& parts) {
   return VERTEX_WORDS_PLAIN + (parts.smooth_normals ? VERTEX_WORDS_OF_NORMAL : 0) +
-         (parts.has_tangents() ? VERTEX_WORDS_OF_TANGENT : 0);
+         (parts.has_tangents() ? VERTEX_WORDS_OF_TANGENT : 0) +
+         (parts.has_textures() ? VERTEX_WORDS_OF_UV : 0);
 }
 
 // Size of Scalar (kernels/lanes/lanes.h), the type of vertices in scratch memory.

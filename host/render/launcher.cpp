@@ -44,7 +44,7 @@ Launcher::Launcher(const device::Device& device, const device::BuiltProgram& pro
   kernel_.set("pixel_count", static_cast<cl_int>(pixels_));
   kernel_.set("max_edges", bounded(settings.max_depth));
   kernel_.set("roulette_edges", bounded(settings.rr_depth));
-  kernel_.set("sky_light", static_cast<cl_int>(std::max(scene.lights.constant, 0)));
+  kernel_.set("sky_light", static_cast<cl_int>(std::max(scene.lights.sky, 0)));
   kernel_.set("ambient", static_cast<cl_float>(settings.ambient.value_or(0.0) / scene.lights.unit));
   begin(settings);
 }
@@ -52,6 +52,7 @@ Launcher::Launcher(const device::Device& device, const device::BuiltProgram& pro
 void Launcher::begin(const Settings& settings) {
   kernel_.set("seed",
               cl_uint2{{static_cast<cl_uint>(settings.seed), static_cast<cl_uint>(settings.seed >> 32)}});
+  first_sample_ = settings.first_sample;
   // Two launches are in flight when the time is over.
   planner_.set_launch_seconds(std::min(settings.launch_seconds, settings.time_limit.value_or(INFINITY) / 40));
 }
@@ -134,6 +135,9 @@ void Launcher::start(Flight& flight) {
   kernel_.set("job_count", static_cast<cl_int>(launch.jobs));
   kernel_.set("first_sample", static_cast<cl_int>(launch.first_sample));
   kernel_.set("block_samples", static_cast<cl_int>(launch.block_samples));
+  kernel_.set("point_sets",
+              cl_uint2{{static_cast<cl_uint>(first_sample_),
+                        static_cast<cl_uint>(point_bits(launch.first_sample - first_sample_))}});
   kernel_.set("batch_jobs", static_cast<cl_int>(plan.batch_jobs));
   kernel_.set("record_words", static_cast<cl_int>(record_words(parts_)));
   kernel_.set("record_capacity", static_cast<cl_int>(plan.record_capacity));

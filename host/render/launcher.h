@@ -94,6 +94,7 @@ private:
   device::Kernel kernel_;
   Planner planner_;
   std::int64_t pixels_;
+  std::int64_t first_sample_ = 0; // of the render
   std::deque<Flight> flights_;
   std::vector<Buffers> spare_;
   film::SplatFolder folder_;

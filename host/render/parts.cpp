@@ -27,21 +27,30 @@ constexpr NamedPart named_parts[] = {
     {&Parts::ellipses, "ellipses", "HAS_ELLIPSES"},
     {&Parts::spheres, "spheres", "HAS_SPHERES"},
     {&Parts::smooth_normals, "smooth_normals", "HAS_SMOOTH_NORMALS"},
+    {&Parts::strict_normals, "strict_normals", "HAS_STRICT_NORMALS"},
     {&Parts::two_sided, "two_sided", "HAS_TWO_SIDED"},
     {&Parts::black, "black", "HAS_BLACK"},
+    {&Parts::checkerboards, "checkerboards", "HAS_CHECKERBOARDS"},
+    {&Parts::byte_textures, "byte_textures", "HAS_BYTE_TEXTURES"},
+    {&Parts::float_textures, "float_textures", "HAS_FLOAT_TEXTURES"},
     {&Parts::light_planar, "light_planar", "HAS_PLANAR_LIGHTS"},
     {&Parts::light_sphere, "light_sphere", "HAS_SPHERE_LIGHTS"},
     {&Parts::light_point, "light_point", "HAS_POINT_LIGHTS"},
     {&Parts::light_spot, "light_spot", "HAS_SPOT_LIGHTS"},
     {&Parts::light_directional, "light_directional", "HAS_DIRECTIONAL_LIGHTS"},
     {&Parts::light_constant, "light_constant", "HAS_CONSTANT_LIGHT"},
+    {&Parts::environment_map, "environment_map", "HAS_ENVIRONMENT_MAP"},
+    {&Parts::lens, "lens", "HAS_LENS"},
+    {&Parts::orthographic, "orthographic", "HAS_ORTHOGRAPHIC"},
+    {&Parts::tent_filter, "tent_filter", "HAS_TENT_FILTER"},
+    {&Parts::gaussian_filter, "gaussian_filter", "HAS_GAUSSIAN_FILTER"},
     {&Parts::light_choice, "light_choice", "HAS_LIGHT_CHOICE"},
     {&Parts::light_tree, "light_tree", "HAS_LIGHT_TREE"},
     {&Parts::ambient, "ambient", "HAS_AMBIENT"},
 };
 
 Connect possible_connect(const Settings& settings, const tables::LightTable& lights) {
-  const bool hittable = lights.has(LIGHT_PLANAR) || lights.has(LIGHT_SPHERE) || lights.has(LIGHT_CONSTANT);
+  const bool hittable = lights.has(LIGHT_PLANAR) || lights.has(LIGHT_SPHERE) || lights.has(LIGHT_SKY);
   if (settings.integrator == "path" && settings.connect == Connect::none && !lights.records.empty() &&
       !hittable)
     throw UsageError(
@@ -95,6 +104,7 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
   parts.integrator = settings::integrator_named(settings.integrator).integrator;
   parts.weights = settings.weights;
   parts.techniques = settings.techniques;
+  parts.roulette = settings.roulette;
   if (parts.techniques && parts.integrator == Integrator::path)
     throw UsageError("`contributions`: path tracing has only one technique: use `integrator` bidir or light");
   // Images of techniques need every connection.
@@ -102,6 +112,7 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
   if (settings.clamp) parts.clamp = *settings.clamp / lights.unit;
   if (parts.clamp && parts.techniques)
     throw UsageError("`clamp`: contributions of techniques are not clamped: leave out `contributions`");
+  if (samples_point_sets(settings)) parts.sampler = settings.sampler;
   parts.ambient = settings.ambient.has_value();
   if (parts.ambient && parts.integrator != Integrator::path)
     throw UsageError("`ambient`: only paths from the eye can carry the ambient term: use `integrator` path");
@@ -117,11 +128,18 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
   parts.ellipses = geometry.has_ellipses;
   parts.spheres = geometry.sphere_count > 0;
   parts.smooth_normals = !geometry.vertex_normals.empty();
+  parts.strict_normals = parts.smooth_normals && scene.strict_normals;
   const std::vector<scene::Material> materials = tables::used_materials(scene, geometry);
   parts.models = lobes::models_of(materials);
   for (const scene::Material& m : materials) {
     parts.two_sided |= m.two_sided;
     parts.black |= !lobes::reflects(m);
+    for (const scene::TexturePointer& texture : m.textures) {
+      if (!texture) continue;
+      parts.checkerboards |= !texture->image;
+      parts.byte_textures |= texture->image && !texture->image->bytes.empty();
+      parts.float_textures |= texture->image && texture->image->bytes.empty();
+    }
     if (settings.strategy == "rejection" && m.model == lobes::shipped("phong")) refuse_endless_rejection(m);
   }
   for (const auto& model : parts.models)
@@ -135,7 +153,12 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
   parts.light_point = lights.has(LIGHT_POINT);
   parts.light_spot = lights.has(LIGHT_SPOT);
   parts.light_directional = lights.has(LIGHT_DIRECTIONAL);
-  parts.light_constant = lights.has(LIGHT_CONSTANT);
+  parts.lens = scene.camera.aperture_radius > 0;
+  parts.orthographic = scene.camera.orthographic;
+  parts.tent_filter = scene.camera.filter.kind == scene::Filter::Kind::tent;
+  parts.gaussian_filter = scene.camera.filter.kind == scene::Filter::Kind::gaussian;
+  parts.environment_map = scene.environment.has_value();
+  parts.light_constant = lights.has(LIGHT_SKY) && !parts.environment_map;
   const bool chooses = parts.connect != Connect::none || parts.integrator == Integrator::light;
   parts.light_choice = lights.records.size() > 1 && chooses;
   parts.light_tree = wants_light_tree(settings) && parts.connect != Connect::none &&
@@ -196,6 +219,14 @@ std::map<std::string, std::string> Parts::defines() const {
   macros["WEIGHTS"] = weights == Weights::balance ? "WEIGHTS_BALANCE"
                       : weights == Weights::power ? "WEIGHTS_POWER"
                                                   : "WEIGHTS_UNIFORM";
+  macros["SAMPLER"] = sampler == Sampler::independent ? "SAMPLER_INDEPENDENT"
+                      : sampler == Sampler::sobol     ? "SAMPLER_SOBOL"
+                                                      : "SAMPLER_LATTICE";
+  macros["ROULETTE"] = roulette == Roulette::strategy       ? "ROULETTE_STRATEGY"
+                       : roulette == Roulette::reflectivity ? "ROULETTE_REFLECTIVITY"
+                       : roulette == Roulette::kd_ks        ? "ROULETTE_KD_KS"
+                       : roulette == Roulette::throughput   ? "ROULETTE_THROUGHPUT"
+                                                            : "ROULETTE_EFFICIENCY";
   macros["PHONG_TABLE_INTERVALS"] = std::to_string(phong::reflectivity_intervals);
   if (double_precision) macros["PHLUX_DOUBLE"] = "1";
   macros["WIDTH"] = std::to_string(lanes);

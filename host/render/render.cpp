@@ -66,19 +66,6 @@ void warn(const scene::Scene& scene, const Settings& settings, const Events& eve
         fmt::format("`connect` none: no path can hit a point, spot or directional light: {} of the "
                     "scene's lights are dark",
                     lost));
-  const auto anisotropic = [&](const auto& shape) {
-    const scene::Material& m = scene.materials[static_cast<std::size_t>(shape.surface.material)];
-    return m.model == lobes::shipped("anisotropicphong") && m.value("exponent_u") != m.value("exponent_v");
-  };
-  if (std::any_of(scene.meshes.begin(), scene.meshes.end(), anisotropic))
-    events.warning(
-        "anisotropicphong on a mesh: texture coordinates are not read, and exponentU is along each "
-        "triangle's first edge: use rectangle, cube or disk, whose axes toWorld turns, or equal "
-        "exponents");
-  if (std::any_of(scene.spheres.begin(), scene.spheres.end(), anisotropic))
-    events.warning(
-        "anisotropicphong on a sphere: toWorld does not turn it, and exponentU is along the circles "
-        "about the world's z axis: use equal exponents where that matters");
   const auto is_delta = [](const scene::Material& m) { return m.model->has_delta; };
   if (settings.integrator == "light" && std::any_of(scene.materials.begin(), scene.materials.end(), is_delta))
     events.warning(
@@ -239,6 +226,7 @@ Statistics Renderer::render(const Settings& settings, film::Film& film, const Ev
     set_unit(film, ready_->unit);
     if (settings.clamp) film.set_clamp(*settings.clamp);
     if (settings.techniques) film.use_techniques();
+    if (samples_point_sets(settings)) film.use_dependent_samples();
     std::vector<Launcher*> launchers;
     for (const Worker& worker : ready_->workers) launchers.push_back(worker.launcher.get());
     DispatchLoop loop(settings, film, events, from);

@@ -43,9 +43,11 @@ void check_size(const Location& file, std::uint64_t file_bytes, std::int64_t wid
 /// The file as stb_image reads it. It asks for bytes beyond the end of a file only if that is cut short.
 class Source {
 public:
-  explicit Source(const std::filesystem::path& file) : stream_(file, std::ios::binary) {
+  explicit Source(const std::filesystem::path& file) {
     std::error_code error;
-    size_ = std::filesystem::file_size(file, error); // fails unless it is a regular file
+    if (!std::filesystem::is_regular_file(file, error)) return; // opening a pipe may block
+    size_ = std::filesystem::file_size(file, error);
+    stream_.open(file, std::ios::binary);
     readable_ = stream_.good() && !error;
   }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace phlux::test {
 
@@ -53,5 +54,8 @@ inline std::string tga() {
 inline std::string hdr() {
   return "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n" + from_hex("08048084");
 }
+
+/// An OpenEXR file of channels that all have these values, `width` a row; each channel's name is one letter.
+std::string exr(const std::string& channels, const std::vector<float>& values, int width);
 
 } // namespace phlux::test

@@ -2,11 +2,6 @@
 
 #include <catch2/catch.hpp>
 
-#include <OpenEXR/ImfChannelList.h>
-#include <OpenEXR/ImfFrameBuffer.h>
-#include <OpenEXR/ImfHeader.h>
-#include <OpenEXR/ImfOutputFile.h>
-
 #include "errors.h"
 #include "scene_file/image_file.h"
 #include "scene_file/images.h"
@@ -37,25 +32,6 @@ std::string error_of_image(const std::string& bytes) {
     return without_folder(error.what(), folder);
   }
   return "";
-}
-
-// A file of channels that all have these values, width values a row; each channel name is one letter.
-std::string exr(const std::string& channels, const std::vector<float>& values, int width) {
-  const TemporaryFolder folder;
-  const int height = static_cast<int>(values.size()) / width;
-  Imf::Header header(width, height);
-  Imf::FrameBuffer frame;
-  std::vector<float> copy = values;
-  for (const char name : channels) {
-    header.channels().insert(std::string(1, name), Imf::Channel(Imf::FLOAT));
-    frame.insert(std::string(1, name), Imf::Slice::Make(Imf::FLOAT, copy.data(), header.dataWindow()));
-  }
-  {
-    Imf::OutputFile file((folder / "image.exr").string().c_str(), header);
-    file.setFrameBuffer(frame);
-    file.writePixels(height);
-  }
-  return TemporaryFolder::read(folder / "image.exr");
 }
 
 using Bytes = std::vector<std::uint8_t>;

@@ -19,25 +19,17 @@ Choices chosen(const std::map<std::string, std::string>& texts) {
 }
 
 // For each setting a valid value that is not the default, as text.
-const std::map<std::string, std::string> other_texts = {{"integrator", "bidir"},
-                                                        {"strategy", "cosine"},
-                                                        {"connect", "light"},
-                                                        {"weights", "power"},
-                                                        {"light-selection", "power"},
-                                                        {"connections", "0"},
-                                                        {"contributions", "DIR"},
-                                                        {"ambient", "0.1"},
-                                                        {"clamp", "1e-30"},
-                                                        {"max-depth", "12"},
-                                                        {"rr-depth", "-1"},
-                                                        {"spp", "2147483647"},
-                                                        {"time", "0.3"},
-                                                        {"error", "1e+20"},
-                                                        {"seed", "18446744073709551615"},
-                                                        {"first-sample", "7"},
-                                                        {"width", "16"},
-                                                        {"precision", "double"},
-                                                        {"traversal", "bvh"}};
+const std::map<std::string, std::string> other_texts = {
+    {"integrator", "bidir"},      {"strategy", "cosine"},
+    {"connect", "light"},         {"weights", "power"},
+    {"light-selection", "power"}, {"connections", "0"},
+    {"contributions", "DIR"},     {"ambient", "0.1"},
+    {"clamp", "1e-30"},           {"max-depth", "12"},
+    {"rr-depth", "-1"},           {"roulette", "kd-ks"},
+    {"spp", "2147483647"},        {"time", "0.3"},
+    {"error", "1e+20"},           {"seed", "18446744073709551615"},
+    {"first-sample", "7"},        {"width", "16"},
+    {"precision", "double"},      {"traversal", "bvh"}};
 
 } // namespace
 
@@ -113,6 +105,8 @@ TEST_CASE("A choice that is of no use to the integrator is refused, saying why")
              Contains("`light-selection` is for light samples"));
   CHECK(refusal({{"connect", "light"}, {"light-selection", "power"}}) == "nothing");
   CHECK_THAT(refusal({{"integrator", "bidir"}, {"ambient", "1"}}), Contains("`ambient`: only paths"));
+  CHECK_THAT(refusal({{"roulette", "kd-ks"}, {"rr-depth", "-1"}}),
+             Contains("`rr-depth` -1 there is no roulette"));
 }
 
 TEST_CASE("Earlier choices fill in what is absent; how much to render is one choice") {
