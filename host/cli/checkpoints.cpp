@@ -1,5 +1,8 @@
 #include "cli/checkpoints.h"
 
+#include <functional>
+#include <ostream>
+
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
@@ -23,6 +26,13 @@ auto with_remedy(const Function& function) {
   }
 }
 
+// Whether a copy would take more memory than an interruption of the render is worth.
+bool is_large(const film::Film& film) {
+  constexpr double most_copied = 1 << 28; // bytes
+  return film::Film::bytes(static_cast<double>(film.pixels().size()), 1, film.splats() ? 1 : 0,
+                           film.dependent_samples() ? 1 : 0, 0) > most_copied;
+}
+
 // A checkpoint from elsewhere must not run code on this machine.
 void require_own_strategy(const RenderOptions& options, const settings::Choices& earlier) {
   const auto then = earlier.texts.find("strategy");
@@ -34,10 +44,10 @@ void require_own_strategy(const RenderOptions& options, const settings::Choices&
       options.resume.string(), then->second, then->second));
 }
 
-void replace(const std::filesystem::path& file, const std::string& bytes) {
+void replace(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write) {
   if (!checkpoint::is_replaceable(file)) // any longer
     throw WriteError(fmt::format("{}: is no checkpoint, and is kept: name another file", file.string()));
-  files::write_file(file, bytes);
+  files::write_file(file, write);
 }
 
 // Rendering continues where memory, threads or disks do not suffice for a checkpoint.
@@ -96,18 +106,23 @@ void Checkpoints::update(const film::Film& film, const render::Progress& progres
   warn_if_it_fails(file_, [&] { wait(); });
   warn_if_it_fails(file_, [&] {
     session_.state = progress.state();
+    if (is_large(film)) return write(film);
     writing_ = std::async(std::launch::async, [file = file_, bytes = checkpoint::encode(session_, film)] {
-      replace(file, bytes);
+      replace(file, [&](std::ostream& to) { to << bytes; });
     });
   });
   next_ = Clock::now() + between_;
+}
+
+void Checkpoints::write(const film::Film& film) const {
+  replace(file_, [&](std::ostream& to) { checkpoint::write(session_, film, to); });
 }
 
 void Checkpoints::finish(const film::Film& film, const render::RenderState& state) {
   if (file_.empty()) return;
   warn_if_it_fails(file_, [&] { wait(); });
   session_.state = state;
-  replace(file_, checkpoint::encode(session_, film));
+  write(film);
 }
 
 } // namespace phlux::cli

@@ -28,15 +28,15 @@ public:
   Checkpoints(std::filesystem::path file, const RenderOptions& options, checkpoint::Session session);
 
   /// Writes a checkpoint when the interval has passed, in another thread; the render waits only for the copy
-  /// in memory. A failure is a warning, as the next may succeed.
+  /// in memory, or, if that would be large, for the file. A failure is a warning, as the next may succeed.
   void update(const film::Film& film, const render::Progress& progress);
   /// Writes the last checkpoint. @throws WriteError
   void finish(const film::Film& film, const render::RenderState& state);
 
 private:
   using Clock = std::chrono::steady_clock;
-  void start(const film::Film& film, const render::RenderState& state);
   void wait();
+  void write(const film::Film& film) const;
 
   std::filesystem::path file_;
   checkpoint::Session session_;

@@ -16,6 +16,7 @@
 #include "files/json.h"
 #include "files/output.h"
 #include "files/png.h"
+#include "printable.h"
 #include "terminal.h"
 
 namespace phlux::cli {
@@ -74,7 +75,7 @@ bool any_above_limit(const CompareOptions& options, const nlohmann::ordered_json
 bool too_many_not_finite(const CompareOptions& options, std::uint64_t count) {
   if (count == 0) return false;
   tell("phlux: {} values of {} and {} are not finite: the figures leave their pixels out\n", count,
-       options.a.string(), options.b.string());
+       printable(options.a.string()), printable(options.b.string()));
   return std::ranges::find(options.limits, "nonfinite", &CompareOptions::Limit::metric) ==
          options.limits.end();
 }

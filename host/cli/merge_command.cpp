@@ -8,6 +8,7 @@
 #include "files/exr.h"
 #include "files/merge.h"
 #include "files/output.h"
+#include "printable.h"
 #include "terminal.h"
 
 namespace phlux::cli {
@@ -22,8 +23,8 @@ int merge(const MergeOptions& options) {
   for (const std::filesystem::path& file : options.images) merger.add(file.string(), files::read_exr(file));
   for (const std::string& note : merger.notes()) spdlog::warn("{}", with_options(note));
   const files::Image image = merger.result();
-  files::write_exr(options.output, image);
-  say("{}: {}x{}, {:.6g} samples per pixel of {} images\n", options.output.string(), image.width,
+  warn_of_nonfinite(options.output, files::write_exr(options.output, image));
+  say("{}: {}x{}, {:.6g} samples per pixel of {} images\n", printable(options.output.string()), image.width,
       image.height, image.info.samples, options.images.size());
   return 0;
 }

@@ -63,6 +63,13 @@ void reject_same_names(const std::vector<fs::path>& files) {
 
 } // namespace
 
+void warn_of_nonfinite(const fs::path& file, const files::NonFinite& values) {
+  for (const auto& [channel, count] : values)
+    spdlog::warn("{}: {} values of channel {} are not finite, being beyond a float's 3e38 or undefined: dim "
+                 "the lights",
+                 file.string(), count, channel);
+}
+
 bool is_of_another_format(const fs::path& file, const std::string& own) {
   const std::vector<std::string> formats = {".exr", ".png",  ".jpg", ".jpeg", ".hdr",  ".pfm", ".ppm",
                                             ".tif", ".tiff", ".bmp", ".gif",  ".webp", ".json"};
@@ -128,7 +135,7 @@ void PreviewRefresher::update(const film::Film& film, double seconds) {
   if (file_.empty() || seconds < next_) return;
   const spdlog::stopwatch watch;
   try {
-    files::write_png(file_, files::image_of(film, {}, false));
+    files::write_png(file_, files::rows_of(film, false));
   } catch (const std::exception& error) {
     spdlog::info("{}", error.what());
   }

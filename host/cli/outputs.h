@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cli/options.h"
-#include "files/image.h"
+#include "files/exr.h"
 #include "scene/scene.h"
 
 namespace phlux::cli {
@@ -18,6 +18,9 @@ struct Outputs {
 
   [[nodiscard]] std::vector<std::filesystem::path> files() const; ///< those that have a name
 };
+
+/// Warns of values that are NaN or infinite.
+void warn_of_nonfinite(const std::filesystem::path& file, const files::NonFinite& values);
 
 /// Whether the file's name says that it is an image of another format than `own`, such as ".png".
 [[nodiscard]] bool is_of_another_format(const std::filesystem::path& file, const std::string& own);

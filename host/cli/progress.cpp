@@ -27,7 +27,8 @@ std::size_t terminal_columns() {
 }
 
 std::string clock_text(double seconds) {
-  const auto whole = static_cast<std::int64_t>(std::ceil(seconds));
+  constexpr double longest = 1e12; // 30,000 years
+  const auto whole = static_cast<std::int64_t>(std::ceil(std::min(seconds, longest)));
   if (whole < 3600) return fmt::format("{}:{:02}", whole / 60, whole % 60);
   return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
 }

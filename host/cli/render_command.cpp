@@ -12,6 +12,7 @@
 #include "cli/commands.h"
 #include "cli/diagnosis.h"
 #include "cli/interrupt.h"
+#include "cli/memory.h"
 #include "cli/outputs.h"
 #include "cli/progress.h"
 #include "cli/spelling.h"
@@ -22,6 +23,7 @@
 #include "files/json.h"
 #include "files/output.h"
 #include "files/png.h"
+#include "printable.h"
 #include "scene/digest.h"
 #include "scene_file/load.h"
 #include "terminal.h"
@@ -119,28 +121,16 @@ files::RenderInfo info_of(const checkpoint::Session& session, const film::Film& 
       .clamped_share = film.clamped_share()};
 }
 
-void warn_of_moments(const files::Image& image) {
-  if (image.channels.size() == 3) {
-    spdlog::warn("--moments: variances need two samples in every pixel: their channels are left out");
-    return;
-  }
-  for (const auto& [name, values] : image.channels)
-    if (std::ranges::any_of(values, [](float value) { return std::isinf(value); })) {
-      spdlog::warn("--moments: {} has values beyond a float's 3e38, written as inf: dim the lights", name);
-      return;
-    }
-}
-
 // Writes the image where it can. Returns its path, empty if it cannot be written.
-std::filesystem::path write_image(const std::filesystem::path& wanted, const files::Image& image,
-                                  Attempts& attempts) {
+std::filesystem::path write_image(const std::filesystem::path& wanted, const files::Rows& rows,
+                                  const files::RenderInfo& info, Attempts& attempts) {
   try {
-    files::write_exr(wanted, image);
+    warn_of_nonfinite(wanted, files::write_exr(wanted, rows, info));
     return wanted;
   } catch (const WriteError& error) {
     const std::filesystem::path second = files::elsewhere(wanted);
     try {
-      files::write_exr(second, image);
+      warn_of_nonfinite(second, files::write_exr(second, rows, info));
     } catch (const WriteError& other) {
       attempts.failed(WriteError(fmt::format("{}; {}", error.what(), other.what())));
       return {};
@@ -151,7 +141,7 @@ std::filesystem::path write_image(const std::filesystem::path& wanted, const fil
 }
 
 void write_techniques(const std::filesystem::path& folder, film::Film& film, const files::RenderInfo& info) {
-  files::write_contributions(folder, film, info);
+  warn_of_nonfinite(folder, files::write_contributions(folder, film, info));
   if (const std::uint64_t left_out = film.techniques()->left_out(); left_out > 0)
     spdlog::warn("--contributions: paths of more than {} edges are in the image alone ({} contributions)",
                  film::most_technique_edges, left_out);
@@ -181,16 +171,17 @@ void write_all(const Outputs& outputs, const RenderOptions& options, const check
   const files::RenderInfo info = info_of(session, film, statistics);
   std::filesystem::path image_file, checkpoint_file;
   attempts(outputs.image, [&] {
-    const files::Image image = files::image_of(film, info, options.moments && film.has_variance());
-    if (options.moments) warn_of_moments(image);
-    image_file = write_image(outputs.image, image, attempts);
+    if (options.moments && !film.has_variance())
+      spdlog::warn("--moments: variances need two samples in every pixel: their channels are left out");
+    const files::Rows rows = files::rows_of(film, options.moments && film.has_variance());
+    image_file = write_image(outputs.image, rows, info, attempts);
   });
   attempts(outputs.checkpoint, [&] {
     checkpoints.finish(film, statistics);
     checkpoint_file = outputs.checkpoint;
   });
   if (!outputs.preview.empty())
-    attempts(outputs.preview, [&] { files::write_png(outputs.preview, files::image_of(film, info, false)); });
+    attempts(outputs.preview, [&] { files::write_png(outputs.preview, files::rows_of(film, false)); });
   if (settings.techniques)
     attempts(options.contributions, [&] { write_techniques(options.contributions, film, info); });
   Diagnosis diagnosis;
@@ -202,7 +193,7 @@ void write_all(const Outputs& outputs, const RenderOptions& options, const check
                         files::json_text(statistics_json(statistics, settings, info, film, diagnosis)));
     });
   if (!options.quiet && !image_file.empty())
-    say("{}\n", summary(image_file, checkpoint_file, film, statistics));
+    say("{}\n", printable(summary(image_file, checkpoint_file, film, statistics)));
   report(diagnosis, film, statistics, settings, options.quiet);
 }
 
@@ -224,6 +215,7 @@ int render(const RenderOptions& given) {
                                     .settings = settings_of(options, scene.defaults),
                                     .state = {}};
   if (earlier) check_same(*earlier, session, camera, options.resume);
+  if (!earlier) require_memory(camera, session.settings, outputs);
   film::Film film = earlier ? std::move(earlier->film) : film::Film(camera.width, camera.height);
   Checkpoints checkpoints(outputs.checkpoint, options, session);
   const InterruptGuard interrupt; // until everything is written

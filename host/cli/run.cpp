@@ -3,6 +3,8 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <ctime>
+#include <memory>
 #include <new>
 #include <string>
 
@@ -10,6 +12,7 @@
 #include <unistd.h>
 
 #include <fmt/format.h>
+#include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
@@ -18,15 +21,30 @@
 #include "cli/interrupt.h"
 #include "cli/spelling.h"
 #include "errors.h"
+#include "printable.h"
 
 namespace phlux::cli {
 namespace {
 
 constexpr int defect_exit_code = 70; // EX_SOFTWARE of sysexits.h
 
+// The text of a message, which may quote a file.
+class PrintableText final : public spdlog::custom_flag_formatter {
+public:
+  void format(const spdlog::details::log_msg& message, const std::tm&, spdlog::memory_buf_t& to) override {
+    const std::string text = printable({message.payload.data(), message.payload.size()}, true);
+    to.append(text.data(), text.data() + text.size());
+  }
+  [[nodiscard]] std::unique_ptr<spdlog::custom_flag_formatter> clone() const override {
+    return std::make_unique<PrintableText>();
+  }
+};
+
 void set_up_log() {
   spdlog::set_default_logger(spdlog::stderr_logger_mt("phlux"));
-  spdlog::set_pattern("phlux: %l: %v");
+  auto formatter = std::make_unique<spdlog::pattern_formatter>();
+  formatter->add_flag<PrintableText>('*').set_pattern("phlux: %l: %*");
+  spdlog::set_formatter(std::move(formatter));
   spdlog::set_level(spdlog::level::warn);
 }
 

@@ -3,7 +3,9 @@
 #include <cerrno>
 #include <cstring>
 #include <optional>
+#include <ostream>
 #include <random>
+#include <sstream>
 #include <string>
 
 #include <fcntl.h>
@@ -15,6 +17,7 @@
 #include <fmt/format.h>
 
 #include "errors.h"
+#include "files/file_buffer.h"
 
 namespace phlux::files {
 namespace fs = std::filesystem;
@@ -63,6 +66,7 @@ public:
     if (descriptor_ >= 0) ::close(descriptor_);
   }
   [[nodiscard]] bool is_open() const { return descriptor_ >= 0; }
+  [[nodiscard]] int descriptor() const { return descriptor_; }
 
   // False, with errno set, when not all bytes could be written.
   [[nodiscard]] bool write(std::string_view bytes) const {
@@ -151,9 +155,12 @@ public:
   ~TemporaryFile() {
     if (!renamed_) ::unlink(name_.c_str());
   }
-  void write_and_rename(std::string_view bytes) {
-    if (!file_->write(bytes) || !file_->sync() || ::rename(name_.c_str(), target_.c_str()) != 0)
-      fail(target_, errno);
+  void write_and_rename(const std::function<void(std::ostream&)>& write) {
+    FileBuffer buffer(file_->descriptor());
+    std::ostream stream(&buffer);
+    write(stream);
+    if (!stream.flush()) fail(target_, buffer.error() != 0 ? buffer.error() : EIO);
+    if (!file_->sync() || ::rename(name_.c_str(), target_.c_str()) != 0) fail(target_, errno);
     renamed_ = true;
     // The rename lasts once the folder is on the disk; one that may not be read cannot be opened for that.
     const OpenFile folder(folder_of(target_), O_RDONLY | O_DIRECTORY);
@@ -200,13 +207,20 @@ void check_writable(const fs::path& path) {
   }
 }
 
-void write_file(const fs::path& path, std::string_view bytes) {
+void write_file(const fs::path& path, const std::function<void(std::ostream&)>& write) {
   if (!is_special(path)) {
-    TemporaryFile(destination(path)).write_and_rename(bytes);
+    TemporaryFile(destination(path)).write_and_rename(write);
     return;
   }
+  std::ostringstream stream(std::ios::binary);
+  write(stream);
   const OpenFile file(path, O_WRONLY | O_NONBLOCK); // which fails for a pipe that nobody reads
-  if (!file.is_open() || !file.write(bytes)) fail(path, errno);
+  if (!file.is_open() || !file.write(stream.view())) fail(path, errno);
+}
+
+void write_file(const fs::path& path, std::string_view bytes) {
+  write_file(path,
+             [&](std::ostream& to) { to.write(bytes.data(), static_cast<std::streamsize>(bytes.size())); });
 }
 
 fs::path elsewhere(const fs::path& path) {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <iosfwd>
 #include <string_view>
 
 namespace phlux::files {
@@ -11,9 +13,13 @@ namespace phlux::files {
 /// @throws WriteError
 void check_writable(const std::filesystem::path& path);
 
-/// Replaces `path` (or the target of a link) by `bytes`; a reader sees the old file or the new one, also
-/// after a power cut. A file that is not regular (/dev/null, a pipe with a reader) is written to directly.
-/// @throws WriteError, leaving no temporary file behind
+/// Replaces `path` (or the target of a link) by what `write` writes; a reader sees the old file or the new
+/// one, also after a power cut. The stream can seek; it takes no memory in proportion to the file, unless
+/// that is not regular (/dev/null, a pipe with a reader), which is written to directly and at once.
+/// @throws WriteError, leaving no temporary file behind, and what `write` throws
+void write_file(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write);
+
+/// The same with these bytes.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
 /// A second place for what cannot be written to `path`: a new name like it in $TMPDIR, by default /tmp.

@@ -56,7 +56,7 @@ void Film::add(std::size_t pixel, const BlockSum& block, std::uint32_t samples) 
     else
       square += (sum - samples * mean) * (sum - samples * mean);
   }
-  if (!blocks_of_pixels_.empty()) blocks_of_pixels_[pixel].add(block, samples);
+  if (dependent_samples()) blocks_of_pixels_[pixel].add(block, samples);
   sums.sum_of_fourths += square * square;
   evidence_.add_block(pixel, square, block_sum, samples, mean_before);
   if (clamp_) clamped_ += block.clamped; // not written by the device otherwise
@@ -209,6 +209,49 @@ Film::technique_image(const std::vector<std::array<double, 3>>& sums) const {
   for (std::array<double, 3>& pixel : image)
     for (double& value : pixel) value *= factor;
   return image;
+}
+
+std::string Film::contradiction(const std::function<std::uint64_t(std::size_t pixel)>& samples_of,
+                                std::uint64_t paths) const {
+  const auto sound =
+      [](const auto& sums) { // infinity may come of overflow, but neither NaN nor a negative square
+        return !std::ranges::any_of(sums.sum, [](double sum) { return std::isnan(sum); }) &&
+               std::ranges::all_of(sums.sum_of_squares, [](double square) { return square >= 0.0; }) &&
+               sums.sum_of_fourths >= 0.0;
+      };
+  std::uint64_t samples = 0;
+  for (std::size_t pixel = 0; pixel < pixels_.size(); ++pixel) {
+    samples += pixels_[pixel].samples;
+    if (pixels_[pixel].samples != samples_of(pixel)) return "numbers of samples";
+    if (!sound(pixels_[pixel])) return "sums of samples";
+  }
+  for (std::size_t pixel = 0; pixel < blocks_of_pixels_.size(); ++pixel) {
+    const double n = static_cast<double>(pixels_[pixel].samples);
+    const BlockMoments& blocks = blocks_of_pixels_[pixel];
+    const bool sums_are_sound =
+        std::ranges::all_of(blocks.squares, [](double square) { return square >= 0.0; }) &&
+        !std::ranges::any_of(blocks.weighted, [](double sum) { return std::isnan(sum); });
+    if (!(blocks.squared_samples >= n && blocks.squared_samples <= n * n) || !sums_are_sound)
+      return "sums of point sets";
+  }
+  if (samples != own_samples_ || splatting_paths_ != paths || blocks_ > samples ||
+      (samples > 0) != (blocks_ > 0))
+    return "numbers of paths";
+  if (!std::ranges::all_of(splats_, sound)) return "sums of splats";
+  if (!(unit_ > 0.0) || !std::isfinite(unit_ + squared_block_samples_ + clamped_ + clamped_of_splats_) ||
+      squared_block_samples_ < static_cast<double>(samples) || clamped_ < 0.0 || clamped_of_splats_ < 0.0)
+    return "sums over the image";
+  if (!evidence_.is_sound()) return "contributions by size";
+  if (techniques_)
+    for (const auto& [technique, sums] : techniques_->sums()) {
+      const bool known = technique.light_vertices >= 0 && technique.eye_vertices >= 0 &&
+                         technique.edges() >= 1 && technique.edges() <= most_technique_edges;
+      for (const auto* image : {&sums.weighted, &sums.unweighted})
+        for (const std::array<double, 3>& pixel : *image)
+          if (!known || std::isnan(pixel[0]) || std::isnan(pixel[1]) || std::isnan(pixel[2]))
+            return "contributions of techniques";
+    }
+  return {};
 }
 
 bool Film::has_variance() const {

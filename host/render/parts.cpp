@@ -62,7 +62,7 @@ Connect possible_connect(const Settings& settings, const tables::LightTable& lig
 
 // Expected number of proposals of rejection sampling per sample, at grazing incidence, where it is largest.
 double proposals(const scene::Material& m) {
-  const double diffuse = glm::compMax(m.value("diffuse_reflectance"));
+  const double diffuse = m.is_textured() ? 0.0 : glm::compMax(m.value("diffuse_reflectance")); // some texel's
   const double specular = glm::compMax(m.value("specular_reflectance")), exponent = m.value("exponent").x;
   const double highest = diffuse + specular * (exponent / 2 + 1);
   return highest / (diffuse + specular * phong::lobe_reflectivity(exponent, 0.0));
@@ -93,6 +93,16 @@ int lanes_for(const device::DeviceInfo& device, const Settings& settings) {
   return 1;
 }
 
+double in_units(const char* setting, double radiance, double unit) {
+  constexpr double least = 1e-30, most = 1e30; // a float, and products with ordinary numbers
+  const double value = radiance / unit;
+  if (value >= least && value <= most) return value;
+  throw UsageError(
+      fmt::format("{} {:g}: the scene's lights are about {:g}, and single precision holds {:g} to {:g} "
+                  "beside them",
+                  settings::quoted(setting), radiance, unit, least * unit, most * unit));
+}
+
 // With fewer, descending the tree takes more time than the lower variance gains (bench/saved/REMEDIES.md).
 constexpr std::size_t fewest_lights_of_tree = 8;
 
@@ -109,7 +119,7 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
     throw UsageError("`contributions`: path tracing has only one technique: use `integrator` bidir or light");
   // Images of techniques need every connection.
   if (parts.integrator == Integrator::bidir && !parts.techniques) parts.connections = settings.connections;
-  if (settings.clamp) parts.clamp = *settings.clamp / lights.unit;
+  if (settings.clamp) parts.clamp = in_units("clamp", *settings.clamp, lights.unit);
   if (parts.clamp && parts.techniques)
     throw UsageError("`clamp`: contributions of techniques are not clamped: leave out `contributions`");
   if (samples_point_sets(settings)) parts.sampler = settings.sampler;

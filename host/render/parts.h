@@ -63,6 +63,10 @@ struct Parts {
   [[nodiscard]] device::ProgramSource source(const std::string& root, const std::string& extra = "") const;
 };
 
+/// A setting's radiance in the unit of the devices' sums, as tables::LightTable defines it.
+/// @throws UsageError if single precision cannot hold it beside the scene's lights
+[[nodiscard]] double in_units(const char* setting, double radiance, double unit);
+
 /// WIDTH on a device. @throws UsageError for double precision with a WIDTH above 1, DeviceError for double
 /// precision on a device without doubles
 [[nodiscard]] int lanes_for(const device::DeviceInfo& device, const Settings& settings);

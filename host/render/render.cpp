@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "clock.h"
+#include "device/driver_cache.h"
 #include "device/program.h"
 #include "errors.h"
 #include "render/dispatch.h"
@@ -103,6 +104,7 @@ public:
     statistics.portable_lanes = device::portable_lanes(device);
     const Clock::time_point warm_up_begin = Clock::now();
     worker.launcher = launcher(device, built, worker.parts);
+    device::record_driver_cache();
     statistics.seconds_build_kernels += built.seconds + seconds_since(warm_up_begin);
     return worker;
   }

@@ -13,6 +13,8 @@ namespace phlux::render {
 /// sums' precision, enough that their transfer takes little time. The image depends on it, so that it is the
 /// same for every device, launch length and number of threads.
 inline constexpr int samples_per_block = 16;
+/// Of a point set, see point_bits().
+inline constexpr int most_block_samples = 64;
 
 /// How a pixel's samples form blocks. The length of blocks of independent samples does not matter. Samples of
 /// a point set depend on each other, and different sets do not: such a set is a block, and variances are

@@ -125,6 +125,7 @@ std::string Document::spelling(const std::string& snake_case) const {
 
 void read_document(const std::filesystem::path& file, const std::map<std::string, std::string>& definitions,
                    Document& document) {
+  document.file = file;
   document.files = {file};
   document.folders = {file.parent_path()};
   document.scene = read_elements(document, definitions);

@@ -28,7 +28,10 @@ struct Element {
 };
 
 struct Document {
-  mutable std::vector<std::filesystem::path> files; ///< the scene file, and those of find()
+  std::filesystem::path file; ///< of the scene
+  /// That file, and those of find(), from which every file that is read must come: no output may replace
+  /// one of them.
+  mutable std::vector<std::filesystem::path> files;
   Element scene;
   int major_version = 0;                         ///< 0: the names are Mitsuba 0.5's and 0.6's
   std::map<std::string, const Element*> objects; ///< by id; they point into `scene`
@@ -39,8 +42,7 @@ struct Document {
 
   /// The object that a <ref> refers to; any other element, and a <ref> to nothing, itself.
   [[nodiscard]] const Element& resolve(const Element& element) const;
-  /// The file of this name in the first folder that has it, else in the scene's own. It is added to `files`:
-  /// no output may replace a file that is read.
+  /// The file of this name in the first folder that has it, else in the scene's own.
   [[nodiscard]] std::filesystem::path find(const std::string& name) const;
   /// note(), unless it has been called with this message before.
   void note_once(const Location& where, const std::string& message) const;

@@ -116,8 +116,8 @@ public:
       : document_(document), parameters_(definitions) {}
 
   Element scene() {
-    const Location whole{std::make_shared<const std::string>(document_.files.front().string()), 0};
-    Element element = read_file(document_.files.front(), whole);
+    const Location whole{std::make_shared<const std::string>(document_.file.string()), 0};
+    Element element = read_file(document_.file, whole);
     if (parameters_.any_unknown()) document_.problems->throw_if_any(); // values are missing
     parameters_.check_all_used(whole);
     return element;
@@ -141,7 +141,7 @@ private:
     return element;
   }
 
-  Element without_children(const File& file, const pugi::xml_node& node) {
+  Element without_children(const File& file, const pugi::xml_node& node, bool collect_problems = true) {
     Element element;
     element.tag = node.name();
     if (element.tag == "lookAt") element.tag = "lookat";
@@ -149,9 +149,10 @@ private:
     const auto known = known_elements().find(element.tag);
     if (known == known_elements().end())
       fail(element.where, "element <" + element.tag + "> is not supported", supported_elements());
-    for (const auto attribute : node.attributes())
-      document_.problems->attempt(
-          [&] { add_attribute(element, known->second, attribute.name(), attribute.value()); });
+    for (const auto attribute : node.attributes()) {
+      const auto add = [&] { add_attribute(element, known->second, attribute.name(), attribute.value()); };
+      collect_problems ? document_.problems->attempt(add) : add();
+    }
     return element;
   }
 
@@ -197,7 +198,7 @@ private:
   }
 
   void set_default(const File& file, const pugi::xml_node& node) {
-    const Element element = without_children(file, node);
+    const Element element = without_children(file, node, false);
     if (element["name"].empty() || !element.has("value"))
       fail(element.where, "<default> without a name or a value", "<default name=\"spp\" value=\"64\"/>");
     parameters_.set_default(element["name"], element["value"], element.where);

@@ -12,7 +12,7 @@ namespace phlux::scene_file {
 /// Whether <TAG> is an object, which has a type and may have an id.
 [[nodiscard]] bool is_object_tag(const std::string& tag);
 
-/// The <scene> of document.files.front() with parameters substituted and <include>s replaced by what they include.
+/// The <scene> of document.file with parameters substituted and <include>s replaced by what they include.
 /// Unknown elements and attributes are left out and added to document.problems.
 /// @throws SceneError for a file that cannot be read and for malformed XML
 [[nodiscard]] Element read_elements(Document& document,

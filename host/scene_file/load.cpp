@@ -53,8 +53,9 @@ scene::Scene load(const std::filesystem::path& file, const std::map<std::string,
   const bool scale = properties.boolean("ensure_energy_conservation", false);
   TextureReader textures;
   const MaterialRules rules{library, textures, scale ? ExcessEnergy::scale : ExcessEnergy::error};
-  for (const Element* texture : properties.objects("texture")) // to check also those that nothing refers to
-    static_cast<void>(textures.read(*texture, document));
+  for (const Element* texture : properties.objects("texture"))
+    if (!is_unused(*texture, document))
+      problems.attempt([&] { static_cast<void>(textures.read(*texture, document)); });
   for (const Element* bsdf : properties.objects("bsdf")) // to check also those that no shape refers to
     if (!is_unused(*bsdf, document))
       problems.attempt([&] { static_cast<void>(read_material(*bsdf, document, rules)); });
@@ -67,10 +68,10 @@ scene::Scene load(const std::filesystem::path& file, const std::map<std::string,
     problems.attempt([&] { read_shape(*shape, document, {rules, scene, meshes, materials}); });
   properties.finish();
   problems.throw_if_any();
-  meshes.load(scene, problems);
+  scene.files = document.files;
+  meshes.load(scene, problems); // which adds their own files
   problems.throw_if_any();
   warn_of_darkness(document, scene);
-  scene.files.insert(scene.files.end(), document.files.begin(), document.files.end());
   return scene;
 }
 

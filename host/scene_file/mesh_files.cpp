@@ -82,8 +82,8 @@ private:
       note(shape.request.named_at, "the materials of the OBJ file are not used: the shape's bsdf is");
     if (file.material_library.empty() || !shape.library_materials || libraries_.contains(shape.request.file))
       return;
-    scene_.files.push_back(folder / file.material_library);
     auto& library = libraries_[shape.request.file];
+    scene_.files.push_back(folder / file.material_library);
     for (const auto& [name, material] :
          read_obj_materials(folder / file.material_library, shape.request.named_at))
       library[name] = share(scene_.materials, material);

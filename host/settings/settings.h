@@ -135,12 +135,12 @@ struct Settings {
                       " is for path and bidir: light paths are independent: leave it out"),
       Setting("contributions", A::film, &Settings::techniques, Switch{"DIR"}, "", ""),
       Setting(
-          "ambient", A::estimate, &Settings::ambient, Positive{}, "L",
+          "ambient", A::estimate, &Settings::ambient, Within{1e-30, 1e30}, "L",
           "path only: estimate of the mean incident radiance, for a control variate: the closer, the less "
           "noise; without bias for any L; default: no control variate")
           .only_where(from_eye_alone,
                       ": only paths from the eye can carry the ambient term: use `integrator` path"),
-      Setting("clamp", A::expectation, &Settings::clamp, Positive{}, "X",
+      Setting("clamp", A::expectation, &Settings::clamp, Within{1e-30, 1e30}, "X",
               "clamps each path's contribution to a pixel to the radiance X: less noise, but a bias, which "
               "the log and the files state; default: no clamping"),
       Setting("max-depth", A::expectation, &Settings::max_depth, Depth{}, "N",
@@ -159,10 +159,10 @@ struct Settings {
       Setting("spp", A::amount, &Settings::samples_per_pixel, Whole{1, most_samples}, "N",
               "samples per pixel (light: light paths per pixel of the image)")
           .or_scene(&Settings::samples_per_pixel, &scene::RenderDefaults::samples_per_pixel),
-      Setting("time", A::amount, &Settings::time_limit, Positive{}, "SECONDS",
+      Setting("time", A::amount, &Settings::time_limit, Within{1e-6, 1e9}, "SECONDS",
               "render for this time instead"),
       Setting(
-          "error", A::amount, &Settings::target_error, Positive{}, "E",
+          "error", A::amount, &Settings::target_error, Within{1e-30, 1e30}, "E",
           "render until the mean relative standard error of pixels that are not black is E, such as 0.01, "
           "instead; with `time`: until the first of the two"),
       Setting("seed", A::samples, &Settings::seed, Whole{0, std::numeric_limits<std::uint64_t>::max()}, "N",

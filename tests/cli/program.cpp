@@ -93,6 +93,10 @@ void redirect(int descriptor, const std::string& file) {
     if (::setrlimit(RLIMIT_FSIZE, &limit) != 0) ::_exit(126);
     std::signal(SIGXFSZ, SIG_IGN); // its default action ends the program
   }
+  if (invocation.address_space) {
+    const rlimit limit{*invocation.address_space, *invocation.address_space};
+    if (::setrlimit(RLIMIT_AS, &limit) != 0) ::_exit(126);
+  }
   for (const auto& [name, value] : invocation.environment) ::setenv(name.c_str(), value.c_str(), 1);
   std::vector<std::string> texts = {PHLUX_PROGRAM};
   texts.insert(texts.end(), invocation.arguments.begin(), invocation.arguments.end());

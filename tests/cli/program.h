@@ -26,6 +26,8 @@ struct Invocation {
   std::optional<std::chrono::milliseconds> interrupt_after;
   /// Limit on the size of written files, in bytes.
   std::optional<std::size_t> largest_file = std::nullopt;
+  /// Limit on its address space, in bytes.
+  std::optional<std::size_t> address_space = std::nullopt;
   int signal = SIGINT;
   /// Sent once this file has been written; empty: as soon as it is handled.
   std::filesystem::path after_write = {};

@@ -64,7 +64,7 @@ std::vector<Words> random_counters(std::size_t count, Random& random) {
 }
 
 Program with_sampler(const Variant& v, const char* sampler) {
-  return {v, read_file("random.cl"), {{"SAMPLER", sampler}}};
+  return Program(v, read_file("random.cl"), std::map<std::string, std::string>{{"SAMPLER", sampler}});
 }
 
 std::vector<std::uint32_t> numbers_from(std::uint32_t first, std::size_t count) {
