@@ -140,7 +140,7 @@ struct Scene {
   bool strict_normals = false;
   Camera camera;
   RenderDefaults defaults;
-  std::vector<std::filesystem::path> files; ///< that were read: the scene file, meshes
+  std::vector<std::filesystem::path> files; ///< that were read: the scene file, meshes, textures
 };
 
 /// Whether the reflection depends on the surface's texture coordinates or tangents.
