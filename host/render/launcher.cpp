@@ -36,9 +36,7 @@ Launcher::Launcher(const device::Device& device, const device::BuiltProgram& pro
   kernel_.set("max_edges", bounded(settings.max_depth));
   kernel_.set("roulette_edges", bounded(settings.rr_depth));
   kernel_.set("sky_light", static_cast<cl_int>(std::max(scene.lights.constant, 0)));
-  kernel_.set("ambient", static_cast<cl_float>(settings.ambient
-                                                   ? in_units("ambient", *settings.ambient, scene.lights.unit)
-                                                   : 0.0));
+  kernel_.set("ambient", static_cast<cl_float>(settings.ambient.value_or(0.0) / scene.lights.unit));
   begin(settings);
 }
 
