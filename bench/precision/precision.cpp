@@ -67,8 +67,10 @@ std::vector<film::Film> render_rounds(const Setup& setup, int lanes, bool double
   MethodRenderer renderer(setup.scene, settings);
   std::vector<film::Film> films;
   for (int round = 0; round < (quick ? quick_rounds : rounds); ++round)
-    films.push_back(renderer.render_samples(settings.seed + static_cast<std::uint64_t>(round),
-                                            settings.samples_per_pixel, setup.options.interrupted));
+    films.push_back(renderer
+                        .render_samples(settings.seed + static_cast<std::uint64_t>(round),
+                                        settings.samples_per_pixel, setup.options.interrupted)
+                        .film);
   return films;
 }
 

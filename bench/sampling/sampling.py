@@ -8,8 +8,7 @@ from functools import partial
 import chart_style as style
 import numpy as np
 from sampling_charts import draw_heat, draw_winners
-from sampling_ranking import (CONDITIONS, LARGEST_FACTOR, LIGHTS, STRATEGIES, factor_text, groups_of, materials_of, read,
-                              read_verdict)
+from sampling_ranking import CONDITIONS, LARGEST_FACTOR, LIGHTS, STRATEGIES, factor_text, groups_of, materials_of, read
 from sampling_tradeoff import draw_tradeoff
 
 MOST_RANKINGS = 6  # of which the summary shows every factor
@@ -57,7 +56,7 @@ def summary_of(folder, rows):
     few = len(rankings) <= MOST_RANKINGS
     columns, lines, note = factors_summary(rankings) if few else counts_summary(rankings)
     note += f" Cost: the sampler and {rows[0].ray_ns:.3g} ns for each ray that is traced on."
-    return {"text": read_verdict(folder, "sampling"), "columns": columns, "rows": lines, "note": note}
+    return {"text": style.read_verdict(folder, "sampling"), "columns": columns, "rows": lines, "note": note}
 
 
 def write_section(folder, rows, charts):

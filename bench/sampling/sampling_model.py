@@ -8,7 +8,7 @@ import sys
 
 import chart_style as style
 import matplotlib.pyplot as plt
-from sampling_ranking import read, read_verdict
+from sampling_ranking import read
 
 COST = "nanoseconds per sample, ray included"
 PANELS = (("relative variance of one sample", lambda row: row.relative_variance),
@@ -48,7 +48,7 @@ def write_section(folder, model, ranking):
     chart = {"svg": f"sampling-{model}.svg", "title": "Variance and cost of a sample without roulette",
              "caption": f"The cost is the time of the sampler and {ranking[0].ray_ns:.3g} ns for each ray that is traced on."}
     style.section(folder, f"sampling-{model}", title=f"Sampling {model}", order=21, charts=[chart],
-                  text=read_verdict(folder, f"sampling-{model}") + text,
+                  text=style.read_verdict(folder, f"sampling-{model}") + text,
                   tables=[{"csv": table, "title": "All results", "columns": columns}])
 
 

@@ -29,12 +29,6 @@ def read(folder, name):
     return rows
 
 
-def read_verdict(folder, name):
-    """The lines of the verdict, one for each case and condition."""
-    with open(f"{folder}/{name}.verdict.txt", encoding="utf-8") as file:
-        return [line for line in file.read().split("\n") if line]
-
-
 def groups_of(rows, key):
     groups = defaultdict(list)
     for row in rows:

@@ -6,8 +6,11 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <set>
+#include <sstream>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "bench/common/methods/build_ahead.h"
 #include "bench/common/methods/result_table.h"
@@ -21,6 +24,7 @@
 #include "clock.h"
 #include "device/device.h"
 #include "errors.h"
+#include "files/output.h"
 #include "scene_file/load.h"
 
 namespace phlux::bench {
@@ -134,6 +138,16 @@ void write_images(const std::filesystem::path& folder, const scene::Camera& came
       write_array(folder / file_name(result.method), shape, result.first_image.radiance);
 }
 
+// Replaces the line of a scene: its name and the answer, as the command prints it.
+void write_answer(const std::filesystem::path& file, const std::string& scene, const std::string& answer) {
+  const std::string begin = scene + ": ";
+  std::istringstream earlier(text_of(file));
+  std::set<std::string> lines = {begin + answer};
+  for (std::string line; std::getline(earlier, line);)
+    if (!line.starts_with(begin)) lines.insert(line);
+  files::write_file(file, fmt::format("{}\n", fmt::join(lines, "\n")));
+}
+
 std::string ratio_cell(const RankedCost& cost) {
   if (std::isnan(cost.ratio)) return "-";
   return cost.rank == Rank::best ? "1" : text_of_ratio(cost);
@@ -170,15 +184,6 @@ void print(const Run& run, const SceneRun& scene, const SceneResults& measured) 
   std::fflush(stdout);
 }
 
-ReferenceImage reference_of(SceneBench& bench, const SceneRun& scene, const std::filesystem::path& folder) {
-  const std::filesystem::path file = folder / (scene.name + ".exr");
-  if (auto saved = read_reference(file, scene.settings)) return *saved;
-  const ReferenceImage reference = bench.reference();
-  make_folder(folder);
-  write_reference(file, scene.settings, reference, scene.scene.camera);
-  return reference;
-}
-
 using Report = std::function<void(const std::string& what, double seconds_left)>;
 
 SceneResults measure(const Run& run, const SceneRun& scene, Tables& tables, const Report& report,
@@ -189,11 +194,15 @@ SceneResults measure(const Run& run, const SceneRun& scene, Tables& tables, cons
   settings.notice = notice;
   SceneBench bench(scene.scene, settings);
   bench.try_methods(tables.results.with_earlier({scene.name}, run.methods, scene.settings));
-  SceneResults measured{reference_of(bench, scene, run.options.folder / "references"), {}, {}};
+  const std::filesystem::path file = run.options.folder / "references" / (scene.name + ".exr");
+  SceneResults measured{
+      saved_reference(file, scene.settings, scene.scene.camera, [&] { return bench.reference(); }), {}, {}};
   measured.methods = bench.measure(measured.reference);
   measured.costs = rank(measured.methods, run.clock());
   write_images(run.options.folder / "scenes-images" / scene.name, scene.scene.camera, measured);
-  tables.replace(run, scene, measured);
+  write_answer(run.options.folder / "scenes.verdict.txt", scene.name,
+               answer_of(measured.methods, measured.costs, run.seconds));
+  tables.replace(run, scene, measured); // last: a scene in the table is not measured again
   return measured;
 }
 

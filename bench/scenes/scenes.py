@@ -66,7 +66,7 @@ def ratio_text(method):
     return "1" if method.row.rank == "best" else f"{value:.3g} ({low:.3g} to {high:.3g})"
 
 
-def summary(scenes):
+def summary(folder, scenes):
     rows = []
     for scene, methods in scenes.items():
         first = ranked(methods, "best") + ranked(methods, "tied")
@@ -78,7 +78,8 @@ def summary(scenes):
                      ratio_text(default) if default and first else "", names_of(open_ones),
                      names_of(method for method in methods if method.verdict == "biased"),
                      names_of(method for method in methods if method.refused)])
-    return {"columns": ["scene", "least time (several: tied)", "µs to unit variance", "the next", "its time / least",
+    return {"text": style.read_verdict(folder, "scenes"),
+            "columns": ["scene", "least time (several: tied)", "µs to unit variance", "the next", "its time / least",
                         "time of path mis / least", "too little time to tell", "biased", "refused"],
             "rows": rows,
             "note": "Time: variance per sample times seconds per sample. An image of N pixels reaches relative MSE e after N / e "
@@ -154,7 +155,7 @@ def main():
             charts += of_scene[1]
     style.save_all(folder, drawings)
     style.section(
-        folder, "scenes", title="Rendering methods by scene", order=10, text=TEXT, summary=summary(scenes), charts=charts,
+        folder, "scenes", title="Rendering methods by scene", order=10, text=TEXT, summary=summary(folder, scenes), charts=charts,
         tables=[{"csv": "scenes.csv", "title": "Every method on every scene",
                  "columns": ["scene", "integrator", "strategy", "connect_or_weights", "verdict", "variance_per_sample",
                              "variance_standard_error", "top_share", "seconds_per_sample", "clock", "cost", "cost_ratio_low",

@@ -79,15 +79,12 @@ CellRun cell_run(const Run& run, const StabilityCell& cell) {
 ReferenceImage reference_of(const CellRun& cell, const SceneBenchSettings& settings,
                             const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / ("stability-" + cell.name() + ".exr");
-  if (auto saved = read_reference(file, cell.settings)) return *saved;
-  if (settings.report) settings.report("reference by " + reference_method.name(), settings.seconds);
-  MethodRenderer renderer(cell.scene, render_settings(reference_method, cell.scene, settings));
-  const ReferenceImage reference =
-      make_reference(renderer, reference_method, cell.scene.camera, settings.seed,
-                     std::max(reference_share * settings.seconds, 0.25), settings.interrupted);
-  make_folder(folder);
-  write_reference(file, cell.settings, reference, cell.scene.camera);
-  return reference;
+  return saved_reference(file, cell.settings, cell.scene.camera, [&] {
+    if (settings.report) settings.report("reference by " + reference_method.name(), settings.seconds);
+    MethodRenderer renderer(cell.scene, render_settings(reference_method, cell.scene, settings));
+    return make_reference(renderer, reference_method, cell.scene.camera, settings.seed,
+                          std::max(reference_share * settings.seconds, 0.25), settings.interrupted);
+  });
 }
 
 void write_image(const std::filesystem::path& folder, const CellRun& cell, const ReferenceImage& reference) {

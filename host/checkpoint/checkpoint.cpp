@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <climits>
 #include <charconv>
+#include <climits>
 #include <cstring>
 #include <fstream>
 #include <memory>
@@ -217,6 +217,15 @@ film::Film read_film(std::istream& stream, std::uint64_t bytes) {
 }
 
 } // namespace
+
+bool is_replaceable(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error) || std::filesystem::is_empty(file, error)) return true;
+  std::ifstream stream(file, std::ios::binary);
+  std::string start(magic.size(), '\0');
+  stream.read(start.data(), static_cast<std::streamsize>(start.size()));
+  return start == magic;
+}
 
 void write(const Session& session, const film::Film& film, std::ostream& to) {
   const auto begin = to.tellp();

@@ -39,4 +39,7 @@ void write(const Session& session, const film::Film& film, std::ostream& to);
 /// damaged
 [[nodiscard]] Checkpoint read(const std::filesystem::path& file);
 
+/// Whether a checkpoint may replace `file`: nothing is there, or an earlier checkpoint, of any format.
+[[nodiscard]] bool is_replaceable(const std::filesystem::path& file);
+
 } // namespace phlux::checkpoint

@@ -71,7 +71,7 @@ private:
 bool is_sound(const render::Launch& launch, std::int64_t pixels, std::int64_t end) {
   return launch.first_job >= 0 && launch.first_job < pixels && launch.jobs >= 1 &&
          launch.jobs <= pixels * end && launch.block_samples >= 1 &&
-         launch.block_samples <= render::samples_per_block && launch.first_sample >= 0 &&
+         launch.block_samples <= render::most_block_samples && launch.first_sample >= 0 &&
          launch.first_sample + ((launch.first_job + launch.jobs - 1) / pixels + 1) * launch.block_samples <=
              end;
 }
@@ -82,13 +82,13 @@ std::string contradiction(const render::RenderState& state, std::int64_t pixels)
   const render::SchedulePosition& position = state.position;
   if (position.sample < 0 || position.sample > most_samples || position.pixel < 0 ||
       position.pixel >= pixels || position.block_samples < 1 ||
-      position.block_samples > render::samples_per_block)
+      position.block_samples > render::most_block_samples)
     return "its position";
   for (const render::Launch& launch : position.missing)
     if (!is_sound(launch, pixels, position.end())) return "its missing samples";
   if (const auto& origin = state.first_nonfinite)
     if (origin->pixel < 0 || origin->pixel >= pixels || origin->sample < 0 || origin->sample > most_samples ||
-        origin->samples < 1 || origin->samples > render::samples_per_block)
+        origin->samples < 1 || origin->samples > render::most_block_samples)
       return "its first contribution that was not finite";
   if (!(state.seconds_render >= 0.0) || !std::isfinite(state.seconds_render)) return "its seconds";
   return {};
@@ -115,6 +115,7 @@ void check_state(const Checkpoint& earlier, const render::Settings& now, const s
     if (wrong.empty() && paths != state.paths) wrong = "numbers of paths";
     if (film.clamps() && !now.clamp) wrong = "clamping";
     if (splats && !integrator.light_paths) wrong = "splats";
+    if (film.dependent_samples() != settings::samples_point_sets(now)) wrong = "point sets";
   }
   if (!wrong.empty())
     throw FileError(fmt::format(

@@ -11,10 +11,12 @@
 #include "bench/precision/precision.h"
 #include "bench/rays/rays.h"
 #include "bench/remedies/remedies.h"
+#include "bench/roulette/roulette.h"
 #include "bench/sampling/sampling.h"
 #include "bench/scenes/scenes.h"
 #include "bench/stability/stability.h"
 #include "bench/stability/stability_scene.h"
+#include "bench/techniques/techniques.h"
 #include "cli/grammar.h"
 #include "cli/interrupt.h"
 #include "errors.h"
@@ -51,16 +53,30 @@ void add_scene_files(CLI::App& app, const std::string& defaults, std::vector<std
              [&files](const std::string& text) { files.emplace_back(text); });
 }
 
-// Replaces the default strategies.
-void add_strategies(CLI::App& app, std::vector<std::string>& strategies) {
+// An option that may be repeated, whose names replace the default ones.
+void add_names(CLI::App& app, const std::string& option, const std::string& help,
+               const std::vector<std::string>& names, std::vector<std::string>& chosen) {
   const auto named = std::make_shared<bool>(false);
-  add_values(app, "--strategy", "NAME", "directional sampling strategy; may be repeated; default: exact",
-             [&strategies, named](const std::string& text) {
-               const auto& names = render::strategy_names();
-               if (!*named) strategies.clear();
+  add_values(app, option, "NAME",
+             fmt::format("{}; may be repeated; default: {}", help, fmt::join(chosen, ", ")),
+             [&chosen, &names, option, named](const std::string& text) {
+               if (!*named) chosen.clear();
                *named = true;
-               strategies.push_back(names[settings::choice("--strategy", text, names)]);
+               chosen.push_back(names[settings::choice(option, text, names)]);
              });
+}
+
+void add_strategies(CLI::App& app, std::vector<std::string>& strategies) {
+  add_names(app, "--strategy", "directional sampling strategy", render::strategy_names(), strategies);
+}
+
+// Samples per pixel and round, where rays are counted and nothing is timed.
+void add_samples(CLI::App& app, int& samples) {
+  add_value(app, "--samples", "N", "samples per pixel and round; default: 64, or 16 with --quick",
+            [&samples](const std::string& text) {
+              constexpr std::uint64_t most = 1'000'000;
+              samples = static_cast<int>(settings::whole_number("--samples", text, 1, most));
+            });
 }
 
 // Render time and image size.
@@ -256,6 +272,44 @@ void add_remedies(CLI::App& bench, std::optional<Command>& command) {
   measure_by(bench::measure_remedies, app, command, options);
 }
 
+void add_roulette(CLI::App& bench, std::optional<Command>& command) {
+  CLI::App& app = *bench.add_subcommand(
+      "roulette", "Measures variance x rays of whole renders for each Russian roulette: roulette.csv");
+  const auto options = std::make_shared<bench::RouletteOptions>();
+  add_common(app, *options);
+  add_scene_files(app, "scenes/*.xml, without the furnaces", options->scenes);
+  add_names(app, "--integrator", "integrator", settings::integrator_names(), options->integrators);
+  add_names(app, "--roulette", "roulette, from edges 1 and 5", render::roulette_names(), options->roulettes);
+  add_strategies(app, options->strategies);
+  add_samples(app, options->samples);
+  app.add_flag("--quick", options->quick, "smaller images, fewer samples and rounds");
+  add_seed(app, "the first round", options->seed);
+  measure_by(bench::measure_roulette, app, command, options);
+}
+
+void add_techniques(CLI::App& bench, std::optional<Command>& command) {
+  CLI::App& app = *bench.add_subcommand("techniques",
+                                        "Measures which techniques (s, t) of bidir or light bring the light, "
+                                        "the variance and the rays: techniques.csv");
+  const auto options = std::make_shared<bench::TechniquesOptions>();
+  add_common(app, *options);
+  add_scene_files(app, "scenes/*.xml", options->scenes);
+  add_value(app, "--integrator", "NAME", "bidir or light; default: bidir",
+            [options](const std::string& text) {
+              const std::vector<std::string> names = {"bidir", "light"};
+              options->integrator = names[settings::choice("--integrator", text, names)];
+            });
+  add_value(app, "--weights", "NAME", "of bidir: balance, power or uniform; default: balance",
+            [options](const std::string& text) {
+              const auto& names = render::weights_names();
+              options->weights = names[settings::choice("--weights", text, names)];
+            });
+  add_samples(app, options->samples);
+  app.add_flag("--quick", options->quick, "smaller images, fewer samples and rounds");
+  add_seed(app, "the first round", options->seed);
+  measure_by(bench::measure_techniques, app, command, options);
+}
+
 void add_figures(CLI::App& bench, std::optional<Command>& command) {
   CLI::App& app = *bench.add_subcommand(
       "figures",
@@ -325,6 +379,8 @@ void add_bench(CLI::App& program, std::optional<Command>& command) {
   add_arithmetic(app, command);
   add_precision(app, command);
   add_remedies(app, command);
+  add_roulette(app, command);
+  add_techniques(app, command);
   add_figures(app, command);
   add_stability(app, command);
 }

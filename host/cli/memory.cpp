@@ -48,7 +48,7 @@ double memory_needed(double pixels, const settings::Settings& settings, const Ou
   constexpr double preview = 6, contribution = 36; // bytes per pixel while one is written
   const settings::IntegratorInfo& integrator = settings::integrator_named(settings.integrator);
   const double film = film::Film::bytes(pixels, integrator.eye_paths ? 1 : 0, integrator.light_paths ? 1 : 0,
-                                        techniques(settings));
+                                        settings::samples_point_sets(settings) ? 1 : 0, techniques(settings));
   return film +
          pixels * std::max(outputs.preview.empty() ? 0 : preview, settings.techniques ? contribution : 0);
 }

@@ -9,6 +9,7 @@
 #include "files/merge.h"
 #include "files/output.h"
 #include "printable.h"
+#include "terminal.h"
 
 namespace phlux::cli {
 
@@ -16,14 +17,15 @@ int merge(const MergeOptions& options) {
   if (options.images.size() < 2)
     throw UsageError(
         fmt::format("merge {}: one image: two or more are merged", options.images.front().string()));
+  reject_inputs({options.output}, options.images);
   files::check_writable(options.output);
   files::Merger merger;
   for (const std::filesystem::path& file : options.images) merger.add(file.string(), files::read_exr(file));
   for (const std::string& note : merger.notes()) spdlog::warn("{}", with_options(note));
   const files::Image image = merger.result();
   warn_of_nonfinite(options.output, files::write_exr(options.output, image));
-  fmt::print("{}: {}x{}, {:.6g} samples per pixel of {} images\n", printable(options.output.string()),
-             image.width, image.height, image.info.samples, options.images.size());
+  say("{}: {}x{}, {:.6g} samples per pixel of {} images\n", printable(options.output.string()), image.width,
+      image.height, image.info.samples, options.images.size());
   return 0;
 }
 

@@ -10,6 +10,8 @@
 
 #include <fmt/format.h>
 
+#include "terminal.h"
+
 namespace phlux::cli {
 namespace {
 
@@ -85,16 +87,16 @@ void ProgressDisplay::update(const render::Progress& progress, const std::functi
 }
 
 void ProgressDisplay::clear() {
-  if (line_is_shown_) fmt::print(stderr, "\r\x1b[K");
+  if (line_is_shown_) tell("\r\x1b[K");
   line_is_shown_ = false;
 }
 
 void ProgressDisplay::show(const std::string& text) {
   if (!terminal_) {
-    fmt::print(stderr, "phlux: {}\n", text);
+    tell("phlux: {}\n", text);
     return;
   }
-  fmt::print(stderr, "\r\x1b[K{}", text);
+  tell("\r\x1b[K{}", text);
   std::fflush(stderr);
   line_is_shown_ = true;
 }

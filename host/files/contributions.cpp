@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <regex>
 
 #include <fmt/format.h>
 
@@ -100,6 +101,14 @@ NonFinite write_contributions(const std::filesystem::path& folder, film::Film& f
   }
   write_png(folder / "contributions.png", rows_of(sheet.image()));
   return not_finite;
+}
+
+bool is_contribution(const std::filesystem::path& folder, const std::filesystem::path& file) {
+  static const std::regex name(R"(s\d+-t\d+(-unweighted)?\.exr|contributions\.png)");
+  std::error_code error;
+  const std::filesystem::path there = std::filesystem::canonical(file, error);
+  return !error && std::regex_match(there.filename().string(), name) &&
+         std::filesystem::equivalent(folder, there.parent_path(), error);
 }
 
 } // namespace phlux::files

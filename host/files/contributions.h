@@ -15,4 +15,7 @@ namespace phlux::files {
 /// that are not finite in all of them. @throws WriteError
 NonFinite write_contributions(const std::filesystem::path& folder, film::Film& film, const RenderInfo& info);
 
+/// Whether write_contributions() may replace `file`: its name is that of a contribution in `folder`.
+[[nodiscard]] bool is_contribution(const std::filesystem::path& folder, const std::filesystem::path& file);
+
 } // namespace phlux::files

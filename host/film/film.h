@@ -37,6 +37,20 @@ struct Pixel {
   }
 };
 
+/// Sums over the blocks of a pixel, where samples of a block are not independent.
+struct BlockMoments {
+  std::array<double, 3> squares{};  ///< of the sums of blocks
+  std::array<double, 3> weighted{}; ///< sums of blocks x their numbers of samples
+  double squared_samples = 0.0;     ///< of the numbers of samples
+
+  void add(const BlockSum& block, std::uint32_t samples);
+
+  template<class Archive>
+  void serialize(Archive& archive) {
+    archive(squares, weighted, squared_samples);
+  }
+};
+
 /// Sums over the splats onto a pixel by paths of other pixels; each square is of the sum of one path's
 /// splats. Aligned to a cache line, as splats have no locality.
 struct alignas(64) Splats {
@@ -58,10 +72,10 @@ public:
   /// Black, without samples. Both sizes > 0.
   Film(int width, int height);
   /// Bytes of memory of a film with these numbers of pixels, of sums of samples (0 or 1 per pixel), of splats
-  /// (0 or 1), and of techniques.
-  [[nodiscard]] static double bytes(double pixels, int samples, int splats, int techniques) {
+  /// (0 or 1), of blocks of dependent samples (0 or 1), and of techniques.
+  [[nodiscard]] static double bytes(double pixels, int samples, int splats, int blocks, int techniques) {
     return pixels * (samples * double{sizeof(Pixel)} + splats * double{sizeof(Splats)} +
-                     techniques * Techniques::bytes_per_pixel);
+                     blocks * double{sizeof(BlockMoments)} + techniques * Techniques::bytes_per_pixel);
   }
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
@@ -109,6 +123,11 @@ public:
   void add_splatting_paths(std::uint64_t paths);
   [[nodiscard]] bool splats() const { return !splats_.empty(); }
 
+  /// Samples of a block are not independent of each other, but blocks are: variances are estimated from the
+  /// sums of blocks. To be called before the first add().
+  void use_dependent_samples() { blocks_of_pixels_.resize(pixels_.size()); }
+  [[nodiscard]] bool dependent_samples() const { return !blocks_of_pixels_.empty(); }
+
   /// Also records the contributions of each technique from here on.
   void use_techniques() {
     if (!techniques_) techniques_.emplace(pixels_.size());
@@ -155,10 +174,13 @@ public:
   void serialize(Archive& archive) {
     archive(unit_);
     for (Pixel& pixel : pixels_) archive(pixel);
-    bool with_splats = splats(), with_techniques = techniques_.has_value();
+    bool with_splats = splats(), with_techniques = techniques_.has_value(), dependent = dependent_samples();
     archive(with_splats);
     if (with_splats && !splats()) use_splats();
     for (Splats& splats : splats_) archive(splats);
+    archive(dependent);
+    if (dependent && !dependent_samples()) use_dependent_samples();
+    for (BlockMoments& blocks : blocks_of_pixels_) archive(blocks);
     archive(splatting_paths_, own_samples_, blocks_, squared_block_samples_, evidence_, clamp_, clamped_,
             clamped_of_splats_, with_techniques);
     if (!with_techniques) return;
@@ -175,6 +197,10 @@ private:
   void count_splat(std::size_t pixel, double square, double sum);
   [[nodiscard]] double splatting_paths_per_pixel() const;
   [[nodiscard]] double equal_blocks_per_pixel() const;
+  // Of independent values, sum over them of (value - number of samples x mean of the pixel)^2.
+  [[nodiscard]] double squared_deviations(std::size_t pixel, std::size_t channel) const;
+  [[nodiscard]] double variance_of_own(std::size_t pixel, std::size_t channel) const;
+  [[nodiscard]] bool has_variance(std::size_t pixel) const;
   [[nodiscard]] double variance_of_squares(const Pixel& own, double squares, double mean) const;
   [[nodiscard]] double mean_in_units(std::size_t pixel, std::size_t channel) const;
   [[nodiscard]] double variance_in_units(std::size_t pixel, std::size_t channel) const;
@@ -185,6 +211,8 @@ private:
   double unit_ = 1.0;
   std::vector<Pixel, ZeroedMemory<Pixel>> pixels_;
   std::vector<Splats, ZeroedMemory<Splats>> splats_; ///< empty where nothing splats
+  std::vector<BlockMoments, ZeroedMemory<BlockMoments>>
+      blocks_of_pixels_; ///< empty where samples are independent
   std::uint64_t splatting_paths_ = 0, own_samples_ = 0, blocks_ = 0;
   double squared_block_samples_ = 0.0; ///< sum over blocks of samples^2
   Evidence evidence_;

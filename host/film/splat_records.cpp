@@ -101,7 +101,7 @@ void SplatFolder::fold_techniques(const SplatRecords& records, Film& film) {
     if (!std::isfinite(value[0] + value[1] + value[2])) continue;
     film.techniques()->add({technique >> 16, technique & 0xffff}, static_cast<std::size_t>(pixels[i]), value,
                            weight);
-    if (own) pixels[i] = merged;
+    if (own || value == std::array<double, 3>{}) pixels[i] = merged;
   }
 }
 

@@ -13,6 +13,7 @@ void Techniques::add(Technique technique, std::size_t pixel, const std::array<do
     sums.weighted.resize(pixels_);
     sums.unweighted.resize(pixels_);
   }
+  ++sums.contributions;
   for (std::size_t channel = 0; channel < 3; ++channel) {
     sums.weighted[pixel][channel] += weight * radiance[channel];
     sums.unweighted[pixel][channel] += radiance[channel];

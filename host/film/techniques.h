@@ -28,6 +28,7 @@ public:
   /// Sums over all paths, row by row from the top.
   struct Sums {
     std::vector<std::array<double, 3>> weighted, unweighted;
+    std::uint64_t contributions = 0; ///< occluded ones included: the shadow rays, where s > 0
   };
   static constexpr double bytes_per_pixel = 2 * 3 * sizeof(double); ///< of one technique
 
@@ -51,6 +52,7 @@ public:
         image->resize(pixels_);
         for (std::array<double, 3>& pixel : *image) archive(pixel);
       }
+      archive(sums.contributions);
     }
     archive(left_out_);
   }

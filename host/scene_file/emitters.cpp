@@ -5,6 +5,7 @@
 #include <glm/gtx/component_wise.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "scene_file/environment_map.h"
 #include "scene_file/properties.h"
 #include "scene_file/transform.h"
 
@@ -84,12 +85,23 @@ void read_directional(Properties& properties, scene::Scene& scene) {
   if (emits(properties, light.irradiance)) scene.directional_lights.push_back(light);
 }
 
+/// As in Mitsuba, a scene has at most one.
+void check_only_sky(const Properties& properties, const scene::Scene& scene) {
+  if (scene.constant_radiance || scene.environment)
+    fail(properties.element().where, "a second constant or envmap emitter", "give one, with their sum");
+}
+
 void read_constant(Properties& properties, scene::Scene& scene) {
   const Rgb radiance = emission(properties, "radiance");
   properties.pass_over({"to_world"});
-  if (scene.constant_radiance)
-    fail(properties.element().where, "a second constant emitter", "give one, with their sum");
+  check_only_sky(properties, scene);
   if (emits(properties, radiance)) scene.constant_radiance = radiance;
+}
+
+void read_envmap(Properties& properties, scene::Scene& scene) {
+  check_only_sky(properties, scene);
+  scene::EnvironmentMap map = read_environment_map(properties);
+  if (emits(properties, map.scale)) scene.environment = std::move(map);
 }
 
 } // namespace
@@ -106,11 +118,16 @@ void read_emitter(const Element& emitter, const Document& document, scene::Scene
     read_directional(properties, scene);
   else if (type == "constant")
     read_constant(properties, scene);
+  else if (type == "envmap")
+    read_envmap(properties, scene);
+  else if (type == "sky" || type == "sun" || type == "sunsky")
+    fail(emitter.where, emitter.name() + " is not supported",
+         "render it alone in Mitsuba by a spherical sensor, and give the image to an envmap");
   else if (type == "area")
     fail(emitter.where, emitter.name() + " outside a shape", "it must stand inside the <shape> that emits");
   else
     fail(emitter.where, emitter.name() + " is not supported",
-         "supported are area, point, spot, directional, constant");
+         "supported are area, point, spot, directional, constant, envmap");
   properties.finish();
 }
 

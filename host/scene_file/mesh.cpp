@@ -111,19 +111,22 @@ std::string read_bytes(const MeshRequest& request) {
   return std::move(*bytes);
 }
 
-scene::Mesh finish_mesh(scene::Mesh mesh, const MeshRequest& request, std::size_t incomplete) {
+scene::Mesh finish_mesh(MeshPart part, const MeshRequest& request) {
   const Location file{std::make_shared<const std::string>(request.file.string()), 0};
-  if (mesh.triangles.empty() && incomplete == 0) fail(file, "the mesh has no triangles", "at least one face");
-  if (request.face_normals) mesh.normals.clear();
+  const bool no_normals = request.face_normals || part.face_normals;
+  Mesh& mesh = part.mesh;
+  if (mesh.triangles.empty() && part.incomplete == 0)
+    fail(file, "the mesh has no triangles", "at least one face");
+  if (no_normals) mesh.normals.clear();
   transform(mesh, request, file);
   const auto flat = std::erase_if(mesh.triangles, [&mesh](const Triangle& t) { return !has_area(mesh, t); });
-  if (incomplete > 0)
-    warn(file, std::to_string(incomplete) + " faces with fewer than three corners are dropped");
+  if (part.incomplete > 0)
+    warn(file, std::to_string(part.incomplete) + " faces with fewer than three corners are dropped");
   if (flat > 0) warn(file, std::to_string(flat) + " zero-area triangles are dropped");
   if (!mesh.normals.empty()) orient_by_normals(mesh);
-  if (!request.face_normals) compute_missing_normals(mesh);
+  if (!no_normals) compute_missing_normals(mesh);
   if (request.flip_normals) flip(mesh);
-  return mesh;
+  return std::move(mesh);
 }
 
 } // namespace phlux::scene_file

@@ -41,19 +41,17 @@ public:
       : request_(request), bytes_(read_bytes(request)),
         rest_(bytes_), where_{std::make_shared<const std::string>(request.file.string()), 1} {}
 
-  /// In object space. `incomplete` counts faces with fewer than three corners, which are left out.
-  scene::Mesh mesh(std::size_t& incomplete) {
+  MeshFile contents() {
     while (!rest_.empty()) {
       read_line();
       where_.line += static_cast<int>(1 + continued_lines_);
       continued_lines_ = 0;
     }
-    incomplete = incomplete_;
-    if (!any_normal_) mesh_.normals.clear();
     if (unknown_lines_ > 0)
       warn(first_unknown_, quoted(unknown_keyword_) + " is no line of a polygon mesh: " +
                                std::to_string(unknown_lines_) + " such lines are passed over");
-    return std::move(mesh_);
+    if (!part_.mesh.triangles.empty() || part_.incomplete > 0 || file_.parts.empty()) keep_part();
+    return std::move(file_);
   }
 
 private:
@@ -93,11 +91,15 @@ private:
     else if (keyword == "vn")
       normals_.emplace_back();
     else if (keyword == "vt")
-      ++texture_coordinates_;
+      texture_coordinate();
     else if (keyword == "f" || keyword == "fo") // fo: of version 2
       face();
     else if (keyword == "mtllib")
-      warn(where_, "materials of OBJ files are not read; the shape's bsdf is used");
+      file_.material_library = rest_of_line();
+    else if (keyword == "usemtl")
+      begin_material();
+    else if (keyword == "g" && request_.parts == ObjParts::by_groups)
+      end_part();
     else if (!has_no_polygons(keyword))
       pass_over(keyword);
     while (!word().empty()) {
@@ -105,10 +107,44 @@ private:
     skip_to_next_line();
   }
 
+  /// What follows on the line, which may contain blanks.
+  std::string rest_of_line() {
+    const auto text = rest_.substr(0, rest_.find_first_of("\r\n"));
+    const auto first = std::min(text.find_first_not_of(" \t"), text.size());
+    return std::string(text.substr(first, text.find_last_not_of(" \t") + 1 - first));
+  }
+
+  void begin_material() {
+    const std::string name = rest_of_line();
+    const bool splits = request_.parts >= ObjParts::by_materials ||
+                        (request_.parts == ObjParts::by_library_materials && !file_.material_library.empty());
+    if (splits && (name != part_.material || request_.parts == ObjParts::by_groups)) end_part();
+    part_.material = name;
+  }
+
+  /// Begins a part of the same material, unless this one has no triangles yet.
+  void end_part() {
+    if (part_.mesh.triangles.empty()) return;
+    const std::string material = part_.material;
+    keep_part();
+    part_ = {};
+    part_.material = material;
+  }
+
+  void keep_part() {
+    if (!any_normal_) part_.mesh.normals.clear();
+    if (!any_texture_coordinate_) part_.mesh.texture_coordinates.clear();
+    file_.parts.push_back(std::move(part_));
+    for (const auto position : touched_) first_use_[position] = {};
+    touched_.clear();
+    other_uses_.clear();
+    any_normal_ = any_texture_coordinate_ = false;
+  }
+
   /// Names, materials, smoothing groups, display attributes, points and lines.
   static bool has_no_polygons(std::string_view keyword) {
-    static constexpr std::array<std::string_view, 17> keywords{
-        "",  "g",  "o",     "s",   "usemtl",   "usemap",   "maplib",     "vp",       "p",
+    static constexpr std::array<std::string_view, 16> keywords{
+        "",  "g",  "o",     "s",   "usemap",   "maplib",   "vp",         "p",
         "l", "mg", "bevel", "lod", "c_interp", "d_interp", "shadow_obj", "trace_obj"};
     return std::ranges::find(keywords, keyword) != keywords.end();
   }
@@ -138,6 +174,23 @@ private:
     return result;
   }
 
+  /// u and, where it is not 0, v.
+  void texture_coordinate() {
+    ++texture_coordinate_count_;
+    if (!request_.texture_coordinates) return;
+    glm::dvec2 result(0.0);
+    for (int i = 0; i < 2; ++i) {
+      const auto text = word();
+      const auto value = parse_real(text);
+      if (!value && (i == 0 || !text.empty()))
+        fail(where_, "texture coordinate with " + quoted(text) + " for a number",
+             "finite numbers within single precision");
+      result[i] = value.value_or(0.0);
+    }
+    if (request_.flip_tex_coords) result.y = 1 - result.y;
+    texture_coordinates_.emplace_back(result);
+  }
+
   /// Index from 0 of `text`, which counts from 1, or backwards from -1.
   std::uint32_t index(std::string_view text, std::size_t count, const char* what) {
     const auto value = parse_integer(text);
@@ -159,7 +212,7 @@ private:
     const auto rest = text.substr(first + 1);
     const auto second = std::min(rest.find('/'), rest.size());
     if (second > 0)
-      result.texture = index(rest.substr(0, second), texture_coordinates_, "texture coordinate");
+      result.texture = index(rest.substr(0, second), texture_coordinate_count_, "texture coordinate");
     if (second + 1 < rest.size()) result.normal = index(rest.substr(second + 1), normals_.size(), "normal");
     return result;
   }
@@ -167,18 +220,27 @@ private:
   /// The mesh's vertex for this corner. As in Mitsuba, corners share a vertex if all their indices are equal,
   /// so that computed normals are not smooth across seams of the texture.
   std::uint32_t vertex(Corner corner) {
-    if (request_.face_normals) corner.texture = corner.normal = none;
-    if (corner.normal != none) corner.texture = none;
+    if (request_.face_normals) corner.normal = none;
+    const bool splits_normals = corner.normal == none && !request_.face_normals;
+    if (!request_.texture_coordinates && !splits_normals) corner.texture = none;
     first_use_.resize(positions_.size());
-    const auto created = static_cast<std::uint32_t>(mesh_.positions.size());
+    const auto created = static_cast<std::uint32_t>(part_.mesh.positions.size());
     FirstUse& first = first_use_[corner.position];
-    if (first.vertex == none) first = {created, corner.texture, corner.normal};
+    if (first.vertex == none) {
+      first = {created, corner.texture, corner.normal};
+      touched_.push_back(corner.position);
+    }
     const bool same = first.texture == corner.texture && first.normal == corner.normal;
     const std::uint32_t found = same ? first.vertex : other_uses_.try_emplace(corner, created).first->second;
     if (found != created) return found;
-    mesh_.positions.push_back(positions_[corner.position]);
+    part_.mesh.positions.push_back(positions_[corner.position]);
     any_normal_ |= corner.normal != none;
-    mesh_.normals.push_back(corner.normal == none ? glm::vec3(0.0f) : normals_[corner.normal]);
+    part_.mesh.normals.push_back(corner.normal == none ? glm::vec3(0.0f) : normals_[corner.normal]);
+    if (request_.texture_coordinates) {
+      any_texture_coordinate_ |= corner.texture != none;
+      part_.mesh.texture_coordinates.push_back(corner.texture == none ? glm::vec2(0.0f)
+                                                                      : texture_coordinates_[corner.texture]);
+    }
     return created;
   }
 
@@ -189,10 +251,10 @@ private:
     for (auto text = word(); !text.empty(); text = word(), ++corners) {
       const std::uint32_t current = vertex(corner(text));
       if (corners == 0) first = current;
-      if (corners >= 2) mesh_.triangles.push_back({first, previous, current});
+      if (corners >= 2) part_.mesh.triangles.push_back({first, previous, current});
       previous = current;
     }
-    if (corners < 3) ++incomplete_;
+    if (corners < 3) ++part_.incomplete;
   }
 
   struct FirstUse { ///< the first vertex of the mesh at a position
@@ -203,24 +265,25 @@ private:
   std::string bytes_;
   std::string_view rest_;
   Location where_;
-  std::size_t continued_lines_ = 0, texture_coordinates_ = 0, incomplete_ = 0;
-  bool any_normal_ = false;
+  std::size_t continued_lines_ = 0, texture_coordinate_count_ = 0;
+  bool any_normal_ = false, any_texture_coordinate_ = false;
   std::vector<Vec3> positions_;
   std::vector<glm::vec3> normals_;
-  std::vector<FirstUse> first_use_; ///< by position
+  std::vector<glm::vec2> texture_coordinates_; ///< empty unless the request wants them
+  std::vector<FirstUse> first_use_;            ///< by position
   std::unordered_map<Corner, std::uint32_t, CornerHash> other_uses_;
+  std::vector<std::uint32_t> touched_; ///< positions that the part has used
   std::size_t unknown_lines_ = 0;
   Location first_unknown_;
   std::string_view unknown_keyword_;
-  scene::Mesh mesh_;
+  MeshPart part_; ///< the one that is being read
+  MeshFile file_;
 };
 
 } // namespace
 
-scene::Mesh load_obj(const MeshRequest& request) {
-  std::size_t incomplete = 0;
-  scene::Mesh mesh = ObjReader(request).mesh(incomplete); // releases the reader's memory
-  return finish_mesh(std::move(mesh), request, incomplete);
+MeshFile load_obj(const MeshRequest& request) {
+  return ObjReader(request).contents();
 }
 
 } // namespace phlux::scene_file

@@ -49,6 +49,7 @@ std::string Parameters::substitute(const std::string& text, const Location& wher
     if (dollar == std::string_view::npos) return result;
     rest.remove_prefix(dollar + 1);
     const auto* longest = longest_match(rest);
+    any_unknown_ |= longest == nullptr;
     if (!longest)
       fail(where, "unknown parameter in '" + text + "'",
            "parameters are given by -D name=value or by an earlier <default>; known here: " +

@@ -28,6 +28,9 @@ public:
   /// @throws SceneError if no known name follows a $, or if the result is too long
   [[nodiscard]] std::string substitute(const std::string& text, const Location& where);
 
+  /// Whether substitute() has thrown.
+  [[nodiscard]] bool any_unknown() const { return any_unknown_; }
+
   /// @throws SceneError if a -D was never used, as when its name is misspelt
   void check_all_used(const Location& file) const;
 
@@ -39,6 +42,7 @@ private:
   std::map<std::string, std::string> defined_; ///< from -D alone
   std::set<std::string> used_;
   std::size_t substituted_ = 0; ///< characters
+  bool any_unknown_ = false;
 };
 
 } // namespace phlux::scene_file

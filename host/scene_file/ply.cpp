@@ -103,8 +103,9 @@ private:
 
 class PlyReader {
 public:
-  PlyReader(std::string_view bytes, const PlyHeader& header, const Location& where)
-      : header_(header), where_(where), numbers_(bytes, header, where) {}
+  PlyReader(std::string_view bytes, const PlyHeader& header, const Location& where,
+            const MeshRequest& request)
+      : header_(header), where_(where), request_(request), numbers_(bytes, header, where) {}
 
   /// In object space. `incomplete` counts faces with fewer than three corners, which are left out.
   scene::Mesh mesh(std::size_t& incomplete) {
@@ -156,13 +157,20 @@ private:
       for (const auto& property : element.properties) skip_property(property);
   }
 
+  static constexpr std::size_t row_numbers = 9; ///< x, y, z, nx, ny, nz, u, v and an ignored one
+
+  static std::size_t slot_of(const std::string& name) {
+    static constexpr std::array<std::string_view, 8> names{"x", "y", "z", "nx", "ny", "nz", "u", "v"};
+    if (name == "s" || name == "texture_u") return 6;
+    if (name == "t" || name == "texture_v") return 7;
+    return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
+  }
+
   void read_vertices(const PlyElement& element) {
-    static constexpr std::array<std::string_view, 6> names{"x", "y", "z", "nx", "ny", "nz"};
     std::vector<std::size_t> slots; // per property, index into `row`; the last one for ignored numbers
-    std::array<bool, names.size() + 1> given{};
+    std::array<bool, row_numbers> given{};
     for (const auto& property : element.properties) {
-      const auto slot = static_cast<std::size_t>(std::ranges::find(names, property.name) - names.begin());
-      slots.push_back(property.count_type ? names.size() : slot);
+      slots.push_back(property.count_type ? row_numbers - 1 : slot_of(property.name));
       given[slots.back()] = true;
     }
     if (!given[0] || !given[1] || !given[2])
@@ -170,7 +178,8 @@ private:
     const bool normals = given[3] && given[4] && given[5];
     mesh_.positions.reserve(element.rows);
     if (normals) mesh_.normals.reserve(element.rows);
-    std::array<double, names.size() + 1> row{};
+    with_uv_ = request_.texture_coordinates && given[6] && given[7];
+    std::array<double, row_numbers> row{};
     for (std::uint64_t i = 0; i < element.rows; ++i) {
       for (std::size_t p = 0; p < slots.size(); ++p) {
         const auto& property = element.properties[p];
@@ -183,13 +192,20 @@ private:
     }
   }
 
-  void add_vertex(const std::array<double, 7>& row, bool normals) {
+  void add_vertex(const std::array<double, row_numbers>& row, bool normals) {
     const auto index = mesh_.positions.size();
     for (std::size_t k = 0; k < 3; ++k)
       if (!(std::abs(row[k]) <= std::numeric_limits<float>::max()))
         fail(numbers_.where(), "vertex " + std::to_string(index) + " is not finite",
              "coordinates within single precision");
     mesh_.positions.emplace_back(row[0], row[1], row[2]);
+    if (with_uv_) {
+      const glm::vec2 uv(row[6], request_.flip_tex_coords ? 1 - row[7] : row[7]);
+      if (!std::isfinite(uv.x + uv.y))
+        fail(numbers_.where(), "texture coordinate " + std::to_string(index) + " is not finite",
+             "finite numbers");
+      mesh_.texture_coordinates.push_back(uv);
+    }
     if (!normals) return;
     const glm::vec3 normal(row[3], row[4], row[5]);
     if (!std::isfinite(normal.x + normal.y + normal.z))
@@ -233,6 +249,8 @@ private:
 
   const PlyHeader& header_;
   const Location& where_;
+  const MeshRequest& request_;
+  bool with_uv_ = false;
   PlyNumbers numbers_;
   std::uint64_t vertices_ = 0;
   std::size_t incomplete_ = 0;
@@ -241,14 +259,15 @@ private:
 
 } // namespace
 
-scene::Mesh load_ply(const MeshRequest& request) {
+MeshFile load_ply(const MeshRequest& request) {
   const Location where{std::make_shared<const std::string>(request.file.string()), 0};
-  std::string bytes = read_bytes(request);
+  const std::string bytes = read_bytes(request);
   const PlyHeader header = read_ply_header(bytes, where);
-  std::size_t incomplete = 0;
-  scene::Mesh mesh = PlyReader(bytes, header, where).mesh(incomplete);
-  std::string().swap(bytes); // releases the memory
-  return finish_mesh(std::move(mesh), request, incomplete);
+  MeshPart part;
+  part.mesh = PlyReader(bytes, header, where, request).mesh(part.incomplete);
+  MeshFile file;
+  file.parts.push_back(std::move(part));
+  return file;
 }
 
 } // namespace phlux::scene_file

@@ -19,7 +19,11 @@ namespace phlux::settings {
 
 enum class Connect { none, light, mis };        ///< direct light from hits, light samples, or both with MIS
 enum class Weights { balance, power, uniform }; ///< weights of bidirectional techniques (Veach 1997)
-enum class LightSelection { power, contribution }; ///< probabilities of lights for light samples
+enum class LightSelection { power, contribution };  ///< probabilities of lights for light samples
+enum class Sampler { independent, sobol, lattice }; ///< how the samples of a pixel are related
+/// Probability to survive Russian roulette: the sampling strategy's or model's own, the reflectivity of the
+/// vertex, kd + ks, in proportion to the throughput (survivors have throughput 1), or to more of it.
+enum class Roulette { strategy, reflectivity, kd_ks, throughput, efficiency };
 enum class Traversal { automatic, brute_force, bvh };
 
 struct Settings {
@@ -30,7 +34,9 @@ struct Settings {
   LightSelection light_selection = LightSelection::contribution; ///< path, bidir
   int connections = 2;     ///< bidir: mean number of connections made per path length, by roulette; 0: all
   bool techniques = false; ///< light, bidir: the film also records each technique's contributions
-  std::optional<double> ambient;      ///< path: radiance of a control variate (CW 197, 2.2, reference 15)
+  Roulette roulette = Roulette::strategy; ///< survival probability of Russian roulette
+  Sampler sampler = Sampler::independent; ///< path, bidir
+  std::optional<double> ambient;          ///< path: radiance of a control variate (CW 197, 2.2, reference 15)
   std::optional<double> clamp;        ///< largest contribution of a path to a pixel, a radiance; causes bias
   int samples_per_pixel = 4;          ///< ignored with a time limit or target error
   std::optional<double> time_limit;   ///< seconds of rendering
@@ -44,6 +50,7 @@ struct Settings {
   Traversal traversal = Traversal::automatic;
   std::filesystem::path kernel_dir; ///< empty: the embedded kernels
   double launch_seconds = 0.05;     ///< target duration of a launch
+  double pause_seconds = 1.0;       ///< until a device that failed is tried again
 };
 
 /// Whether eye subpaths take light samples, if there are lights.
@@ -56,6 +63,11 @@ struct Settings {
   return samples_lights(settings) && settings.light_selection == LightSelection::contribution;
 }
 
+/// Whether the samples of a pixel are points of sets.
+[[nodiscard]] inline bool samples_point_sets(const Settings& settings) {
+  return settings.sampler != Sampler::independent && integrator_named(settings.integrator).eye_paths;
+}
+
 /// Names of the values of Connect and Weights, in their order.
 [[nodiscard]] inline const std::vector<std::string>& connect_names() {
   static const std::vector<std::string> names = {"none", "light", "mis"};
@@ -63,6 +75,18 @@ struct Settings {
 }
 [[nodiscard]] inline const std::vector<std::string>& weights_names() {
   static const std::vector<std::string> names = {"balance", "power", "uniform"};
+  return names;
+}
+
+/// Names of the values of Sampler, in their order.
+[[nodiscard]] inline const std::vector<std::string>& sampler_names() {
+  static const std::vector<std::string> names = {"independent", "sobol", "lattice"};
+  return names;
+}
+
+[[nodiscard]] inline const std::vector<std::string>& roulette_names() { ///< of Roulette
+  static const std::vector<std::string> names = {"strategy", "reflectivity", "kd-ks", "throughput",
+                                                 "efficiency"};
   return names;
 }
 
@@ -104,6 +128,11 @@ struct Settings {
                       ": `contributions` shows every connection: leave out one of the two")
           .only_where(bidirectional,
                       " is for bidir alone: {} connects no vertices: leave it out or use `integrator` bidir"),
+      Setting("sampler", A::estimate, &Settings::sampler, OneOf{sampler_names()}, "NAME",
+              "path and bidir, random numbers of a pixel's samples: independent, or points of sets that fill "
+              "the space of paths more evenly: sobol (scrambled Sobol points) or lattice (shifted lattices)")
+          .only_where([](const Settings& s) { return integrator_named(s.integrator).eye_paths; },
+                      " is for path and bidir: light paths are independent: leave it out"),
       Setting("contributions", A::film, &Settings::techniques, Switch{"DIR"}, "", ""),
       Setting(
           "ambient", A::estimate, &Settings::ambient, Within{1e-30, 1e30}, "L",
@@ -120,6 +149,13 @@ struct Settings {
       Setting("rr-depth", A::estimate, &Settings::rr_depth, Depth{}, "N",
               "number of edges from which Russian roulette may end a path, -1: never")
           .or_scene(&Settings::rr_depth, &scene::RenderDefaults::rr_depth),
+      Setting(
+          "roulette", A::estimate, &Settings::roulette, OneOf{roulette_names()}, "NAME",
+          "what the probability to survive Russian roulette is: strategy (as the sampling strategy has it: "
+          "exact, the reflectivity; lobe-ks, kd + ks), reflectivity, kd-ks, throughput (as Mitsuba and "
+          "pbrt: survivors have throughput 1) or efficiency (twice the throughput)")
+          .only_where([](const Settings& s) { return s.rr_depth >= 0; },
+                      ": with `rr-depth` -1 there is no roulette: leave out one of the two"),
       Setting("spp", A::amount, &Settings::samples_per_pixel, Whole{1, most_samples}, "N",
               "samples per pixel (light: light paths per pixel of the image)")
           .or_scene(&Settings::samples_per_pixel, &scene::RenderDefaults::samples_per_pixel),

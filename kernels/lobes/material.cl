@@ -7,6 +7,20 @@
 
 #include "lobes/models.cl"
 #include "scene/scene.cl"
+#include "scene/textures.cl"
+
+// ROULETTE is one of these: what the probability to survive is in proportion to.
+#define ROULETTE_STRATEGY 0     // NAME_SURVIVAL of lobe.h: the reflectivity, unless the strategy knows only an estimate
+#define ROULETTE_REFLECTIVITY 1 // the reflectivity of the vertex
+#define ROULETTE_KD_KS 2        // kd + ks
+#define ROULETTE_THROUGHPUT 3   // throughput x reflectivity: survivors have throughput 1, as in Mitsuba and pbrt
+#define ROULETTE_EFFICIENCY 4   // the same x EFFICIENCY_FACTOR, or 1 where that is more
+#define ROULETTE_BY_THROUGHPUT (ROULETTE == ROULETTE_THROUGHPUT | ROULETTE == ROULETTE_EFFICIENCY)
+
+// The most efficient survival is the throughput times the ratio of sqrt(variance / cost) of the path from here on to that
+// of the whole path (Bolin and Meyer, An Error Metric for Monte Carlo Ray Tracing, 1997; Rath et al., EARS, 2022). This
+// ratio is taken to be a constant, the best of those measured in whole renders (bench/saved/ROULETTE.md).
+#define EFFICIENCY_FACTOR 2.0f
 
 // So that roulette ends every path, in a lossless room too.
 #define LARGEST_SURVIVAL 0.999f
@@ -26,28 +40,41 @@ static inline Mask has_model(Material m, int number) {
 
 #define WORD_OF(record, member)                                                                                        \
   (MATERIAL_HEADER + (int)((const __global float*)&(record)->member - (const __global float*)(record)))
+
+// The colour whose record begins at `word`: from its texture in the lanes of m that have one, elsewhere `recorded`.
+static inline Vec3 textured_colour(const Scene* scene, Int material, int word, TextureCoordinates at, Mask m,
+                                   Vec3 recorded) {
+  const Int number = gather_int(scene->texture_numbers + word, material * MATERIAL_WORDS) - 1;
+  const Mask textured = m & (number >= 0);
+  if (!any_lane(textured)) return recorded;
+  return vec_select(textured, texture_colour(scene, number, at, textured), recorded);
+}
+
 #define LOAD_COLOUR(name, otherwise, lowest, highest, meaning)                                                         \
   m.name = vec3(material_real(scene, index, WORD_OF(record, name[0])),                                                 \
                 material_real(scene, index, WORD_OF(record, name[1])),                                                 \
-                material_real(scene, index, WORD_OF(record, name[2])));
+                material_real(scene, index, WORD_OF(record, name[2])));                                                \
+  if (HAS_TEXTURES) m.name = textured_colour(scene, index, WORD_OF(record, name[0]), at, of_model, m.name);
 #define LOAD_NUMBER(name, otherwise, lowest, highest, meaning) LOAD_DERIVED(name)
 #define LOAD_DERIVED(name) m.name = material_real(scene, index, WORD_OF(record, name));
 // An index into a table must be valid in the lanes of other models too.
 #define LOAD_INDEX(name) m.name = of_model ? material_int(scene, index, WORD_OF(record, name)) : (Int)(0);
 #define LOAD_MODEL(number, model, Model, MODEL)                                                                        \
-  static inline Model load_##model(const Scene* scene, Int index, Mask of_model) {                                     \
+  static inline Model load_##model(const Scene* scene, Int index, TextureCoordinates at, Mask of_model) {              \
     const __global Model##Record* record = (const __global Model##Record*)(scene->materials + MATERIAL_HEADER);        \
     Model m;                                                                                                           \
     MODEL##_PARAMETERS(LOAD_COLOUR, LOAD_NUMBER) /**/                                                                  \
         MODEL##_DERIVED(LOAD_DERIVED, LOAD_INDEX) m.tables = scene->lobe_tables;                                       \
+    if (HAS_TEXTURES) m = MODEL##_TEXTURED(m);                                                                         \
     return m;                                                                                                          \
   }
 MODELS(LOAD_MODEL)
 
-static inline Material material_at(const Scene* scene, Int index) {
+// Material `index`, and its colours at these texture coordinates.
+static inline Material material_at(const Scene* scene, Int index, TextureCoordinates at) {
   Material m;
   m.model_number = MODEL_COUNT > 1 ? material_int(scene, index, MATERIAL_MODEL) : (Int)(0);
-#define LOAD_MATERIAL(number, model, Model, MODEL) m.model = load_##model(scene, index, has_model(m, number));
+#define LOAD_MATERIAL(number, model, Model, MODEL) m.model = load_##model(scene, index, at, has_model(m, number));
   MODELS(LOAD_MATERIAL)
   return m;
 }
@@ -86,12 +113,36 @@ static inline Vec3 material_reflectivity(Material m, Vec3 fixed) {
   return reflectivity;
 }
 
-// The probability with which the paths of `roulette` survive; all others do.
-static inline Real material_survival(Material m, Vec3 fixed, RandomDraws random, Mask roulette) {
+// ---- Russian roulette
+
+// As the model or its sampling strategy has it.
+static inline Real survival_by_strategy(Material m, Vec3 fixed, RandomDraws random) {
   Real survival = (Real)(LARGEST_SURVIVAL);
 #define SURVIVAL(number, model, Model, MODEL)                                                                          \
   survival = has_model(m, number) ? MODEL##_SURVIVAL(m.model, fixed, random) : survival;
   MODELS(SURVIVAL)
+  return survival;
+}
+
+// kd + ks of the Phong model is its reflectivity along the normal, where no part of the lobe is below the surface. A
+// model may reflect more elsewhere.
+static inline Real survival_by_kd_ks(Material m, Vec3 fixed) {
+  const Vec3 normal = vec3((Real)(0.0f), (Real)(0.0f), (Real)(1.0f));
+  return larger(vec_max(material_reflectivity(m, normal)), vec_max(material_reflectivity(m, fixed)));
+}
+
+// The probability with which the paths of `roulette` survive; all others do. `throughput` is that of the path up to this
+// vertex, relative to its beginning. The largest channel decides: with the channels' mean a path between red walls would
+// have infinite variance in red.
+static inline Real material_survival(Material m, Vec3 fixed, RandomDraws random, Vec3 throughput, Mask roulette) {
+  Real survival = (Real)(0.0f);
+  if (ROULETTE == ROULETTE_STRATEGY) survival = survival_by_strategy(m, fixed, random);
+  if (ROULETTE == ROULETTE_REFLECTIVITY) survival = vec_max(material_reflectivity(m, fixed));
+  if (ROULETTE == ROULETTE_KD_KS) survival = survival_by_kd_ks(m, fixed);
+  if (ROULETTE_BY_THROUGHPUT) {
+    const Real next = vec_max(vec_mul(throughput, material_reflectivity(m, fixed)));
+    survival = ROULETTE == ROULETTE_EFFICIENCY ? EFFICIENCY_FACTOR * next : next;
+  }
   return roulette ? smaller(survival, (Real)(LARGEST_SURVIVAL)) : (Real)(1.0f);
 }
 
@@ -105,8 +156,9 @@ typedef struct {
 } MaterialSample;
 
 // Roulette for the paths of `roulette`, then a sample of the model for those of `active` that survive it.
-static inline MaterialSample material_sample(Material m, Vec3 fixed, RandomDraws random, Mask roulette, Mask active) {
-  const Real u = uniform_real(random.words.x), survival = material_survival(m, fixed, random, roulette);
+static inline MaterialSample material_sample(Material m, Vec3 fixed, RandomDraws random, Vec3 throughput, Mask roulette,
+                                             Mask active) {
+  const Real u = uniform_real(random.words.x), survival = material_survival(m, fixed, random, throughput, roulette);
   const Real inverse_survival = 1.0f / survival;
   const Real choice = smaller(u * inverse_survival, (Real)(ONE_MINUS_EPSILON)); // uniform, of the paths that survive
   MaterialSample s;

@@ -89,7 +89,8 @@ __kernel void sample_squares(const __global float* materials, const __global flo
   sequence.sample = (Uint)(0u);
   sequence.seed = seed;
   const MaterialSample s =
-      material_sample(m, all_lanes_of(fixed), random_draws(sequence, (Uint)(2u)), ALL_LANES, inside);
+      material_sample(m, all_lanes_of(fixed), random_draws(sequence, (Uint)(2u)), vec_all((Real)(1.0f)), ALL_LANES,
+                      inside);
   const Mask goes_on = s.survives & (s.direction.z > 0.0f);
   scatter_real(values, 3 * element, s.direction.x, inside);
   scatter_real(values, 3 * element + 1, s.direction.y, inside);

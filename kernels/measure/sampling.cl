@@ -15,7 +15,8 @@ static inline Vec3 fixed_direction(const __global float* directions, int number)
 #define SAMPLED_BY_HEMISPHERE 2
 
 static inline MaterialSample sample_of(Material m, Vec3 fixed, RandomDraws random, Mask absorbing) {
-  if (SAMPLED_BY == SAMPLED_BY_MODEL) return material_sample(m, fixed, random, absorbing, ALL_LANES);
+  if (SAMPLED_BY == SAMPLED_BY_MODEL)
+    return material_sample(m, fixed, random, vec_all((Real)(1.0f)), absorbing, ALL_LANES);
   const Real u1 = uniform_real(random.words.y), u2 = uniform_real(random.words.z);
   MaterialSample s;
   s.direction = SAMPLED_BY == SAMPLED_BY_COSINE ? cosine_direction(u1, u2) : hemisphere_direction(u1, u2);

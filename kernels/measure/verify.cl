@@ -37,7 +37,7 @@ __kernel void sample_model(VERIFY_PARAMETERS, float fixed_x, float fixed_y, floa
   sequence.seed = seed;
   const Vec3 fixed = vec3((Real)(fixed_x), (Real)(fixed_y), (Real)(fixed_z));
   sample_to_planes(samples, material_sample(VERIFY_MATERIAL, fixed, random_draws(sequence, (Uint)(0u)),
-                                            roulette ? ALL_LANES : NO_LANES, ALL_LANES));
+                                            vec_all((Real)(1.0f)), roulette ? ALL_LANES : NO_LANES, ALL_LANES));
 }
 
 // The same for chosen first random words, four planes of them.
@@ -53,8 +53,8 @@ __kernel void drive_model(VERIFY_PARAMETERS, float fixed_x, float fixed_y, float
   random.words.z = words[PLANE(2)];
   random.words.w = words[PLANE(3)];
   const Vec3 fixed = vec3((Real)(fixed_x), (Real)(fixed_y), (Real)(fixed_z));
-  sample_to_planes(
-      samples, material_sample(VERIFY_MATERIAL, fixed, random, roulette ? ALL_LANES : NO_LANES, ALL_LANES));
+  sample_to_planes(samples, material_sample(VERIFY_MATERIAL, fixed, random, vec_all((Real)(1.0f)),
+                                            roulette ? ALL_LANES : NO_LANES, ALL_LANES));
 }
 
 // For pairs of directions (a, b), six planes. Ten planes: f_r with a fixed, f_r with b fixed, the density of b for a fixed

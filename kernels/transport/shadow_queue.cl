@@ -59,7 +59,8 @@ static inline ShadowRay shadow_rays_at(const ShadowQueue* queue, int at) {
   return shadow;
 }
 
-// Traces the first rays, one for each lane or what is left, and adds what is unoccluded.
+// Traces the first rays, one for each lane or what is left, and adds what is unoccluded. With RECORD_TECHNIQUES an occluded
+// ray adds 0, so that the host counts the rays of each technique.
 static inline void trace_shadow_rays(const Scene* scene, ShadowQueue* queue, Output* output) {
   const Mask waiting = LANE_NUMBERS < (Int)(queue->count);
   const ShadowRay shadow = shadow_rays_at(queue, 0);
@@ -71,7 +72,9 @@ static inline void trace_shadow_rays(const Scene* scene, ShadowQueue* queue, Out
   c.value = shadow.value;
   c.weight = shadow.weight;
   c.technique = shadow.technique;
-  if (any_lane(unoccluded)) add_contribution(output, c, unoccluded);
+  if (RECORD_TECHNIQUES) c.value = vec_select(unoccluded, c.value, vec_all((Real)(0.0f)));
+  const Mask added = RECORD_TECHNIQUES ? waiting : unoccluded;
+  if (any_lane(added)) add_contribution(output, c, added);
   queue->traced += (uint)min(queue->count, LANES);
 }
 

@@ -10,9 +10,12 @@
 #define WAITING_FIELDS(VECTOR, NUMBER, INTEGER, UNSIGNED)                                                              \
   VECTOR(ray.origin)                                                                                                   \
   VECTOR(ray.direction) VECTOR(throughput) INTEGER(path) UNSIGNED(sequence.pixel) UNSIGNED(sequence.sample)
+#define WAITING_FIELDS_OF_ROULETTE(VECTOR, NUMBER, INTEGER, UNSIGNED) NUMBER(begin)
 #define WAITING_FIELDS_OF_BIDIR(VECTOR, NUMBER, INTEGER, UNSIGNED) NUMBER(mis.d_vcm) NUMBER(light_cosine) INTEGER(light)
 #define WAITING_WORDS                                                                                                  \
-  (RECORD_WORDS_OF(WAITING_FIELDS) + (IS_BIDIR ? RECORD_WORDS_OF(WAITING_FIELDS_OF_BIDIR) : 0))
+  (RECORD_WORDS_OF(WAITING_FIELDS) +                                                                                   \
+   (ROULETTE_BY_THROUGHPUT ? RECORD_WORDS_OF(WAITING_FIELDS_OF_ROULETTE) : 0) +                                        \
+   (IS_BIDIR ? RECORD_WORDS_OF(WAITING_FIELDS_OF_BIDIR) : 0))
 
 typedef struct {
   LaneWords words[WAITING_WORDS];
@@ -33,6 +36,9 @@ static inline int wants_subpaths(const WaitingSubpaths* waiting, const Batch* ba
 static inline void put_subpaths(WaitingSubpaths* waiting, const Subpath* s, Mask m) {
   int word = 0;
   WAITING_FIELDS(PUT_VECTOR, PUT_NUMBER, PUT_INTEGER, PUT_UNSIGNED)
+  if (ROULETTE_BY_THROUGHPUT) {
+    WAITING_FIELDS_OF_ROULETTE(PUT_VECTOR, PUT_NUMBER, PUT_INTEGER, PUT_UNSIGNED)
+  }
   if (IS_BIDIR) {
     WAITING_FIELDS_OF_BIDIR(PUT_VECTOR, PUT_NUMBER, PUT_INTEGER, PUT_UNSIGNED)
   }
@@ -54,6 +60,9 @@ static inline Mask take_subpaths(WaitingSubpaths* waiting, Subpath* s, Mask idle
   waiting->count -= taken;
   int word = 0;
   WAITING_FIELDS(TAKE_VECTOR, TAKE_NUMBER, TAKE_INTEGER, TAKE_UNSIGNED)
+  if (ROULETTE_BY_THROUGHPUT) {
+    WAITING_FIELDS_OF_ROULETTE(TAKE_VECTOR, TAKE_NUMBER, TAKE_INTEGER, TAKE_UNSIGNED)
+  }
   s->edges = starting ? (Int)(0) : s->edges;
   s->delta = s->delta & !starting;
   if (IS_BIDIR) {

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "bench/common/methods/ranking.h"
 #include "bench/common/methods/scene_bench.h"
 #include "bench/common/methods/timed_render.h"
 #include "errors.h"
@@ -48,7 +49,7 @@ TEST_CASE("The standard error of the mean covers the radiance of a furnace at th
   for (std::uint64_t group = 0; group < groups; ++group) {
     std::vector<ImageEstimate> images;
     for (std::uint64_t seed = 0; seed < seeds; ++seed)
-      images.push_back(estimate_of(renderer.render_samples(group * seeds + seed, 64, {})));
+      images.push_back(estimate_of(renderer.render_samples(group * seeds + seed, 64, {}).film));
     for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
       std::vector<ImageEstimate> of_pixel;
       for (const ImageEstimate& image : images) of_pixel.push_back(pixel_of(image, pixel));
@@ -71,7 +72,7 @@ TEST_CASE("The variance between renders agrees with the variance estimated by th
   double of_films = 0;
   MethodRenderer renderer(scene, settings);
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
-    const film::Film film = renderer.render_samples(seed, samples, {});
+    const film::Film film = renderer.render_samples(seed, samples, {}).film;
     images.push_back(estimate_of(film));
     for (std::size_t pixel = 0; pixel < 144; ++pixel)
       for (const double variance : film.variance_of_mean(pixel))
@@ -131,6 +132,31 @@ TEST_CASE("A mean that differs from that of the reference is a bias, and the err
   }
 }
 
+// Half of the samples thrown away: each costs twice as much. Its rounds have other seeds, as a method of its
+// own would.
+TEST_CASE("A method made worse by two is slower, never tied") {
+  const scene::Scene scene = shipped("cornell-box", 16);
+  const auto measured = [&](std::uint64_t seed) {
+    SceneBenchSettings settings;
+    settings.seed = seed;
+    settings.seconds = 2;
+    SceneBench bench(scene, settings);
+    bench.try_methods({mis});
+    ReferenceImage reference = bench.reference();
+    return bench.measure(reference).front();
+  };
+  MethodResult worse = measured(100);
+  worse.method = {"path", "fold", "mis"};
+  for (RoundCost& round : worse.rounds) round.processor_seconds *= 2;
+  const std::vector<MethodResult> results = {measured(1), worse};
+  const auto costs = rank(results, CostClock::processor);
+  CAPTURE(costs[1].ratio, costs[1].low, costs[1].high);
+  CHECK(costs[0].rank == Rank::best);
+  CHECK(costs[1].rank == Rank::slower);
+  CHECK_THAT(answer_of(results, costs, 2),
+             Catch::StartsWith("-i path --connect mis needs the least time") && !Catch::Contains("tied"));
+}
+
 TEST_CASE("A scene that no method can render has no reference") {
   const scene::Scene scene = shipped("point-light", 8);
   SceneBenchSettings settings;
@@ -162,7 +188,8 @@ TEST_CASE("A render for a given time keeps intermediate images") {
   const ImageEstimate again = *renderer.render_one_sample(1).one_sample;
   CHECK(render.one_sample->radiance == again.radiance);
   CHECK(renderer.render_one_sample(2).one_sample->radiance != again.radiance);
-  CHECK(again.radiance == estimate_of(MethodRenderer(scene, settings).render_samples(1, 1, {})).radiance);
+  CHECK(again.radiance ==
+        estimate_of(MethodRenderer(scene, settings).render_samples(1, 1, {}).film).radiance);
   // A time that is too short for one sample per pixel still gives an image.
   MethodRenderer large(shipped("cornell-box", 256), settings);
   CHECK(large.render_for(1, 1e-6, {}, {}).samples_per_pixel() >= 1);

@@ -151,6 +151,8 @@ TEST_CASE("A checkpoint of another image is refused, naming what differs") {
   CHECK_THAT(refusal([](Settings& s) { s.clamp = 5.0; }), Contains("without `clamp`, not with `clamp` 5"));
   CHECK_THAT(refusal([](Settings& s) { s.max_depth = 3; }), Contains("`max-depth` -1"));
   CHECK_THAT(refusal([](Settings& s) { s.rr_depth = 3; }), Contains("`rr-depth` 5"));
+  CHECK_THAT(refusal([](Settings& s) { s.roulette = render::Roulette::kd_ks; }),
+             Contains("`roulette` strategy"));
   CHECK_THAT(refusal([](Settings& s) { s.seed = 8; }), Contains("`seed` 7"));
   CHECK_THAT(refusal([](Settings& s) { s.first_sample = 8; }), Contains("`first-sample` 0"));
   CHECK_THAT(refusal([](Settings& s) { s.double_precision = true; }), Contains("`precision` single"));
@@ -192,7 +194,7 @@ TEST_CASE("A forged state is refused, whatever number is wrong") {
     refuses("its position", [&](Checkpoint& c) { c.session.state.position.pixel = wrong; });
   for (const std::int64_t wrong : {std::int64_t{-1}, huge})
     refuses("its position", [&](Checkpoint& c) { c.session.state.position.sample = wrong; });
-  for (const int wrong : {0, -1, 17, 1 << 30})
+  for (const int wrong : {0, -1, 65, 1 << 30})
     refuses("its position", [&](Checkpoint& c) { c.session.state.position.block_samples = wrong; });
   for (const render::Launch wrong : {render::Launch{-1, 2, 0, 16},
                                      {6, 2, 0, 16},

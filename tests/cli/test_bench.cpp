@@ -23,6 +23,40 @@ TEST_CASE("phlux bench rays writes the contract's columns") {
     CHECK_THAT(outcome.out, Catch::Contains(kind));
 }
 
+TEST_CASE("phlux bench roulette and phlux bench techniques: rows, charts, and the answer last") {
+  const TemporaryFolder folder;
+  const Outcome roulette =
+      run({{"bench", "roulette", "--quick", "--samples", "4", "--scene", shipped("cornell-box"), "--out", ".",
+            "--integrator", "light", "--roulette", "kd-ks"},
+           folder.path(),
+           {},
+           {}});
+  CAPTURE(roulette.err);
+  const bool drawn = has_charts(roulette);
+  auto lines = lines_of(TemporaryFolder::read(folder / "roulette.csv"));
+  REQUIRE(lines.size() == 5); // the defaults, kd-ks twice, none
+  CHECK_THAT(lines[2], Catch::StartsWith("cornell-box,light,exact,kd-ks,1,"));
+  CHECK_THAT(lines[4], Catch::StartsWith("cornell-box,light,exact,none,-1,"));
+  for (const std::string& line : lines) CHECK(columns_of(line) == columns_of(lines[0]));
+  CHECK_THAT(roulette.out, Catch::Contains("\nlight: --r"));
+
+  const Outcome techniques = run(
+      {{"bench", "techniques", "--quick", "--samples", "4", "--scene", shipped("cornell-box"), "--out", "."},
+       folder.path(),
+       {},
+       {}});
+  CAPTURE(techniques.err);
+  CHECK(has_charts(techniques) == drawn);
+  lines = lines_of(TemporaryFolder::read(folder / "techniques.csv"));
+  REQUIRE(lines.size() > 10);
+  for (const std::string& line : lines) CHECK(columns_of(line) == columns_of(lines[0]));
+  CHECK_THAT(techniques.out,
+             Catch::Contains("\ncornell-box: (") && Catch::Contains(" of the variance; it brings "));
+  if (drawn)
+    for (const char* title : {"Russian roulette in whole renders", "Techniques of bidir balance"})
+      CHECK_THAT(TemporaryFolder::read(folder / "index.html"), Catch::Contains(title));
+}
+
 TEST_CASE("phlux bench sampling writes the contract's columns, a row for each strategy and case") {
   const TemporaryFolder folder;
   Invocation invocation{{"bench", "sampling", "--out", ".", "--samples", "1000", "--strategy", "exact",

@@ -55,6 +55,10 @@ TEST_CASE("phlux bench scenes writes the contract's columns, a row for each meth
   CHECK(sound >= 1);
   CHECK_THAT(outcome.out,
              Catch::Contains("furnace-sphere: ") && Catch::Contains("intervals are right together"));
+  const auto answers = lines_of(TemporaryFolder::read(folder / "out/scenes.verdict.txt"));
+  REQUIRE(answers.size() == 2);
+  CHECK_THAT(answers[0], Catch::StartsWith("furnace-sphere: "));
+  for (const std::string& answer : answers) CHECK_THAT(outcome.out, Catch::Contains(answer + "\n"));
   CHECK_THAT(lines[6], Catch::StartsWith("point-light,path,exact,none,"));
   CHECK(value_of(lines[6], columns, "verdict") == "refused"); // no path hits a point light
   const auto points = lines_of(TemporaryFolder::read(folder / "out/scenes-convergence.csv"));
@@ -67,6 +71,7 @@ TEST_CASE("phlux bench scenes writes the contract's columns, a row for each meth
   if (!has_charts(outcome)) return;
   const std::string html = TemporaryFolder::read(folder / "out/index.html");
   CHECK_THAT(html, Catch::Contains("point-light: speed and accuracy") && Catch::Contains("</svg>"));
+  for (const std::string& answer : answers) CHECK_THAT(html, Catch::Contains("<p>" + answer + "</p>"));
   for (const char* chart : {"overview", "furnace-sphere-convergence", "furnace-sphere-efficiency",
                             "furnace-sphere-times", "furnace-sphere-images", "furnace-sphere-errors"}) {
     const std::string name = std::string("out/scenes-") + chart;

@@ -45,6 +45,26 @@ TEST_CASE("furnace box: every depth cuts the series 1 + 1/2 + 1/4 + ... where it
   }
 }
 
+// With albedo 1/2 a path has 1 + 1/2 + 1/4 + ... = 2 edges on average. By efficiency the first reflection, at
+// throughput 1, is survived by LARGEST_SURVIVAL, and later ones, at throughput 1/2, by one half: 1 + .999
+// x 2. The number of edges has variance 2 or less.
+TEST_CASE("furnace box: every roulette keeps the energy, and ends paths as often as it says") {
+  const scene::Scene scene = shipped("furnace-box", 8, 8);
+  using render::Roulette;
+  for (const auto& [roulette, edges] :
+       {std::pair(Roulette::reflectivity, 2.0), std::pair(Roulette::kd_ks, 2.0),
+        std::pair(Roulette::throughput, 2.0), std::pair(Roulette::efficiency, 2.998)}) {
+    render::Settings with = settings_for(1024);
+    with.rr_depth = 1;
+    with.roulette = roulette;
+    CAPTURE(render::roulette_names()[static_cast<std::size_t>(roulette)]);
+    const Render box = render_of(scene, with);
+    check_agreement(estimate_of(box.film), uniform(box.film, {2, 2, 2}));
+    const auto paths = static_cast<double>(box.statistics.paths);
+    CHECK(std::abs(static_cast<double>(box.statistics.rays) / paths - edges) < 5 * std::sqrt(2 / paths));
+  }
+}
+
 TEST_CASE("furnace sphere: the reflectivity in every pixel, the sky around it") {
   const scene::Material material = test::phong(kd, ks, 50);
   scene::Scene scene = sphere_furnace(40, 16, material);

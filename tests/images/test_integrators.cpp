@@ -66,6 +66,27 @@ TEST_CASE("roulette changes no expectation of light and bidir") {
   }
 }
 
+// By throughput light subpaths begin at 1, whatever their power.
+TEST_CASE("every roulette leaves the expectation of light and bidir as it is, whatever the lights' power") {
+  scene::Scene scene = room({"rectangle", "constant"});
+  render::Settings with = settings_for(32);
+  const Repeated reference = repeated(scene, path, with);
+  with.rr_depth = 1;
+  using render::Roulette;
+  for (const Roulette roulette : {Roulette::kd_ks, Roulette::throughput, Roulette::efficiency})
+    for (const Method& method : weighted) {
+      CAPTURE(render::roulette_names()[static_cast<std::size_t>(roulette)], name_of(method));
+      with.roulette = roulette;
+      with.seed += 1000;
+      check_methods(repeated(scene, method, with), reference, tile);
+    }
+  const render::Settings of_light = by(light, with);
+  const std::uint64_t rays = render_of(scene, of_light).statistics.rays;
+  for (scene::AreaEmitter& emitter : scene.area_emitters) emitter.radiance *= 1024.0;
+  *scene.constant_radiance *= 1024.0;
+  CHECK(render_of(scene, of_light).statistics.rays == rays);
+}
+
 TEST_CASE("films of any shape, and a principal point off the centre") {
   scene::Scene scene = room({"rectangle", "sphere", "constant"});
   for (const auto& [width, height] : {std::pair(24, 8), std::pair(5, 31)}) {

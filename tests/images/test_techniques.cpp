@@ -63,6 +63,17 @@ TEST_CASE("the weighted images of all techniques add up to the image") {
   }
 }
 
+TEST_CASE("the contributions of techniques with light vertices are the shadow rays, occluded ones included") {
+  for (const std::string integrator : {"light", "bidir"}) {
+    CAPTURE(integrator);
+    Render image = rendered(integrator, 3);
+    std::uint64_t rays = 0;
+    for (const auto& [technique, sums] : image.film.techniques()->sums())
+      if (technique.light_vertices > 0) rays += sums.contributions;
+    CHECK(rays == image.statistics.shadow_rays);
+  }
+}
+
 TEST_CASE("bidir makes every path in every way") {
   Render image = rendered("bidir", 2);
   std::set<Technique> expected;

@@ -30,6 +30,8 @@ const std::map<std::string, std::string> other_texts = {{"integrator", "bidir"},
                                                         {"clamp", "1e-30"},
                                                         {"max-depth", "12"},
                                                         {"rr-depth", "-1"},
+                                                        {"roulette", "kd-ks"},
+                                                        {"sampler", "lattice"},
                                                         {"spp", "2147483647"},
                                                         {"time", "0.3"},
                                                         {"error", "1e+20"},
@@ -113,6 +115,8 @@ TEST_CASE("A choice that is of no use to the integrator is refused, saying why")
              Contains("`light-selection` is for light samples"));
   CHECK(refusal({{"connect", "light"}, {"light-selection", "power"}}) == "nothing");
   CHECK_THAT(refusal({{"integrator", "bidir"}, {"ambient", "1"}}), Contains("`ambient`: only paths"));
+  CHECK_THAT(refusal({{"roulette", "kd-ks"}, {"rr-depth", "-1"}}),
+             Contains("`rr-depth` -1 there is no roulette"));
 }
 
 TEST_CASE("Earlier choices fill in what is absent; how much to render is one choice") {

@@ -173,19 +173,34 @@ Estimate mean_of(std::span<const double> values) {
 }
 
 std::vector<double> variances_per_sample(Repeats repeats, const Reference& reference) {
-  assert(repeats.size() >= 2);
-  const auto count = static_cast<double>(repeats.size());
-  std::vector<double> variances(repeats.size());
+  return covariances_per_sample(repeats, repeats, reference);
+}
+
+std::vector<double> covariances_per_sample(Repeats a, Repeats b, const Reference& reference) {
+  assert(a.size() >= 2 && a.size() == b.size());
+  const auto count = static_cast<double>(a.size());
+  std::vector<double> covariances(a.size());
   for (std::size_t value = 0; value < reference.radiance.size(); ++value) {
-    const double middle = values_of(repeats, value).mean;
-    for (std::size_t i = 0; i < repeats.size(); ++i) {
-      const double d = repeats[i].radiance[value] - middle;
-      variances[i] += reference.weights[value] * repeats[i].samples[value / 3] * d * d;
-    }
+    const double middle_a = values_of(a, value).mean, middle_b = values_of(b, value).mean;
+    for (std::size_t i = 0; i < a.size(); ++i)
+      covariances[i] += reference.weights[value] * a[i].samples[value / 3] *
+                        (a[i].radiance[value] - middle_a) * (b[i].radiance[value] - middle_b);
   }
-  for (double& variance : variances)
-    variance *= count / (count - 1) / static_cast<double>(reference.radiance.size());
-  return variances;
+  for (double& covariance : covariances)
+    covariance *= count / (count - 1) / static_cast<double>(reference.radiance.size());
+  return covariances;
+}
+
+Estimate ratio_of(std::span<const double> a, std::span<const double> b) {
+  assert(a.size() >= 2 && a.size() == b.size());
+  const auto count = static_cast<double>(a.size());
+  const double sum_a = std::accumulate(a.begin(), a.end(), 0.0);
+  const double sum_b = std::accumulate(b.begin(), b.end(), 0.0);
+  std::vector<double> without; // one of the rounds
+  for (std::size_t i = 0; i < a.size(); ++i) without.push_back((sum_a - a[i]) / (sum_b - b[i]));
+  double squares = 0;
+  for (const double ratio : without) squares += std::pow(ratio - mean(without), 2);
+  return {sum_a / sum_b, std::sqrt(squares * (count - 1) / count), count - 1};
 }
 
 std::vector<double> image_means(Repeats repeats) {

@@ -68,6 +68,14 @@ struct Reference {
 /// repeats or more.
 [[nodiscard]] std::vector<double> variances_per_sample(Repeats repeats, const Reference& reference);
 
+/// The same for the covariance of two estimates of each pixel from the same renders, such as one technique
+/// and the sum of all.
+[[nodiscard]] std::vector<double> covariances_per_sample(Repeats a, Repeats b, const Reference& reference);
+
+/// Mean of a / mean of b, of figures from the same rounds, with a standard error by the jackknife over the
+/// rounds. Requires two rounds or more, and means of b that are not 0.
+[[nodiscard]] Estimate ratio_of(std::span<const double> a, std::span<const double> b);
+
 /// Mean radiance over pixels and channels of each repeat.
 [[nodiscard]] std::vector<double> image_means(Repeats repeats);
 

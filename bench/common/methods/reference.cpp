@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "bench/common/tables/csv.h"
 #include "errors.h"
 #include "files/exr.h"
 #include "files/json.h"
@@ -105,6 +106,15 @@ void write_reference(const std::filesystem::path& file, const std::string& setti
                                                        {"mean", reference.mean.value},
                                                        {"mean_standard_error", reference.mean.standard_error},
                                                        {"repeats", reference.repeats}}));
+}
+
+ReferenceImage saved_reference(const std::filesystem::path& file, const std::string& settings,
+                               const scene::Camera& camera, const std::function<ReferenceImage()>& make) {
+  if (auto saved = read_reference(file, settings)) return *saved;
+  const ReferenceImage reference = make();
+  make_folder(file.parent_path());
+  write_reference(file, settings, reference, camera);
+  return reference;
 }
 
 } // namespace phlux::bench

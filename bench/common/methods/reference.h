@@ -35,4 +35,10 @@ struct ReferenceImage {
 void write_reference(const std::filesystem::path& file, const std::string& settings,
                      const ReferenceImage& reference, const scene::Camera& camera);
 
+/// The reference in `file` if it was made with these settings; else make(), which is written there. Creates
+/// the folder. @throws as read_reference(), write_reference() and make()
+[[nodiscard]] ReferenceImage saved_reference(const std::filesystem::path& file, const std::string& settings,
+                                             const scene::Camera& camera,
+                                             const std::function<ReferenceImage()>& make);
+
 } // namespace phlux::bench

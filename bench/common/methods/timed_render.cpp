@@ -151,18 +151,18 @@ TimedRender MethodRenderer::render_one_sample(std::uint64_t seed) {
   return result;
 }
 
-film::Film MethodRenderer::render_samples(std::uint64_t seed, int samples,
-                                          const std::function<bool()>& interrupted) {
-  film::Film film(width_, height_);
+CountedRender MethodRenderer::render_samples(std::uint64_t seed, int samples,
+                                             const std::function<bool()>& interrupted) {
+  CountedRender result{film::Film(width_, height_), {}};
   render::Settings settings = settings_;
   settings.seed = seed;
   settings.samples_per_pixel = samples;
   bool stopped = false;
   render::Events events;
   events.progress = [&](const render::Progress&) { return !(stopped = interrupted && interrupted()); };
-  (void)renderer_.render(settings, film, events);
+  result.statistics = renderer_.render(settings, result.film, events);
   if (stopped) throw Interrupted{};
-  return film;
+  return result;
 }
 
 } // namespace phlux::bench

@@ -39,6 +39,16 @@ struct TimedRender {
   }
 };
 
+struct CountedRender {
+  film::Film film;
+  render::Statistics statistics;
+
+  [[nodiscard]] double rays_per_sample() const {
+    return static_cast<double>(statistics.rays + statistics.shadow_rays) /
+           static_cast<double>(statistics.paths);
+  }
+};
+
 /// Renders one scene by one method several times; its program and tables stay on the devices.
 class MethodRenderer {
 public:
@@ -55,8 +65,8 @@ public:
   [[nodiscard]] TimedRender render_one_sample(std::uint64_t seed);
 
   /// Renders `samples` per pixel. @throws Interrupted, and as render()
-  [[nodiscard]] film::Film render_samples(std::uint64_t seed, int samples,
-                                          const std::function<bool()>& interrupted);
+  [[nodiscard]] CountedRender render_samples(std::uint64_t seed, int samples,
+                                             const std::function<bool()>& interrupted);
 
 private:
   int width_, height_;

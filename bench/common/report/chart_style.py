@@ -168,6 +168,15 @@ def read(folder, name):
                 for row in csv.DictReader(file)]
 
 
+def read_verdict(folder, name):
+    """The lines of NAME.verdict.txt, the answers that the command prints; none without the file."""
+    path = os.path.join(folder, name + ".verdict.txt")
+    if not os.path.exists(path):
+        return []
+    with open(path, encoding="utf-8") as file:
+        return [line for line in file.read().split("\n") if line]
+
+
 def variant_of(row):
     """The entry of VARIANTS for a row."""
     return row.integrator if row.connect_or_weights == "-" else f"{row.integrator} {row.connect_or_weights}"
