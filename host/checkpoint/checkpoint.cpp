@@ -236,8 +236,12 @@ void write(const Session& session, const film::Film& film, std::ostream& to) {
     std::ostream rest(&buffer);
     const std::string first = session_bytes(session);
     rest << fmt::format("{:020}\n", first.size()) << first;
-    cereal::PortableBinaryOutputArchive archive(rest);
-    archive(std::int32_t{film.width()}, std::int32_t{film.height()}, film);
+    try {
+      cereal::PortableBinaryOutputArchive archive(rest);
+      archive(std::int32_t{film.width()}, std::int32_t{film.height()}, film);
+    } catch (const cereal::Exception&) { // which hides the stream's own error
+      rest.setstate(std::ios::badbit);
+    }
     if (!rest.flush()) to.setstate(std::ios::badbit);
   }
   to.seekp(begin) << digest.first_line();

@@ -124,6 +124,7 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
     throw UsageError("`clamp`: contributions of techniques are not clamped: leave out `contributions`");
   if (samples_point_sets(settings)) parts.sampler = settings.sampler;
   parts.ambient = settings.ambient.has_value();
+  if (parts.ambient) static_cast<void>(in_units("ambient", *settings.ambient, lights.unit));
   if (parts.ambient && parts.integrator != Integrator::path)
     throw UsageError("`ambient`: only paths from the eye can carry the ambient term: use `integrator` path");
   if (!lights.shines()) { // the image is black, and path tracing does not need a light
