@@ -27,6 +27,7 @@ constexpr NamedPart named_parts[] = {
     {&Parts::ellipses, "ellipses", "HAS_ELLIPSES"},
     {&Parts::spheres, "spheres", "HAS_SPHERES"},
     {&Parts::smooth_normals, "smooth_normals", "HAS_SMOOTH_NORMALS"},
+    {&Parts::strict_normals, "strict_normals", "HAS_STRICT_NORMALS"},
     {&Parts::two_sided, "two_sided", "HAS_TWO_SIDED"},
     {&Parts::black, "black", "HAS_BLACK"},
     {&Parts::light_planar, "light_planar", "HAS_PLANAR_LIGHTS"},
@@ -117,6 +118,7 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
   parts.ellipses = geometry.has_ellipses;
   parts.spheres = geometry.sphere_count > 0;
   parts.smooth_normals = !geometry.vertex_normals.empty();
+  parts.strict_normals = parts.smooth_normals && scene.strict_normals;
   const std::vector<scene::Material> materials = tables::used_materials(scene, geometry);
   parts.models = lobes::models_of(materials);
   for (const scene::Material& m : materials) {

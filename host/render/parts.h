@@ -24,7 +24,7 @@ struct Parts {
   bool hierarchy = false;
   bool double_precision = false; ///< kernels/lanes/lanes.h: Real is a double
   bool triangles = false, parallelograms = false, ellipses = false, spheres = false;
-  bool smooth_normals = false, two_sided = false, black = false;
+  bool smooth_normals = false, strict_normals = false, two_sided = false, black = false;
   std::vector<lobes::ModelPointer> models = {lobes::shipped("diffuse")}; ///< reflectance models
   bool light_planar = false, light_sphere = false, light_point = false, light_spot = false,
        light_directional = false, light_constant = false;

@@ -111,10 +111,10 @@ private:
 
 std::string digest(const Scene& scene) {
   const auto& [materials, area_emitters, patches, spheres, meshes, point_lights, spot_lights,
-               directional_lights, constant_radiance, camera, defaults] = scene;
+               directional_lights, constant_radiance, strict_normals, camera, defaults] = scene;
   Digest result;
   result.add(materials, area_emitters, patches, spheres, meshes, point_lights, spot_lights,
-             directional_lights, constant_radiance, camera);
+             directional_lights, constant_radiance, strict_normals, camera);
   return result.text();
 }
 

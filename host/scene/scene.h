@@ -40,8 +40,7 @@ struct Sphere {
 };
 
 /// Triangles that share vertices. The front side is counter-clockwise (along cross(p1 - p0, p2 - p0)); the
-/// loader has already reversed triangles and normals for flipNormals and for transforms that mirror, and
-/// dropped triangles without area.
+/// loader has already reversed triangles and normals for flipNormals, and dropped triangles without area.
 struct Mesh {
   std::vector<Vec3> positions;
   std::vector<glm::vec3> normals; ///< unit, one per position; empty: flat shading
@@ -100,6 +99,9 @@ struct Scene {
   std::vector<SpotLight> spot_lights;
   std::vector<DirectionalLight> directional_lights;
   std::optional<Rgb> constant_radiance; ///< the `constant` emitter
+  /// Mitsuba's strictNormals: directions that lie on different sides of the interpolated and the geometric
+  /// normal carry no light. Otherwise the interpolated normal alone decides on the side.
+  bool strict_normals = false;
   Camera camera;
   RenderDefaults defaults;
 };

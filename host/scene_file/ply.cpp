@@ -3,7 +3,6 @@
 // files.
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -32,6 +31,14 @@ public:
 
   double next(PlyType type) { return ascii() ? next_word() : next_binary(type); }
 
+  /// The number of entries of a list.
+  std::uint64_t next_count(PlyType type) {
+    const double count = next(type);
+    if (!(count >= 0.0 && count <= std::numeric_limits<std::uint32_t>::max() && count == std::floor(count)))
+      fail(where_, "a list of " + std::to_string(count) + " entries", "a whole number of 0 or more");
+    return static_cast<std::uint64_t>(count);
+  }
+
   void skip_blanks() {
     for (; at_ != end_ && (*at_ == ' ' || *at_ == '\t' || *at_ == '\r' || *at_ == '\n'); ++at_)
       if (*at_ == '\n') ++where_.line;
@@ -45,17 +52,13 @@ private:
   double next_word() {
     skip_blanks();
     if (at_ == end_) truncated();
-    double value = 0.0;
-    const auto [stopped, error] = std::from_chars(at_, end_, value);
-    const bool ended =
-        stopped == end_ || *stopped == ' ' || *stopped == '\t' || *stopped == '\r' || *stopped == '\n';
-    if (error != std::errc{} || !ended) {
-      const auto word_end =
-          std::find_if(at_, end_, [](char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r'; });
-      fail(where_, quoted({at_, word_end}) + " is not a number", "a finite number");
-    }
-    at_ = stopped;
-    return value;
+    const auto word_end =
+        std::find_if(at_, end_, [](char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r'; });
+    const std::string_view word(at_, word_end);
+    const auto value = parse_number(word);
+    if (!value) fail(where_, quoted(word) + " is not a number", "a finite number");
+    at_ = word_end;
+    return *value;
   }
 
   double next_binary(PlyType type) {
@@ -103,8 +106,8 @@ public:
   PlyReader(std::string_view bytes, const PlyHeader& header, const Location& where)
       : header_(header), where_(where), numbers_(bytes, header, where) {}
 
-  /// In object space. `dropped` counts faces with fewer than three corners.
-  scene::Mesh mesh(std::size_t& dropped) {
+  /// In object space. `incomplete` counts faces with fewer than three corners, which are left out.
+  scene::Mesh mesh(std::size_t& incomplete) {
     vertices_ = element("vertex").rows;
     static_cast<void>(element("face"));
     if (vertices_ >= std::numeric_limits<std::uint32_t>::max())
@@ -121,7 +124,7 @@ public:
     if (numbers_.ascii()) numbers_.skip_blanks();
     if (numbers_.bytes_left() > 0)
       fail(numbers_.where(), "data after the last row", "as many rows as the PLY header announces");
-    dropped = dropped_;
+    incomplete = incomplete_;
     return std::move(mesh_);
   }
 
@@ -143,8 +146,8 @@ private:
   }
 
   void skip_property(const PlyProperty& property) {
-    const double entries = property.count_type ? numbers_.next(*property.count_type) : 1.0;
-    for (double i = 0; i < entries; ++i) numbers_.next(property.type);
+    const std::uint64_t entries = property.count_type ? numbers_.next_count(*property.count_type) : 1;
+    for (std::uint64_t i = 0; i < entries; ++i) numbers_.next(property.type);
   }
 
   void skip(const PlyElement& element) {
@@ -213,9 +216,9 @@ private:
 
   /// A fan of triangles around the first corner, correct for convex polygons.
   void read_face(std::uint64_t row, const PlyProperty& property) {
-    const double corners = numbers_.next(*property.count_type);
+    const std::uint64_t corners = numbers_.next_count(*property.count_type);
     std::uint32_t first = 0, previous = 0;
-    for (double k = 0; k < corners; ++k) {
+    for (std::uint64_t k = 0; k < corners; ++k) {
       const double value = numbers_.next(property.type);
       if (!(value >= 0.0 && value < static_cast<double>(vertices_) && value == std::floor(value)))
         fail(numbers_.where(), "face " + std::to_string(row) + " has a vertex index out of range",
@@ -225,27 +228,28 @@ private:
       if (k >= 2) mesh_.triangles.push_back({first, previous, index});
       previous = index;
     }
-    if (corners < 3) ++dropped_;
+    if (corners < 3) ++incomplete_;
   }
 
   const PlyHeader& header_;
   const Location& where_;
   PlyNumbers numbers_;
   std::uint64_t vertices_ = 0;
-  std::size_t dropped_ = 0;
+  std::size_t incomplete_ = 0;
   scene::Mesh mesh_;
 };
 
 } // namespace
 
-scene::Mesh load_ply(const MeshRequest& request) {
+MeshFile load_ply(const MeshRequest& request) {
   const Location where{std::make_shared<const std::string>(request.file.string()), 0};
-  std::string bytes = read_bytes(request);
+  const std::string bytes = read_bytes(request);
   const PlyHeader header = read_ply_header(bytes, where);
-  std::size_t dropped = 0;
-  scene::Mesh mesh = PlyReader(bytes, header, where).mesh(dropped);
-  std::string().swap(bytes); // releases the memory
-  return finish_mesh(std::move(mesh), request, dropped);
+  MeshPart part;
+  part.mesh = PlyReader(bytes, header, where).mesh(part.incomplete);
+  MeshFile file;
+  file.parts.push_back(std::move(part));
+  return file;
 }
 
 } // namespace phlux::scene_file

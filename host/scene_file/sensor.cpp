@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <string>
@@ -13,8 +14,6 @@
 #include "scene_file/properties.h"
 #include "scene_file/transform.h"
 #include "scene_file/values.h"
-#include "settings/integrators.h"
-#include "settings/values.h"
 
 namespace phlux::scene_file {
 
@@ -43,7 +42,11 @@ void read_filter(const Element& filter, const Document& document) {
 
 void read_film(const Element& film, const Document& document, scene::Camera& camera) {
   Properties properties(film, document);
-  if (film.type() != "hdrfilm") fail(film.where, film.name() + " is not supported", "supported is hdrfilm");
+  static const std::set<std::string> films{"hdrfilm", "ldrfilm", "mfilm", "tiledhdrfilm", "specfilm"};
+  if (!films.contains(film.type()))
+    fail(film.where, film.name() + " is not supported",
+         "supported is hdrfilm; others of Mitsuba's become it");
+  if (film.type() != "hdrfilm") note(film.where, film.name() + " is read as hdrfilm: linear radiance in EXR");
   camera.width = positive(properties, "width", camera.width, largest_size);
   camera.height = positive(properties, "height", camera.height, largest_size);
   for (const auto& [name, whole] :
@@ -52,24 +55,18 @@ void read_film(const Element& film, const Document& document, scene::Camera& cam
     if (properties.integer(name, whole) != whole)
       properties.fail_at(name, "crop windows are not supported",
                          "leave the crop out to render the whole film");
-  properties.pass_over({"banner", "file_format", "pixel_format", "component_format", "channel_names",
-                        "attach_log", "high_quality_edges", "sample_border", "compensate"});
   if (const Element* filter = properties.object("rfilter")) read_filter(*filter, document);
+  properties.pass_over_rest();
   properties.finish();
 }
 
 void read_sampler(const Element& sampler, const Document& document, scene::RenderDefaults& defaults) {
-  static const std::set<std::string> samplers{"independent", "stratified", "multijitter", "orthogonal",
-                                              "ldsampler",   "halton",     "hammersley",  "sobol"};
-  if (!samplers.contains(sampler.type()))
-    fail(sampler.where, sampler.name() + " is not supported",
-         "independent, or another of Mitsuba's, for which it is used");
   if (sampler.type() != "independent")
     warn(sampler.where, sampler.name() + " is not supported; independent is used");
   Properties properties(sampler, document);
   defaults.samples_per_pixel =
       positive(properties, "sample_count", defaults.samples_per_pixel, std::numeric_limits<int>::max());
-  properties.pass_over({"seed", "dimension", "scramble", "jitter"});
+  properties.pass_over_rest();
   properties.finish();
 }
 
@@ -122,42 +119,19 @@ void read_sensor(const Element& sensor, const Document& document,
   if (sensor.type() != "perspective")
     fail(sensor.where, sensor.name() + " is not supported", "supported is perspective");
   scene::Camera& camera = scene.camera;
-  if (const Element* film = properties.object("film")) read_film(*film, document, camera);
+  if (const Element* film = properties.object("film"))
+    document.problems->attempt([&] { read_film(*film, document, camera); });
   if (size) {
     camera.width = (*size)[0];
     camera.height = (*size)[1];
   }
-  if (const Element* sampler = properties.object("sampler")) read_sampler(*sampler, document, scene.defaults);
+  if (const Element* sampler = properties.object("sampler"))
+    document.problems->attempt([&] { read_sampler(*sampler, document, scene.defaults); });
   place(properties, camera);
   camera.tan_half_fov_x = tan_half_fov_x(properties, static_cast<double>(camera.width) / camera.height);
   camera.principal_x = properties.real("principal_point_offset_x", 0.0);
   camera.principal_y = properties.real("principal_point_offset_y", 0.0);
   properties.pass_over({"near_clip", "far_clip", "shutter_open", "shutter_close", "focus_distance"});
-  properties.finish();
-}
-
-void read_integrator(const Element& integrator, const Document& document, scene::RenderDefaults& defaults) {
-  Properties properties(integrator, document);
-  const auto known =
-      std::ranges::find(settings::integrators, integrator.type(), &settings::IntegratorInfo::mitsuba_name);
-  if (known == settings::integrators.end()) {
-    std::vector<std::string> names;
-    for (const settings::IntegratorInfo& info : settings::integrators) names.emplace_back(info.mitsuba_name);
-    fail(integrator.where, integrator.name() + " is not supported",
-         "supported are " + settings::joined(names));
-  }
-  defaults.integrator = known->name;
-  for (const auto& [name, depth] :
-       {std::pair{"max_depth", &defaults.max_depth}, std::pair{"rr_depth", &defaults.rr_depth}}) {
-    *depth = properties.integer(name, *depth);
-    if (*depth < 1 && *depth != -1)
-      properties.fail_at(name, std::to_string(*depth) + " is out of range", "1 or more, or -1 for no bound");
-  }
-  properties.require("hide_emitters", false);
-  properties.require("strict_normals", false);
-  properties.pass_over(
-      {"light_image", "sample_direct", "granularity", "brute_force", "samples_per_pass", "timeout"});
-  properties.require("show_weighted", false);
   properties.finish();
 }
 

@@ -6,10 +6,12 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
+#include "scene_file/cylinder.h"
 #include "scene_file/emitters.h"
 #include "scene_file/mesh.h"
 #include "scene_file/properties.h"
 #include "scene_file/transform.h"
+#include "scene_file/values.h"
 
 namespace phlux::scene_file {
 
@@ -47,7 +49,8 @@ std::vector<Patch> cube(const glm::dmat4& to_world, bool flip) {
   return faces;
 }
 
-scene::Sphere sphere(Properties& properties, const glm::dmat4& to_world) {
+/// `own` is the transform of the shape, `to_world` with that of an instance in addition.
+scene::Sphere sphere(Properties& properties, const glm::dmat4& own, const glm::dmat4& to_world) {
   scene::Sphere result;
   Vec3 center = properties.vector("center").value_or(Vec3(0.0));
   const double radius = properties.real("radius", 1.0);
@@ -56,48 +59,91 @@ scene::Sphere sphere(Properties& properties, const glm::dmat4& to_world) {
   if (!is_similarity(to_world))
     properties.fail_at("to_world", "it would turn the sphere into an ellipsoid",
                        "a uniform scale, rotations, translations");
-  const double scale = glm::length(Vec3(to_world[0]));
-  if (properties.document().major_version == 0) center /= scale; // 0.x scales the radius but not the centre
+  // 0.x scales the radius but not the centre.
+  if (properties.document().major_version == 0) center /= glm::length(Vec3(own[0]));
   result.center = Vec3(to_world * glm::dvec4(center, 1.0));
-  result.radius = radius * scale;
+  result.radius = radius * glm::length(Vec3(to_world[0]));
   result.front_is_inside = properties.boolean("flip_normals", false);
   return result;
 }
 
-scene::Surface surface(Properties& properties, MaterialRules rules, scene::Scene& scene) {
-  const Document& document = properties.document();
-  const Element* bsdf = properties.object("bsdf");
-  const Element* emitter = properties.object("emitter");
-  // Mitsuba's default is grey 0.5, or black if the shape emits.
-  const scene::Material material =
-      bsdf ? read_material(*bsdf, document, rules) : lobes::diffuse(scene::Rgb(emitter ? 0.0 : 0.5));
-  scene::Surface result{share(scene.materials, material), -1};
-  if (!emitter) return result;
-  const scene::AreaEmitter area = read_area_emitter(*emitter, document);
-  if (area.radiance == scene::Rgb(0.0)) return result;
-  result.area_emitter = static_cast<int>(scene.area_emitters.size());
+/// What a shape refers to.
+struct Attached {
+  scene::Surface surface;
+  std::map<std::string, int> materials; ///< obj: by the names that `usemtl` gives
+  bool has_bsdf = false;                ///< one for the whole shape
+};
+
+/// Index of the material of `bsdf`; a material that cannot be read becomes a problem and black.
+int material_of(const Element& bsdf, const Document& document, const ShapeTarget& target) {
+  const auto [known, inserted] = target.materials.emplace(&bsdf, 0);
+  if (inserted)
+    document.problems->attempt([&, &index = known->second] {
+      index = share(target.scene.materials, read_material(bsdf, document, target.rules));
+    });
+  return known->second;
+}
+
+int area_emitter_of(const Element& emitter, const Document& document, scene::Scene& scene) {
+  const scene::AreaEmitter area = read_area_emitter(emitter, document);
+  if (area.radiance == scene::Rgb(0.0)) return -1;
   scene.area_emitters.push_back(area);
+  return static_cast<int>(scene.area_emitters.size()) - 1;
+}
+
+/// Mitsuba 0.x gives bsdfs with a name to the parts of an obj file that have this material.
+bool has_named_bsdfs(const Properties& properties) {
+  return properties.document().major_version == 0 && properties.element().type() == "obj";
+}
+
+Attached attached(Properties& properties, const ShapeTarget& target) {
+  const Document& document = properties.document();
+  Attached result;
+  if (!has_named_bsdfs(properties)) static_cast<void>(properties.object("bsdf")); // one alone
+  for (const auto& [name, bsdf] : properties.named_objects("bsdf")) {
+    const int material = material_of(*bsdf, document, target);
+    if (has_named_bsdfs(properties) && !name.empty() && name != "bsdf") {
+      result.materials[name] = material;
+      continue;
+    }
+    result.surface.material = material;
+    result.has_bsdf = true;
+    result.materials.clear(); // which came before: this one is for all parts
+  }
+  const Element* emitter = properties.object("emitter");
+  if (!result.has_bsdf) // Mitsuba's default is grey 0.5, or black if the shape emits
+    result.surface.material = share(target.scene.materials, lobes::diffuse(scene::Rgb(emitter ? 0.0 : 0.5)));
+  if (emitter)
+    document.problems->attempt(
+        [&] { result.surface.area_emitter = area_emitter_of(*emitter, document, target.scene); });
   return result;
 }
 
-void read_mesh_shape(Properties& properties, const glm::dmat4& to_world, const scene::Surface& surface,
-                     scene::Scene& scene) {
-  properties.pass_over({"collapse", "flip_tex_coords", "load_materials", "srgb"});
-  if (properties.integer("shape_index", -1) >= 0)
-    properties.fail_at("shape_index", "parts of files are not supported",
-                       "leave it out: the whole file is one mesh");
+void read_mesh_shape(Properties& properties, const glm::dmat4& to_world, const Attached& attached,
+                     const ShapeTarget& target) {
+  properties.pass_over({"flip_tex_coords", "srgb"});
   if (properties.string("filename", "").empty())
     fail(properties.element().where, properties.element().name() + " without a filename",
          "<string name=\"filename\" .../>");
-  MeshRequest request;
-  request.file = properties.document().file.parent_path() / properties.string("filename", "");
+  MeshShape shape{{}, attached.surface, attached.materials, false, target.in_instance};
+  MeshRequest& request = shape.request;
+  request.format = properties.element().type();
+  request.file = properties.document().find(properties.string("filename", ""));
   request.named_at = properties.where("filename");
   request.to_world = to_world;
   request.flip_normals = properties.boolean("flip_normals", false);
   request.face_normals = properties.boolean("face_normals", false);
-  scene::Mesh mesh = properties.element().type() == "obj" ? load_obj(request) : load_ply(request);
-  mesh.surface = surface;
-  if (!mesh.triangles.empty()) scene.meshes.push_back(std::move(mesh));
+  if (request.format != "ply") request.shape_index = properties.integer("shape_index", -1);
+  const bool collapse = properties.boolean("collapse", false);
+  const bool load_materials = properties.boolean("load_materials", true);
+  if (has_named_bsdfs(properties) && !collapse) {
+    shape.library_materials = load_materials && !attached.has_bsdf;
+    request.parts = request.shape_index >= 0      ? ObjParts::by_groups
+                    : !attached.materials.empty() ? ObjParts::by_materials
+                    : shape.library_materials     ? ObjParts::by_library_materials
+                                                  : ObjParts::one;
+  }
+  target.meshes.add(std::move(shape));
 }
 
 void read_patches(Properties& properties, const glm::dmat4& to_world, const scene::Surface& surface,
@@ -116,24 +162,65 @@ void read_patches(Properties& properties, const glm::dmat4& to_world, const scen
   properties.pass_over({"face_normals"});
 }
 
+void read_cylinder(Properties& properties, const glm::dmat4& to_world, const scene::Surface& surface,
+                   scene::Scene& scene) {
+  const Vec3 p0 = properties.vector("p0").value_or(Vec3(0.0));
+  const Vec3 p1 = properties.vector("p1").value_or(Vec3(0, 0, 1));
+  const double radius = properties.real("radius", 1.0);
+  if (!(radius > 0.0))
+    properties.fail_at("radius", std::to_string(radius) + " is not positive", "a radius above 0");
+  if (p0 == p1) properties.fail_at("p1", "it is the same point as p0", "another point");
+  MeshRequest request;
+  request.file = properties.element().where.text();
+  request.to_world = to_world;
+  request.flip_normals = properties.boolean("flip_normals", false);
+  properties.document().note_once(properties.element().where, cylinder_note);
+  scene.meshes.push_back(finish_mesh(cylinder(p0, p1, radius), request));
+  scene.meshes.back().surface = surface;
+}
+
+/// Reads the shapes of the group once more, transformed by `to_world`.
+void read_instance(Properties& properties, const glm::dmat4& to_world, const ShapeTarget& target) {
+  const Element* group = properties.object("shape");
+  if (target.in_instance || !group || group->type() != "shapegroup")
+    fail(properties.element().where,
+         properties.element().name() +
+             (target.in_instance ? " inside a shapegroup" : " without a reference to a shapegroup"),
+         "<ref id=\"...\"/> to a <shape type=\"shapegroup\">, which contains no instances");
+  Properties of_group(*group, properties.document());
+  ShapeTarget inside = target;
+  inside.to_world = to_world;
+  inside.in_instance = true;
+  for (const Element* shape : of_group.objects("shape"))
+    properties.document().problems->attempt([&] { read_shape(*shape, properties.document(), inside); });
+  of_group.finish();
+}
+
 } // namespace
 
-void read_shape(const Element& shape, const Document& document, MaterialRules rules, scene::Scene& scene) {
+void read_shape(const Element& shape, const Document& document, const ShapeTarget& target) {
   const std::string type = shape.type();
-  static const std::set<std::string> types{"rectangle", "cube", "disk", "sphere", "obj", "ply"};
+  static const std::set<std::string> types{"rectangle", "cube", "disk",       "sphere",   "cylinder",
+                                           "obj",       "ply",  "serialized", "instance", "shapegroup"};
   if (!types.contains(type))
     fail(shape.where, shape.name() + " is not supported",
-         "supported are rectangle, cube, disk, sphere, obj, ply");
+         "supported are " + join({types.begin(), types.end()}));
+  if (type == "shapegroup") return; // its instances read it
   Properties properties(shape, document);
-  const glm::dmat4 to_world = properties.transform("to_world");
-  const scene::Surface attached = surface(properties, rules, scene);
-  if (type == "obj" || type == "ply") {
-    read_mesh_shape(properties, to_world, attached, scene);
+  const Attached found = type == "instance" ? Attached() : attached(properties, target);
+  const glm::dmat4 own = properties.transform("to_world");
+  const glm::dmat4 to_world = target.in_instance ? target.to_world * own : own;
+  if (type == "instance")
+    read_instance(properties, to_world, target);
+  else if (type == "obj" || type == "ply" || type == "serialized") {
+    read_mesh_shape(properties, to_world, found, target);
   } else if (type == "sphere") {
-    scene.spheres.push_back(sphere(properties, to_world));
-    scene.spheres.back().surface = attached;
+    target.scene.spheres.push_back(sphere(properties, own, to_world));
+    target.scene.spheres.back().surface = found.surface;
+  } else if (type == "cylinder") {
+    read_cylinder(properties, to_world, found.surface, target.scene);
   } else {
-    read_patches(properties, to_world, attached, scene);
+    read_patches(properties, to_world, found.surface, target.scene);
   }
   properties.finish();
 }

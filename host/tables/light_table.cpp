@@ -107,14 +107,15 @@ void add_points(Collector& to, const scene::Scene& scene, const Vec3& origin) {
     LightRecord record = record_of(LIGHT_SPOT, light.intensity);
     set(record.position, light.position - origin);
     set(record.direction, light.direction);
-    // A beam as wide as the cone falls off within a small angle, to avoid a division by 0.
-    const double transition = std::max(light.cutoff_angle - light.beam_width, 1e-6);
+    // A beam as wide as the cone falls off within a small part of it, to avoid a division by 0.
+    const double transition = std::max(light.cutoff_angle - light.beam_width, 1e-6 * light.cutoff_angle);
     record.cutoff = static_cast<float>(light.cutoff_angle);
     record.inv_transition = static_cast<float>(1 / transition);
     // 1 / (2 pi (1 - cos(cutoff))), without cancellation: the kernel samples the whole cone uniformly.
     const double half_sine = std::sin(light.cutoff_angle / 2);
     record.emission_density = static_cast<float>(1 / (4 * pi * half_sine * half_sine));
-    const double full = 2 * pi * (1 - (std::cos(light.beam_width) + std::cos(light.cutoff_angle)) / 2);
+    const double half_beam_sine = std::sin(light.beam_width / 2);
+    const double full = 2 * pi * (half_beam_sine * half_beam_sine + half_sine * half_sine);
     to.add(record, full * mean(light.intensity));
     const Vec3 at = light.position - origin;
     to.place({0, at, at, light.direction, light.cutoff_angle, mean(light.intensity)});

@@ -70,11 +70,11 @@ static inline Emission emission_sample(const Scene* scene, RandomWords choice, R
     if (HAS_SPOT_LIGHTS) {
       const Mask spot = LIGHT_IS(kind, LIGHT_SPOT);
       const Real cap = (0.5f * INV_PI) * light_probability(scene, e.light) / e.density; // 1 - cos(cutoff)
-      const Real drop = v1 * cap;
+      const Real drop = v1 * cap; // 2 sin^2 of half the angle to the axis
       const Real sine = sqrt(drop * (2.0f - drop));
       const Frame about_axis = frame_about(LIGHT_VEC3(scene, e.light, direction));
       direction = vec_select(spot, from_frame(about_axis, polar_direction(sine, 1.0f - drop, v2)), direction);
-      const Real falloff = spot ? spot_falloff(scene, e.light, 1.0f - drop) : (Real)(1.0f);
+      const Real falloff = spot ? spot_falloff(scene, e.light, 2.0f * asin(sqrt(0.5f * drop))) : (Real)(1.0f);
       e.radiance = vec_scale(falloff, e.radiance);
     }
     e.ray.origin = vec_select(m, LIGHT_VEC3(scene, e.light, position), e.ray.origin);

@@ -57,10 +57,11 @@ static inline Int choose_light_for(const Scene* scene, Vec3 lit, Vec3 normal, Ui
   return choose_from_tree(scene, lit, normal, word, other_word, by_tree & (LIGHT_INT(scene, light, node) >= 0), light);
 }
 
-// The normal with which a light is chosen for a point: none (0) where light passes through, so that the probability does
-// not depend on the side that a subpath came from.
+// The normal with which a light is chosen for a point: the one that decides which lights can shine on it; none (0) where
+// light passes through, so that the probability does not depend on the side that a subpath came from.
 static inline Vec3 lit_normal(SurfacePoint point) {
-  return HAS_TRANSMISSION ? vec_select(point.transmits, vec_all((Real)(0.0f)), point.normal) : point.normal;
+  const Vec3 normal = SIDES_BY_SHADING ? point.frame.z : point.normal;
+  return HAS_TRANSMISSION ? vec_select(point.transmits, vec_all((Real)(0.0f)), normal) : normal;
 }
 
 // ---- Points of lights
@@ -118,9 +119,8 @@ static inline SurfacePosition sphere_light_point(SphereShape sphere, Vec3 unit, 
   return point;
 }
 
-// The fraction of its intensity that a spot light sends at an angle of this cosine to its axis.
-static inline Real spot_falloff(const Scene* scene, Int light, Real cosine) {
-  const Real angle = acos(clamp(cosine, (Real)(-1.0f), (Real)(1.0f)));
+// The fraction of its intensity that a spot light sends at this angle to its axis.
+static inline Real spot_falloff(const Scene* scene, Int light, Real angle) {
   return clamp((LIGHT_REAL(scene, light, cutoff) - angle) * LIGHT_REAL(scene, light, inv_transition), (Real)(0.0f),
                (Real)(1.0f));
 }
@@ -217,8 +217,8 @@ static inline void sample_point_light(const Scene* scene, LightSample* s, Surfac
   const Ray ray = ray_to_point(lit, LIGHT_VEC3(scene, s->light, position), &distance);
   const Real density = distance * distance * s->choice;
   if (HAS_SPOT_LIGHTS) {
-    const Real cosine = -vec_dot(LIGHT_VEC3(scene, s->light, direction), ray.direction);
-    const Real falloff = kind == LIGHT_SPOT ? spot_falloff(scene, s->light, cosine) : (Real)(1.0f);
+    const Real angle = vec_angle(LIGHT_VEC3(scene, s->light, direction), vec_scale((Real)(-1.0f), ray.direction));
+    const Real falloff = kind == LIGHT_SPOT ? spot_falloff(scene, s->light, angle) : (Real)(1.0f);
     s->radiance = vec_select(m, vec_scale(falloff, s->radiance), s->radiance);
   }
   s->ray.origin = vec_select(m, ray.origin, s->ray.origin);

@@ -8,6 +8,11 @@
 #define HAS_PLANARS (HAS_TRIANGLES | HAS_PARALLELOGRAMS | HAS_ELLIPSES)
 #define HAS_MIXED_REGIONS (HAS_TRIANGLES + HAS_PARALLELOGRAMS + HAS_ELLIPSES > 1)
 
+// Mitsuba's strictNormals is false: an interpolated normal alone decides on which side of a surface a direction lies.
+#define SIDES_BY_SHADING (HAS_SMOOTH_NORMALS & !HAS_STRICT_NORMALS)
+// Directions that count may lie on either side of the geometric normal.
+#define HAS_SIGNED_COSINES (SIDES_BY_SHADING | HAS_TRANSMISSION)
+
 #define HAS_AREA_LIGHTS (HAS_PLANAR_LIGHTS | HAS_SPHERE_LIGHTS)
 #define HAS_HITTABLE_LIGHTS (HAS_AREA_LIGHTS | HAS_CONSTANT_LIGHT) // a ray can find them
 #define HAS_POINTLIKE_LIGHTS (HAS_POINT_LIGHTS | HAS_SPOT_LIGHTS)

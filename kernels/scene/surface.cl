@@ -10,10 +10,11 @@
 typedef struct {
   Vec3 position; // on the primitive, to a few ulp
   Vec3 normal;   // geometric, unit, on the side that the ray came from
-  Frame frame;   // shading frame on that side; its z is the interpolated normal where the mesh has normals
+  Frame frame;   // shading frame on the side that the ray came from by its z: the interpolated normal where the mesh has normals
   Real error;    // bounds the rounding error of `position` and of a ray's intersection near it
   Mask front;    // that side is the front
   Mask transmits; // light passes through
+  Mask shaded_front; // the ray came from the front by the shading normal
   Int material, light;
 } SurfacePoint;
 
@@ -126,7 +127,8 @@ static inline SurfacePoint surface_point(const Scene* scene, Ray ray, Hit hit) {
   s.error = p.error;
   s.front = vec_dot(p.normal, ray.direction) < 0.0f;
   s.normal = vec_select(s.front, p.normal, vec_scale((Real)(-1.0f), p.normal));
-  const Vec3 shading = vec_select(s.front, p.shading_normal, vec_scale((Real)(-1.0f), p.shading_normal));
+  s.shaded_front = SIDES_BY_SHADING ? (Mask)(vec_dot(p.shading_normal, ray.direction) < 0.0f) : s.front;
+  const Vec3 shading = vec_select(s.shaded_front, p.shading_normal, vec_scale((Real)(-1.0f), p.shading_normal));
   s.frame = HAS_TANGENTS ? frame_along(shading, p.tangent) : frame_about(shading);
   s.material = PRIMITIVE_INT(scene, primitive, material);
   s.transmits = NO_LANES;
@@ -165,12 +167,12 @@ static inline Ray ray_to_point(SurfacePosition from, Vec3 to, Real* distance) {
   return ray;
 }
 
-// The same to a point of a surface whose normal faces the start, or that transmits: it ends short by what the surface's
-// crossing may be wrong as seen from there.
+// The same to a point of a surface, whose normal faces the start unless HAS_SIGNED_COSINES: it ends short by what the
+// surface's crossing may be wrong as seen from there.
 static inline Ray ray_between(SurfacePosition from, SurfacePosition to, Real* distance) {
   const Real reach = vec_largest(vec_sub(to.position, from.position));
   Real short_by = to.error + ERROR_UNITS * reach;
-  if (HAS_TRANSMISSION) short_by = times_sign(short_by, vec_dot(to.normal, vec_sub(from.position, to.position)));
+  if (HAS_SIGNED_COSINES) short_by = times_sign(short_by, vec_dot(to.normal, vec_sub(from.position, to.position)));
   return ray_to_point(from, vec_along(to.position, short_by, to.normal), distance);
 }
 

@@ -23,7 +23,7 @@ typedef struct {
   Int path;        // number in the batch
   RandomSequence sequence;
   // Of the vertex where the ray starts, for the weights of what it finds:
-  Vec3 normal;         // by which a light is chosen: lit_normal
+  Vec3 normal;         // by which a light is chosen (lit_normal)
   Real density;        // of the ray's direction, per solid angle
   Real cosine_density; // of the same direction by the cosine, with which a constant light is sampled
   Mask delta;          // the direction was sampled from a delta distribution
@@ -72,15 +72,15 @@ static inline Arrival next_vertex(const Scene* scene, Subpath* s, PathLimits lim
   a.distance = hit.distance;
   a.hits = alive & (hit.primitive >= 0);
   a.vertex.point = surface_point(scene, s->ray, hit);
-  a.vertex.material = material_at(scene, a.vertex.point.material, a.vertex.point.front);
+  a.vertex.material = material_at(scene, a.vertex.point.material, a.vertex.point.shaded_front);
   a.vertex.fixed = to_frame(a.vertex.point.frame, vec_scale((Real)(-1.0f), s->ray.direction));
   a.scattered = a.hits & (s->edges < limits.longest) & (a.vertex.fixed.z > 0.0f) &
-                reflects(scene, a.vertex.point.material, a.vertex.point.front);
+                reflects(scene, a.vertex.point.material, a.vertex.point.shaded_front);
   return a;
 }
 
-// |cosine|: where nothing transmits, directions that count have cosines above 0.
-static inline Real size_of_cosine(Real cosine) { return HAS_TRANSMISSION ? fabs(cosine) : cosine; }
+// |cosine|, where directions that count may have negative ones.
+static inline Real size_of_cosine(Real cosine) { return HAS_SIGNED_COSINES ? fabs(cosine) : cosine; }
 
 // The cosine factor at the vertex of a light subpath that arrives along `fixed` and leaves along `generated` (in the
 // shading frame; with its cosine to the geometric normal): Veach's (1997, 5.3) adjoint BSDF times cosine, over f_r.
@@ -90,13 +90,19 @@ static inline Real adjoint_cosine(Vertex v, Vec3 generated, Real geometric_cosin
   return v.fixed.z * size_of_cosine(geometric_cosine) / vec_dot(v.point.normal, from_frame(v.point.frame, v.fixed));
 }
 
-// Lanes whose direction leaves the surface on the same side by both normals: no light leaks through.
+// Lanes whose direction leaves the surface on the same side by both normals, so that no light leaks through; by the shading
+// normal alone if strictNormals is false. Below the surface: where light passes through.
 static inline Mask leaves(Vec3 generated, Real geometric_cosine) {
-  const Mask above = (generated.z > 0.0f) & (geometric_cosine > 0.0f);
-  return HAS_TRANSMISSION ? above | ((generated.z < 0.0f) & (geometric_cosine < 0.0f)) : above;
+  Mask above = generated.z > 0.0f, below = generated.z < 0.0f;
+  if (!SIDES_BY_SHADING) {
+    above = above & (geometric_cosine > 0.0f);
+    below = below & (geometric_cosine < 0.0f);
+  }
+  return HAS_TRANSMISSION ? above | below : above;
 }
 
-// Scatters the subpaths of m. Returns those that continue: not absorbed by roulette. `adjoint`: light subpaths. *sample is the event.
+// Scatters the subpaths of m. Returns those that continue: not absorbed by roulette. `adjoint`: light subpaths. *sample is
+// the event.
 static inline Mask scatter(Subpath* s, Vertex v, int adjoint, Uint dimension, PathLimits limits, MaterialSample* sample,
                            Mask m) {
   *sample = material_sample(v.material, v.fixed, random_draws(s->sequence, dimension), s->edges >= limits.roulette, m);

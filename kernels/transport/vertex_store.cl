@@ -82,7 +82,7 @@ static inline void store_vertices(const VertexStore* store, int row, const Subpa
   record.back = vec_scale((Real)(-1.0f), s->ray.direction);
   record.throughput = s->throughput;
   record.error = v.point.error;
-  record.material = HAS_TRANSMISSION ? (v.point.front ? v.point.material : ~v.point.material) : v.point.material;
+  record.material = HAS_TRANSMISSION ? (v.point.shaded_front ? v.point.material : ~v.point.material) : v.point.material;
   record.mis = s->mis;
   record.normal = v.point.normal;
   record.tangent = v.point.frame.x;

@@ -41,10 +41,10 @@ Parts parts_of(const std::string& names, const std::string& strategy) {
 
 // A part that requires another.
 constexpr std::pair<const char*, const char*> needs[] = {
-    {"triangles", "planars"},      {"parallelograms", "planars"}, {"ellipses", "planars"},
-    {"light_planar", "planars"},   {"light_planar", "emission"},  {"light_sphere", "spheres"},
-    {"light_sphere", "emission"},  {"smooth_normals", "planars"}, {"smooth_normals", "triangles"},
-    {"light_tree", "light_choice"}};
+    {"triangles", "planars"},        {"parallelograms", "planars"}, {"ellipses", "planars"},
+    {"light_planar", "planars"},     {"light_planar", "emission"},  {"light_sphere", "spheres"},
+    {"light_sphere", "emission"},    {"smooth_normals", "planars"}, {"strict_normals", "smooth_normals"},
+    {"smooth_normals", "triangles"}, {"light_tree", "light_choice"}};
 
 Parts without(Parts parts, const std::string& name) {
   set(parts, name, false);

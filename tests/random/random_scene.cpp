@@ -34,6 +34,7 @@ void write_integrator(SceneDraft& draft) {
   draft.text.open("integrator", fmt::format("type=\"{}\"", values.pick({"path", "ptracer", "bdpt"})));
   draft.text.integer("max_depth", values.chance(0.04) ? 1 : values.pick({2, 3, 3, 4, 4, 5, 8, -1, -1}));
   draft.text.integer("rr_depth", values.pick({1, 2, 3, 5}));
+  if (values.chance(0.5)) draft.text.boolean("strict_normals", values.chance(0.7));
   draft.text.close("integrator");
 }
 

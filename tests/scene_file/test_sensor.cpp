@@ -117,10 +117,8 @@ TEST_CASE("Integrators") {
   CHECK(named("ptracer") == "light");
   CHECK(named("bdpt") == "bidir");
   CHECK(load_body(integrator("path", "<integer name=\"maxDepth\" value=\"-1\"/>")).defaults.max_depth == -1);
-  CHECK_THAT(
-      error_in(integrator("volpath")),
-      StartsWith(
-          "scene.xml:2: <integrator type=\"volpath\"> is not supported: supported are path, ptracer, bdpt"));
+  CHECK_THAT(error_in(integrator("ao")), StartsWith("scene.xml:2: <integrator type=\"ao\"> is not supported: "
+                                                    "supported are path, ptracer, bdpt"));
   for (const char* name : {"maxDepth", "rrDepth"})
     for (const char* value : {"0", "-2"})
       CHECK_THAT(error_in(integrator("path", "<integer name=\"" + std::string(name) + "\" value=\"" + value +
@@ -131,6 +129,21 @@ TEST_CASE("Integrators") {
   CHECK(error_in(integrator("path", "<boolean name=\"hideEmitters\" value=\"false\"/>")).empty());
 }
 
+TEST_CASE("Methods of Mitsuba for the same radiance are replaced, with a note") {
+  const auto defaults = load_body(integrator("direct", "<integer name=\"emitterSamples\" value=\"4\"/>"
+                                                       "<integer name=\"bsdfSamples\" value=\"2\"/>"))
+                            .defaults;
+  CHECK(defaults.integrator == "path");
+  CHECK(defaults.max_depth == 2);
+  CHECK(load_body(integrator("volpath", "<integer name=\"max_depth\" value=\"9\"/>"), "3.0.0")
+            .defaults.max_depth == 9);
+  CHECK(load_body(integrator("pssmlt")).defaults.integrator == "bidir");
+  const std::string nested = integrator("aov", "<integrator type=\"ptracer\"/>");
+  CHECK(load_body(nested, "3.0.0").defaults.integrator == "light");
+  CHECK_THAT(log_of(with_sensor(integrator("photonmapper"))),
+             Contains("info: scene.xml:2: <integrator type=\"photonmapper\"> is replaced by path"));
+}
+
 TEST_CASE("Films: sizes, crops, filters") {
   for (const auto& [width, height] :
        {std::pair{0, 0}, std::pair{5, 0}, std::pair{-3, 5}, std::pair{32769, 1}})
@@ -139,8 +152,13 @@ TEST_CASE("Films: sizes, crops, filters") {
   CHECK_THAT(error_of(sensor(film(8, 8, "\n<integer name=\"cropWidth\" value=\"4\"/>"))),
              StartsWith("scene.xml:4: ") && Contains("crop windows are not supported"));
   CHECK(error_of(sensor(film(8, 8, "<integer name=\"cropWidth\" value=\"8\"/>"))).empty());
-  CHECK_THAT(error_of(sensor("<film type=\"ldrfilm\"/>")),
-             StartsWith("scene.xml:3: <film type=\"ldrfilm\"> is not supported"));
+  CHECK_THAT(error_of(sensor("<film type=\"paper\"/>")),
+             StartsWith("scene.xml:3: <film type=\"paper\"> is not supported"));
+  const std::string ldr = "<film type=\"ldrfilm\"><integer name=\"width\" value=\"7\"/>\n"
+                          "<float name=\"gamma\" value=\"2.2\"/></film>";
+  CHECK(load_text(sensor(ldr)).camera.width == 7);
+  CHECK_THAT(log_of(sensor(ldr)), Contains("info: scene.xml:3: <film type=\"ldrfilm\"> is read as hdrfilm") &&
+                                      Contains("info: scene.xml:4: 'gamma' cannot change the image"));
   const std::string gaussian =
       film(8, 8, "\n<rfilter type=\"gaussian\"><float name=\"stddev\" value=\"1\"/></rfilter>");
   CHECK_THAT(log_of(sensor(gaussian)),
@@ -155,8 +173,8 @@ TEST_CASE("Samplers and sensors of other kinds") {
   CHECK_THAT(
       log_of(sensor("<sampler type=\"sobol\"/>")),
       Contains("warning: scene.xml:3: <sampler type=\"sobol\"> is not supported; independent is used"));
-  CHECK_THAT(error_of(sensor("<sampler type=\"dice\"/>")),
-             StartsWith("scene.xml:3: <sampler type=\"dice\"> is not supported"));
+  CHECK(load_text(sensor("<sampler type=\"blue\"><integer name=\"sampleCount\" value=\"9\"/></sampler>"))
+            .defaults.samples_per_pixel == 9);
   CHECK_THAT(
       error_of(sensor("<sampler type=\"independent\"><integer name=\"sampleCount\" value=\"0\"/></sampler>")),
       StartsWith("scene.xml:3: ") && Contains("is out of range"));
