@@ -95,15 +95,19 @@ static inline Real adjoint_cosine(Vertex v, Vec3 generated, Real geometric_cosin
   return v.fixed.z * size_of_cosine(geometric_cosine) / vec_dot(v.point.normal, from_frame(v.point.frame, v.fixed));
 }
 
-// Lanes whose direction leaves the surface on the same side by both normals, so that no light leaks through; by the
-// shading normal alone if strictNormals is false. A material that does not transmit scatters nothing below.
+// Lanes whose direction leaves the surface on the same side by both normals, so that no light leaks through; by the shading
+// normal alone if strictNormals is false. Below the surface: where light passes through.
 static inline Mask leaves(Vec3 generated, Real geometric_cosine) {
-  const Mask above = SIDES_BY_SHADING ? (Mask)(generated.z > 0.0f) : (generated.z > 0.0f) & (geometric_cosine > 0.0f);
-  const Mask below = SIDES_BY_SHADING ? (Mask)(generated.z < 0.0f) : (generated.z < 0.0f) & (geometric_cosine < 0.0f);
+  Mask above = generated.z > 0.0f, below = generated.z < 0.0f;
+  if (!SIDES_BY_SHADING) {
+    above = above & (geometric_cosine > 0.0f);
+    below = below & (geometric_cosine < 0.0f);
+  }
   return HAS_TRANSMISSION ? above | below : above;
 }
 
-// Scatters the subpaths of m. Returns those that continue: not absorbed by roulette. `adjoint`: light subpaths. *sample is the event.
+// Scatters the subpaths of m. Returns those that continue: not absorbed by roulette. `adjoint`: light subpaths. *sample is
+// the event.
 static inline Mask scatter(Subpath* s, Vertex v, int adjoint, Uint dimension, PathLimits limits, MaterialSample* sample,
                            Mask m) {
   *sample = material_sample(v.material, v.fixed, random_draws(s->sequence, dimension),

@@ -222,7 +222,7 @@ INTEGRATOR_MUTANTS = [
      "((m).front | 1 ? (m).int_ior / (m).ext_ior :", GLASS_PLANE),
     ("one polarisation", "math/fresnel.h", "return 0.5f * fma(s, s, p * p);", "return s * s;", GLASS_PLANE),
     ("a normal that forgets its other side", "transport/subpath.cl",
-     "return HAS_TRANSMISSION ? above | ((generated.z < 0.0f) & (geometric_cosine < 0.0f)) : above;", "return above;",
+     "return HAS_TRANSMISSION ? above | below : above;", "return above;",
      GLASS_PLANE),
     ("indices read from the records of other models", "lobes/material.cl",
      "of_model ? material_int(scene, index, WORD_OF(record, name)) : (Int)(0)",
