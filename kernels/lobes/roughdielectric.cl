@@ -27,6 +27,10 @@ static inline Real reflected_share(Roughdielectric m, Real reflectance) {
   return all > 0.0f ? reflected / all : (Real)(1.0f);
 }
 
+// A facet that is nearer to edge-on transmits nothing: its cosine, a difference of numbers near 1, has a relative rounding
+// error of up to 2^-23 / this, a thousandth.
+#define LEAST_FACET_COSINE 1.2e-4f
+
 // The far side: `generated` is below the surface.
 static inline LobeValue roughdielectric_through(Roughdielectric m, Facets f, Vec3 fixed, Vec3 generated) {
   const Real index = ROUGHDIELECTRIC_INDEX(m);
@@ -35,7 +39,8 @@ static inline LobeValue roughdielectric_through(Roughdielectric m, Facets f, Vec
   const Real length2 = larger(vec_dot(sum, sum), (Real)(1e-30f));
   const Vec3 h = vec_scale((index > 1.0f ? (Real)(-1.0f) : (Real)(1.0f)) / sqrt(length2), sum);
   const Real fixed_h = vec_dot(fixed, h), generated_h = -vec_dot(generated, h);
-  const Mask possible = (fixed_h > 0.0f) & (generated_h > 0.0f) & (h.z > 0.0f);
+  const Mask possible =
+      (fixed_h > LEAST_FACET_COSINE) & (generated_h > LEAST_FACET_COSINE) & (h.z > 0.0f);
   const Real reflectance = fresnel_reflectance(fixed_h, generated_h, index);
   const Real density = facet_density(f, h);
   const Real by_fixed = shown_area(f, fixed), by_generated = shown_area(f, generated);
