@@ -70,9 +70,10 @@ static inline LobeValue roughdielectric_evaluate(Roughdielectric m, Vec3 fixed, 
   return v;
 }
 
-// As if all facets were at the angle of the surface.
+// As if all facets were at the angle of the surface, but some transmit beyond the critical angle too: roulette must let
+// their light survive.
 static inline Vec3 roughdielectric_reflectivity(Roughdielectric m, Vec3 fixed) {
-  const Real reflected = refraction(fixed, ROUGHDIELECTRIC_INDEX(m)).reflectance;
+  const Real reflected = smaller(refraction(fixed, ROUGHDIELECTRIC_INDEX(m)).reflectance, 1.0f - 0.25f * m.alpha);
   return vec_along(vec_scale(reflected, m.specular_reflectance), 1.0f - reflected, m.specular_transmittance);
 }
 
