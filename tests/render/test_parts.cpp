@@ -35,6 +35,9 @@ TEST_CASE("the parts of each shipped scene are just what is in it") {
         "light_constant", "light_choice", "phong"}},
       {"mirror-ball", {"parallelograms", "spheres", "black", "light_planar", "conductor", "phong"}},
       {"point-light", {"parallelograms", "spheres", "light_point", "phong"}},
+      {"textures",
+       {"parallelograms", "spheres", "two_sided", "black", "checkerboards", "byte_textures", "light_planar",
+        "light_constant", "light_choice", "anisotropicphong", "phong"}},
       {"two-phong-spheres", {"parallelograms", "spheres", "black", "light_planar", "phong"}},
   };
   for (const std::string& name : shipped_names()) {
