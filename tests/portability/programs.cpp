@@ -54,6 +54,10 @@ Parts without(Parts parts, const std::string& name) {
   return parts;
 }
 
+Parts without_textures(const Parts& parts) {
+  return without(without(without(parts, "checkerboards"), "byte_textures"), "float_textures");
+}
+
 // With a phong in the scene, a diffuse material is a phong without a lobe. No scene has both an ambient term
 // and an anisotropic lobe, whose reflectivity has no closed form.
 Parts everything(Integrator integrator = Integrator::path) {
@@ -140,8 +144,8 @@ Program of_model(const std::string& file, const std::string& model, const std::s
 
 const std::vector<SceneProgram>& scene_programs() {
   static const std::vector<SceneProgram> list = {
-      {"everything", everything()},
-      {"everything-brute-force", without(everything(), "hierarchy")},
+      {"everything", without_textures(everything())},
+      {"everything-brute-force", without(without_textures(everything()), "hierarchy")},
       {"diffuse-box", parts_of(diffuse, "cosine")},
       {"few-in-diffuse-box", few_of_all(parts_of(diffuse, "cosine"))},
       {"glossy-spheres", parts_of(glossy, "exact")},
@@ -151,13 +155,13 @@ const std::vector<SceneProgram>& scene_programs() {
       {"textured", parts_of(textured, "exact")},
       {"textured-mesh-bidir", by(Integrator::bidir, parts_of(textured_mesh, "exact"))},
       {"sphere-in-sky", connecting(parts_of(sky, "mixture"), Connect::none)},
-      {"everything-light", by(Integrator::light, everything())},
+      {"everything-light", by(Integrator::light, without_textures(everything()))},
       {"diffuse-box-light", by(Integrator::light, parts_of(diffuse, "cosine"))},
       {"glossy-spheres-light", by(Integrator::light, parts_of(glossy, "exact"))},
       {"glossy-spheres-light-roulette",
        with_roulette(by(Integrator::light, parts_of(glossy, "exact")), Roulette::throughput)},
       {"sky-light", with_techniques(by(Integrator::light, parts_of(sky, "mixture")))},
-      {"everything-bidir", by(Integrator::bidir, everything())},
+      {"everything-bidir", by(Integrator::bidir, without_textures(everything()))},
       {"diffuse-box-bidir", by(Integrator::bidir, parts_of(diffuse, "cosine"))},
       {"glossy-spheres-bidir",
        with_roulette_of_connections(by(Integrator::bidir, parts_of(glossy, "exact"), Weights::power))},
@@ -216,7 +220,7 @@ std::vector<Program> programs() {
     list.push_back(of_model("arithmetic", "phong", "exact", width));
     list.back().name = fmt::format("arithmetic-native.{}", width);
     list.back().source.defines["PHLUX_NATIVE"] = "1";
-    list.push_back(program_of({"rays", everything()}, width));
+    list.push_back(program_of({"rays", without_textures(everything())}, width));
     list.back().source.root = "measure/rays.cl";
   }
   return list;
