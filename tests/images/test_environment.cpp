@@ -109,7 +109,7 @@ TEST_CASE("environment maps: with lamps and a mirror, light and bidir agree with
                                     : static_cast<float>(1 + i / 12) * glm::vec3(0.3, 0.4, 0.6));
   map.texels[1 * 12 + 7] = glm::vec3(50, 45, 35);
   scene::Scene scene;
-  scene.materials = {diffuse(Rgb(0.6)), lobes::conductor(Rgb(0.9))};
+  scene.materials = {diffuse(Rgb(0.6)), lobes::mirror(Rgb(0.9))};
   scene.patches = {square({0, 0, 0}, {0, 0, 1}, {1, 0, 0}, 2, {0, -1})};
   scene.spheres = {{{-0.7, 0.5, 0}, 0.45, false, {1, -1}}, {{1.3, 0.6, 0.2}, 0.2, false, {0, 0}}};
   scene.area_emitters = {{Rgb(4, 3, 2)}};
