@@ -134,15 +134,15 @@ TEST_CASE("A mean that differs from that of the reference is a bias, and the err
 
 // Half of the samples thrown away: each costs twice as much. The rounds of the two have different seeds.
 TEST_CASE("A method made worse by two is slower, never tied") {
-  const scene::Scene scene = shipped("cornell-box", 16);
+  const scene::Scene scene = shipped("cornell-box", 32);
   MethodRenderer renderer(scene, settings_of(mis, scene.defaults));
   const auto measured = [&](const Method& method, std::uint64_t first_seed, double seconds) {
     std::vector<ImageEstimate> images;
-    for (std::uint64_t i = 0; i < 5; ++i)
-      images.push_back(estimate_of(renderer.render_samples(first_seed + i, 64, {}).film));
+    for (std::uint64_t i = 0; i < 10; ++i)
+      images.push_back(estimate_of(renderer.render_samples(first_seed + i, 128, {}).film));
     MethodResult result;
     result.method = method;
-    const std::vector<double> variances = variances_per_sample(images, pooled_reference(images, 16));
+    const std::vector<double> variances = variances_per_sample(images, pooled_reference(images, 32));
     for (const double variance : variances) result.rounds.push_back({variance, seconds, seconds});
     result.variance = mean_of(variances);
     return result;

@@ -70,7 +70,7 @@ TEST_CASE("A checkpoint read from its file is complete") {
 }
 
 TEST_CASE("The format is that of its version: who changes one raises the other, and then this length") {
-  CHECK(Saved().bytes.substr(0, 19) == "phlux checkpoint 3 ");
+  CHECK(Saved().bytes.substr(0, 19) == "phlux checkpoint 4 ");
   CHECK(Saved().bytes.size() == 10055);
 }
 
