@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include "terminal.h"
+
 namespace phlux::bench {
 namespace {
 
@@ -38,16 +40,16 @@ void StatusLine::show(const std::string& text) {
   if (Clock::now() < next_) return;
   next_ = Clock::now() + (terminal_ ? Clock::duration(between_changes) : Clock::duration(between_lines));
   if (!terminal_) {
-    fmt::print(stderr, "phlux: {}\n", text);
+    tell("phlux: {}\n", text);
     return;
   }
-  fmt::print(stderr, "\r\x1b[K{}", text.substr(0, terminal_columns() - 1));
+  tell("\r\x1b[K{}", text.substr(0, terminal_columns() - 1));
   std::fflush(stderr);
   shown_ = true;
 }
 
 void StatusLine::clear() {
-  if (shown_) fmt::print(stderr, "\r\x1b[K");
+  if (shown_) tell("\r\x1b[K");
   shown_ = false;
 }
 

@@ -31,6 +31,7 @@ struct Geometry {
   std::vector<EmittingPrimitive> emitting; ///< in the order of `primitives`
   std::vector<int> corners; ///< 3 indices into vertex_normals per planar primitive; empty: no vertex normals
   std::vector<float> vertex_normals; ///< 3 per vertex
+  std::vector<float> uv_maps;        ///< UV_FLOATS per primitive; empty: no material needs them
   std::vector<float> nodes;          ///< the hierarchy, see NodeValues; empty: brute force
   int root = 0;                      ///< a child reference as in NodeValues
   int triangle_end = 0, parallelogram_end = 0, ellipse_end = 0; ///< ranges of planar primitives (brute force)

@@ -83,6 +83,33 @@ Corners corners(const Flat& f) {
   return {glm::min(f.origin, glm::min(p1, p2)), glm::max(f.origin, glm::max(p1, p2))};
 }
 
+// Texture coordinates at a flat primitive's origin, and what they change by along its edges.
+std::array<glm::dvec2, 3> uv_of(const scene::Scene& scene, Reference reference) {
+  if (reference.kind == Reference::Kind::patch) return scene.patches[reference.object].uv;
+  const scene::Mesh& mesh = scene.meshes[reference.object];
+  if (mesh.texture_coordinates.empty()) return {glm::dvec2(0.0), glm::dvec2(1, 0), glm::dvec2(0, 1)};
+  const auto& [a, b, c] = mesh.triangles[reference.element];
+  const glm::dvec2 at_a(mesh.texture_coordinates[a]);
+  return {at_a, glm::dvec2(mesh.texture_coordinates[b]) - at_a,
+          glm::dvec2(mesh.texture_coordinates[c]) - at_a};
+}
+
+// A unit vector perpendicular to n, the first that Mitsuba 3 gives a surface without texture coordinates
+// (Duff et al. 2017).
+Vec3 any_tangent(const Vec3& n) {
+  const double sign = std::copysign(1.0, n.z), a = -1.0 / (sign + n.z);
+  return {1 + sign * n.x * n.x * a, sign * n.x * n.y * a, -sign * n.x};
+}
+
+// The direction of d position / d u; `is_mapped`: the primitive has texture coordinates of its own.
+Vec3 tangent_of(const std::array<glm::dvec2, 3>& uv, bool is_mapped, const Vec3& edge_u, const Vec3& edge_v) {
+  const Vec3 straight = uv[2].y * edge_u - uv[1].y * edge_v;
+  const double determinant = uv[1].x * uv[2].y - uv[1].y * uv[2].x, length = glm::length(straight);
+  if (is_mapped && determinant != 0 && length > 0)
+    return straight * (std::copysign(1.0, determinant) / length);
+  return any_tangent(glm::normalize(glm::cross(edge_u, edge_v)));
+}
+
 double area_of(int region, double cross_length) {
   switch (region) {
   case REGION_TRIANGLE:
@@ -134,7 +161,8 @@ bool has_area(const scene::Scene& scene, const Vec3& origin, Reference reference
   return length > 0.0 && std::isfinite(static_cast<float>(1.0 / length));
 }
 
-TableWriter::TableWriter(const scene::Scene& scene, Geometry& geometry) : scene_(scene), geometry_(geometry) {
+TableWriter::TableWriter(const scene::Scene& scene, Geometry& geometry)
+    : scene_(scene), geometry_(geometry), with_uv_(scene::needs_uv(scene)) {
   std::size_t count = 0;
   for (const scene::Mesh& mesh : scene.meshes) {
     first_normal_of_mesh_.push_back(count);
@@ -177,6 +205,17 @@ void TableWriter::add_corners(Reference reference) {
   }
 }
 
+void TableWriter::add_uv_map(Reference reference, const Vec3& edge_u, const Vec3& edge_v) {
+  if (!with_uv_) return;
+  const auto uv = uv_of(scene_, reference);
+  const bool is_mapped = reference.kind == Reference::Kind::patch ||
+                         !scene_.meshes[reference.object].texture_coordinates.empty();
+  const Vec3 tangent = tangent_of(uv, is_mapped, edge_u, edge_v);
+  for (const glm::dvec2& each : uv) // UV_ORIGIN, UV_PER_U, UV_PER_V
+    for (int i = 0; i < 2; ++i) geometry_.uv_maps.push_back(static_cast<float>(each[i]));
+  for (int i = 0; i < 3; ++i) geometry_.uv_maps.push_back(static_cast<float>(tangent[i])); // UV_TANGENT
+}
+
 void TableWriter::add_planar(Reference reference) {
   const Flat f = flat(scene_, geometry_.origin, reference, geometry_.in_double);
   const Vec3 cross = glm::cross(f.edge_u, f.edge_v);
@@ -198,6 +237,7 @@ void TableWriter::add_planar(Reference reference) {
     geometry_.emitting.push_back({area_of(f.region, length), low, high, normal});
   }
   add_corners(reference);
+  add_uv_map(reference, f.edge_u, f.edge_v);
   geometry_.has_triangles |= f.region == REGION_TRIANGLE;
   geometry_.has_parallelograms |= f.region == REGION_PARALLELOGRAM;
   geometry_.has_ellipses |= f.region == REGION_ELLIPSE;
@@ -210,6 +250,7 @@ int TableWriter::finish_planar_block() {
     geometry_.primitives.push_back({0, -1, REGION_NONE});
     geometry_.emitters.push_back(-1);
     if (!geometry_.vertex_normals.empty()) geometry_.corners.insert(geometry_.corners.end(), 3, -1);
+    if (with_uv_) geometry_.uv_maps.resize(geometry_.primitives.size() * UV_FLOATS);
   }
   return static_cast<int>(geometry_.primitives.size());
 }
@@ -220,6 +261,8 @@ void TableWriter::add_sphere(Reference reference) {
   write_sphere({center.x, center.y, center.z, sphere.radius});
   sphere_records_.push_back({sphere.surface.material, -1, sphere.front_is_inside ? 1 : 0});
   sphere_emitters_.push_back(sphere.surface.area_emitter);
+  for (const Vec3& axis : sphere.axes) // UV_AXES
+    for (int i = 0; with_uv_ && i < 3; ++i) sphere_uv_maps_.push_back(static_cast<float>(axis[i]));
   if (sphere.surface.area_emitter >= 0)
     emitting_spheres_.push_back({4.0 * std::numbers::pi * sphere.radius * sphere.radius,
                                  center - sphere.radius, center + sphere.radius, Vec3(0.0)});
@@ -233,6 +276,7 @@ int TableWriter::finish_sphere_block() {
     write_sphere({1e18, 1e18, 1e18, 0.0});
     sphere_records_.push_back({0, -1, REGION_NONE});
     sphere_emitters_.push_back(-1);
+    if (with_uv_) sphere_uv_maps_.resize(sphere_records_.size() * UV_FLOATS);
   }
   return static_cast<int>(sphere_records_.size());
 }
@@ -242,6 +286,7 @@ void TableWriter::finish() {
   geometry_.sphere_count = static_cast<int>(sphere_records_.size());
   geometry_.primitives.insert(geometry_.primitives.end(), sphere_records_.begin(), sphere_records_.end());
   geometry_.emitters.insert(geometry_.emitters.end(), sphere_emitters_.begin(), sphere_emitters_.end());
+  geometry_.uv_maps.insert(geometry_.uv_maps.end(), sphere_uv_maps_.begin(), sphere_uv_maps_.end());
   geometry_.emitting.insert(geometry_.emitting.end(), emitting_spheres_.begin(), emitting_spheres_.end());
 }
 

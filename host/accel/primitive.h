@@ -51,9 +51,12 @@ private:
   void write_planar(const std::array<double, PLANAR_FLOATS>& values);
   void write_sphere(const std::array<double, SPHERE_FLOATS>& values);
   void add_corners(Reference reference);
+  void add_uv_map(Reference reference, const scene::Vec3& edge_u, const scene::Vec3& edge_v);
 
   const scene::Scene& scene_;
   Geometry& geometry_;
+  const bool with_uv_;
+  std::vector<float> sphere_uv_maps_;
   std::vector<PrimitiveRecord> sphere_records_;
   std::vector<int> sphere_emitters_;
   std::vector<EmittingPrimitive> emitting_spheres_;

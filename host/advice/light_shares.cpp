@@ -21,6 +21,7 @@ void visit_lights(Scene& scene, const Visit& visit) {
   visit_kind("spot", scene.spot_lights, &scene::SpotLight::intensity);
   visit_kind("directional", scene.directional_lights, &scene::DirectionalLight::irradiance);
   if (scene.constant_radiance) visit("constant", std::size_t{0}, *scene.constant_radiance);
+  if (scene.environment) visit("environment map", std::size_t{0}, scene.environment->scale);
 }
 
 struct Light {
@@ -31,8 +32,10 @@ struct Light {
 std::vector<Light> lights_of(scene::Scene& scene) {
   std::vector<Light> lights;
   visit_lights(scene, [&](const std::string& kind, std::size_t index, scene::Rgb& power) {
-    lights.push_back(
-        {kind == "constant" ? "constant light" : fmt::format("{} light {}", kind, index + 1), &power});
+    lights.push_back({kind == "constant"          ? "constant light"
+                      : kind == "environment map" ? kind
+                                                  : fmt::format("{} light {}", kind, index + 1),
+                      &power});
   });
   return lights;
 }

@@ -1,10 +1,16 @@
 #include "checkpoint/checkpoint.h"
 
+#include <algorithm>
 #include <cerrno>
+#include <charconv>
+#include <climits>
 #include <cstring>
 #include <fstream>
+#include <memory>
 #include <sstream>
+#include <streambuf>
 #include <string_view>
+#include <vector>
 
 #include <cereal/archives/portable_binary.hpp>
 #include <cereal/types/array.hpp>
@@ -15,7 +21,9 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
+#include "checkpoint/input_archive.h"
 #include "errors.h"
+#include "settings/values.h"
 
 namespace phlux::settings {
 
@@ -86,15 +94,66 @@ namespace {
 // Must be raised with every change of the format; tests/checkpoint knows the length of a small file.
 constexpr int format_version = 4;
 constexpr std::string_view magic = "phlux checkpoint ";
+constexpr std::uint64_t longest_session = 1 << 20; // bytes; what a forged one may take is in proportion
 
-std::string digest_of(std::string_view bytes) {
-  const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());
-  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
-}
+// The digest and the number of bytes that pass.
+class Digest {
+public:
+  Digest() { XXH3_128bits_reset(state_.get()); }
+  void add(const char* bytes, std::size_t count) {
+    XXH3_128bits_update(state_.get(), bytes, count);
+    length_ += count;
+  }
+  // The first line of a file with these bytes after it. Its length is always the same.
+  [[nodiscard]] std::string first_line() const {
+    const XXH128_hash_t hash = XXH3_128bits_digest(state_.get());
+    return fmt::format("{}{} {:016x}{:016x} {:020}\n", magic, format_version, hash.high64, hash.low64,
+                       length_);
+  }
+  [[nodiscard]] std::uint64_t length() const { return length_; }
 
-// Its length does not depend on `rest`.
-std::string first_line(std::string_view rest) {
-  return fmt::format("{}{} {} {:020}\n", magic, format_version, digest_of(rest), rest.size());
+private:
+  struct Free {
+    void operator()(XXH3_state_t* state) const { XXH3_freeState(state); }
+  };
+  std::unique_ptr<XXH3_state_t, Free> state_{XXH3_createState()};
+  std::uint64_t length_ = 0;
+};
+
+// Adds what is written to a digest, and passes it on by pieces.
+class DigestBuffer final : public std::streambuf {
+public:
+  DigestBuffer(std::streambuf& to, Digest& digest) : to_(to), digest_(digest), bytes_(1 << 16) { start(); }
+  ~DigestBuffer() override { static_cast<void>(DigestBuffer::sync()); }
+
+protected:
+  int sync() override {
+    const auto count = pptr() - pbase();
+    digest_.add(pbase(), static_cast<std::size_t>(count));
+    const bool written = to_.sputn(pbase(), count) == count;
+    start();
+    return written ? 0 : -1;
+  }
+  int_type overflow(int_type byte) override {
+    if (sync() != 0) return traits_type::eof();
+    return traits_type::eq_int_type(byte, traits_type::eof()) ? traits_type::not_eof(byte)
+                                                              : sputc(traits_type::to_char_type(byte));
+  }
+
+private:
+  void start() { setp(bytes_.data(), bytes_.data() + bytes_.size()); }
+  std::streambuf& to_;
+  Digest& digest_;
+  std::vector<char> bytes_;
+};
+
+std::string session_bytes(const Session& session) {
+  std::ostringstream stream(std::ios::binary);
+  {
+    cereal::PortableBinaryOutputArchive archive(stream);
+    archive(session);
+  }
+  return std::move(stream).str();
 }
 
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& what) {
@@ -103,13 +162,14 @@ std::string first_line(std::string_view rest) {
 
 constexpr const char* remedy = "go on from an earlier checkpoint";
 
-std::string text_of(const std::filesystem::path& file) {
+// The file after its first line, which has been checked, and the number of its bytes.
+std::uint64_t open_checked(const std::filesystem::path& file, std::ifstream& stream) {
   std::error_code error;
   if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error))
     fail(file, "is no file: a checkpoint is needed");
-  std::ifstream stream(file, std::ios::binary);
+  stream.open(file, std::ios::binary);
   if (!stream) fail(file, fmt::format("cannot be read: {}: a checkpoint is needed", std::strerror(errno)));
-  std::string line(first_line("").size(), '\0');
+  std::string line(Digest().first_line().size(), '\0');
   stream.read(line.data(), static_cast<std::streamsize>(line.size()));
   line.resize(static_cast<std::size_t>(stream.gcount()));
   if (!line.starts_with(magic)) fail(file, "is no checkpoint of phlux: a checkpoint is needed");
@@ -118,41 +178,97 @@ std::string text_of(const std::filesystem::path& file) {
     fail(file, fmt::format("is a checkpoint of format {}, and this is phlux " PHLUX_VERSION
                            ", which reads format {}: go on with the phlux that wrote it",
                            version, format_version));
-  std::string rest(std::istreambuf_iterator<char>(stream), {});
-  if (line == first_line(rest)) return rest;
-  const bool truncated =
-      !line.ends_with('\n') || line.substr(line.rfind(' ')) != fmt::format(" {:020}\n", rest.size());
-  fail(file, fmt::format("{}: {}", truncated ? "is not whole" : "is damaged", remedy));
+  Digest digest;
+  std::vector<char> bytes(1 << 20);
+  while (stream) {
+    stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    digest.add(bytes.data(), static_cast<std::size_t>(stream.gcount()));
+  }
+  if (line != digest.first_line()) {
+    const bool truncated =
+        !line.ends_with('\n') || line.substr(line.rfind(' ')) != fmt::format(" {:020}\n", digest.length());
+    fail(file, fmt::format("{}: {}", truncated ? "is not whole" : "is damaged", remedy));
+  }
+  stream.clear();
+  stream.seekg(static_cast<std::streamoff>(line.size()));
+  return digest.length();
+}
+
+void read_session(std::istream& stream, std::uint64_t bytes, Session& session) {
+  if (bytes > longest_session) throw cereal::Exception("a long session");
+  InputArchive archive(stream, bytes);
+  archive(session);
+  if (session.scene.size() > PATH_MAX) throw cereal::Exception("a long name");
+  if (session.choices.size) {
+    const auto [width, height] = *session.choices.size;
+    if (width < 1 || height < 1 || width > settings::most_pixels / height) throw cereal::Exception("a size");
+  }
+}
+
+film::Film read_film(std::istream& stream, std::uint64_t bytes) {
+  InputArchive archive(stream, bytes);
+  std::int32_t width = 0, height = 0;
+  archive(width, height);
+  if (width < 1 || height < 1 || static_cast<std::uint64_t>(width) > bytes / sizeof(film::Pixel) / height)
+    throw cereal::Exception("a film that is larger than the file");
+  film::Film film(width, height);
+  archive(film);
+  return film;
 }
 
 } // namespace
 
-std::string encode(const Session& session, const film::Film& film) {
-  const std::string place_holder = first_line("");
-  std::ostringstream stream(place_holder, std::ios::binary | std::ios::ate);
+bool is_replaceable(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error) || std::filesystem::is_empty(file, error)) return true;
+  std::ifstream stream(file, std::ios::binary);
+  std::string start(magic.size(), '\0');
+  stream.read(start.data(), static_cast<std::streamsize>(start.size()));
+  return start == magic;
+}
+
+void write(const Session& session, const film::Film& film, std::ostream& to) {
+  const auto begin = to.tellp();
+  to << Digest().first_line();
+  Digest digest;
   {
-    cereal::PortableBinaryOutputArchive archive(stream);
-    archive(session, film);
+    DigestBuffer buffer(*to.rdbuf(), digest);
+    std::ostream rest(&buffer);
+    const std::string first = session_bytes(session);
+    rest << fmt::format("{:020}\n", first.size()) << first;
+    cereal::PortableBinaryOutputArchive archive(rest);
+    archive(std::int32_t{film.width()}, std::int32_t{film.height()}, film);
+    if (!rest.flush()) to.setstate(std::ios::badbit);
   }
-  std::string bytes = std::move(stream).str();
-  const std::string_view rest = std::string_view(bytes).substr(place_holder.size());
-  bytes.replace(0, place_holder.size(), first_line(rest));
-  return bytes;
+  to.seekp(begin) << digest.first_line();
+  to.seekp(0, std::ios::end);
+}
+
+std::string encode(const Session& session, const film::Film& film) {
+  std::ostringstream stream(std::ios::binary);
+  write(session, film, stream);
+  return std::move(stream).str();
 }
 
 Checkpoint read(const std::filesystem::path& file) {
-  std::istringstream stream(text_of(file), std::ios::binary);
-  Checkpoint result{{}, film::Film(1, 1)};
+  std::ifstream stream;
+  std::uint64_t left = open_checked(file, stream);
   try {
-    cereal::PortableBinaryInputArchive archive(stream);
-    archive(result.session, result.film);
+    std::string line(21, '\0'); // the session's length
+    stream.read(line.data(), static_cast<std::streamsize>(line.size()));
+    std::uint64_t session_length = 0;
+    std::from_chars(line.data(), line.data() + line.size(), session_length);
+    Session session;
+    read_session(stream, std::min(session_length, left), session);
+    stream.seekg(static_cast<std::streamoff>(Digest().first_line().size() + line.size() + session_length));
+    left -= std::min(left, line.size() + session_length);
+    return {std::move(session), read_film(stream, left)};
   } catch (const UsageError& error) {
     fail(file, fmt::format("is not of this version of phlux: {}: go on with the phlux that wrote it",
                            error.what()));
   } catch (const cereal::Exception&) { // the digest matches, but phlux did not write the file
     fail(file, fmt::format("is damaged: {}", remedy));
   }
-  return result;
 }
 
 } // namespace phlux::checkpoint

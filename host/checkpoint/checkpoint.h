@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <iosfwd>
 #include <string>
 
 #include "film/film.h"
@@ -24,12 +25,21 @@ struct Checkpoint {
   film::Film film;
 };
 
-/// The bytes of a file: a line of text with the format's version, the digest (XXH3, 128 bits) and the length
-/// of the rest, which is cereal's portable binary archive.
+/// Writes a file: a line of text with the format's version, the digest (XXH3, 128 bits) and the length of the
+/// rest; a line with the session's length; and two of cereal's portable binary archives, of the session and
+/// of the film with its size. `to` must be able to seek. Takes no memory in proportion to the film.
+void write(const Session& session, const film::Film& film, std::ostream& to);
+
+/// The bytes that write() writes.
 [[nodiscard]] std::string encode(const Session& session, const film::Film& film);
 
+/// Memory and time are in proportion to the file's size: 4/3 of it for the film, and 40 MB. Whether the state
+/// is one of the render at hand is up to check_same().
 /// @throws FileError when the file is missing, no checkpoint, of another version of the format, truncated or
 /// damaged
 [[nodiscard]] Checkpoint read(const std::filesystem::path& file);
+
+/// Whether a checkpoint may replace `file`: nothing is there, or an earlier checkpoint, of any format.
+[[nodiscard]] bool is_replaceable(const std::filesystem::path& file);
 
 } // namespace phlux::checkpoint

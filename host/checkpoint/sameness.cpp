@@ -1,5 +1,9 @@
 #include "checkpoint/sameness.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
 #include <string>
 
 #include <fmt/format.h>
@@ -36,6 +40,88 @@ void check_amount(const render::SchedulePosition& position, const render::Settin
                   file, position.end(), now.samples_per_pixel, position.end()));
 }
 
+// The samples of each pixel, asked for in the order of the pixels.
+class SamplesByPosition {
+public:
+  explicit SamplesByPosition(const render::SchedulePosition& position, std::int64_t pixels)
+      : samples_(position.end()) {
+    changes_[position.pixel] -= position.pixel > 0 ? position.block_samples : 0;
+    for (const render::Launch& launch : position.missing) {
+      samples_ -= launch.jobs / pixels * launch.block_samples;
+      const std::int64_t first = launch.first_job, end = first + launch.jobs % pixels;
+      add(first, std::min(end, pixels), -launch.block_samples);
+      if (end > pixels) add(0, end - pixels, -launch.block_samples);
+    }
+  }
+  std::int64_t of(std::int64_t pixel) {
+    for (; !changes_.empty() && changes_.begin()->first <= pixel; changes_.erase(changes_.begin()))
+      samples_ += changes_.begin()->second;
+    return samples_;
+  }
+
+private:
+  void add(std::int64_t first, std::int64_t end, std::int64_t samples) {
+    changes_[first] += samples;
+    changes_[end] -= samples;
+  }
+  std::map<std::int64_t, std::int64_t> changes_; // from a pixel on
+  std::int64_t samples_;
+};
+
+bool is_sound(const render::Launch& launch, std::int64_t pixels, std::int64_t end) {
+  return launch.first_job >= 0 && launch.first_job < pixels && launch.jobs >= 1 &&
+         launch.jobs <= pixels * end && launch.block_samples >= 1 &&
+         launch.block_samples <= render::most_block_samples && launch.first_sample >= 0 &&
+         launch.first_sample + ((launch.first_job + launch.jobs - 1) / pixels + 1) * launch.block_samples <=
+             end;
+}
+
+// Empty if the schedule is one that a render of this size can have had.
+std::string contradiction(const render::RenderState& state, std::int64_t pixels) {
+  constexpr std::int64_t most_samples = std::numeric_limits<std::int32_t>::max();
+  const render::SchedulePosition& position = state.position;
+  if (position.sample < 0 || position.sample > most_samples || position.pixel < 0 ||
+      position.pixel >= pixels || position.block_samples < 1 ||
+      position.block_samples > render::most_block_samples)
+    return "its position";
+  for (const render::Launch& launch : position.missing)
+    if (!is_sound(launch, pixels, position.end())) return "its missing samples";
+  if (const auto& origin = state.first_nonfinite)
+    if (origin->pixel < 0 || origin->pixel >= pixels || origin->sample < 0 || origin->sample > most_samples ||
+        origin->samples < 1 || origin->samples > render::most_block_samples)
+      return "its first contribution that was not finite";
+  if (!(state.seconds_render >= 0.0) || !std::isfinite(state.seconds_render)) return "its seconds";
+  return {};
+}
+
+// A file whose digest matches may still be forged: every number that leads to an index, a length or a loop is
+// checked against the render that it is for.
+void check_state(const Checkpoint& earlier, const render::Settings& now, const std::string& file) {
+  const render::RenderState& state = earlier.session.state;
+  const film::Film& film = earlier.film;
+  const auto pixels = std::int64_t{film.width()} * film.height();
+  std::string wrong = contradiction(state, pixels);
+  if (wrong.empty()) {
+    const settings::IntegratorInfo& integrator = settings::integrator_named(now.integrator);
+    const bool splats = film.splats(); // none before the first launch, and if nothing in the scene shines
+    SamplesByPosition expected(state.position, pixels);
+    std::uint64_t paths = 0;
+    const auto samples_of = [&](std::size_t pixel) -> std::uint64_t {
+      const std::int64_t samples = expected.of(static_cast<std::int64_t>(pixel));
+      paths += static_cast<std::uint64_t>(samples);
+      return integrator.eye_paths || !splats ? static_cast<std::uint64_t>(samples) : 0;
+    };
+    wrong = film.contradiction(samples_of, splats ? state.paths : 0);
+    if (wrong.empty() && paths != state.paths) wrong = "numbers of paths";
+    if (film.clamps() && !now.clamp) wrong = "clamping";
+    if (splats && !integrator.light_paths) wrong = "splats";
+    if (film.dependent_samples() != settings::samples_point_sets(now)) wrong = "point sets";
+  }
+  if (!wrong.empty())
+    throw FileError(fmt::format(
+        "{}: is damaged: {} cannot be of this render: go on from an earlier checkpoint", file, wrong));
+}
+
 } // namespace
 
 void check_same(const Checkpoint& earlier, const Session& now, int width, int height,
@@ -49,6 +135,7 @@ void check_same(const Checkpoint& earlier, const Session& now, int width, int he
                                 "it had",
                                 file.string(), earlier.session.scene));
   check_settings(earlier.session.settings, now.settings, file.string());
+  check_state(earlier, now.settings, file.string());
   check_amount(earlier.session.state.position, now.settings, file.string());
 }
 

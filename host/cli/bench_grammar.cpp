@@ -83,7 +83,7 @@ void add_samples(CLI::App& app, int& samples) {
 void add_amount(CLI::App& app, bench::ComparisonOptions& options, const std::string& seconds,
                 const std::string& side) {
   add_value(app, "--seconds", "S", seconds, [&options](const std::string& text) {
-    options.seconds = settings::positive_number("--seconds", text);
+    options.seconds = settings::number_within("--seconds", text, 1e-6, 1e9);
   });
   add_value(app, "--side", "N", side, [&options](const std::string& text) {
     constexpr std::uint64_t most = 4096;

@@ -1,9 +1,13 @@
 #include "cli/checkpoints.h"
 
+#include <functional>
+#include <ostream>
+
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include "checkpoint/sameness.h"
+#include "errors.h"
 #include "files/output.h"
 
 namespace phlux::cli {
@@ -22,6 +26,13 @@ auto with_remedy(const Function& function) {
   }
 }
 
+// Whether a copy would take more memory than an interruption of the render is worth.
+bool is_large(const film::Film& film) {
+  constexpr double most_copied = 1 << 28; // bytes
+  return film::Film::bytes(static_cast<double>(film.pixels().size()), 1, film.splats() ? 1 : 0,
+                           film.dependent_samples() ? 1 : 0, 0) > most_copied;
+}
+
 // A checkpoint from elsewhere must not run code on this machine.
 void require_own_strategy(const RenderOptions& options, const settings::Choices& earlier) {
   const auto then = earlier.texts.find("strategy");
@@ -31,6 +42,25 @@ void require_own_strategy(const RenderOptions& options, const settings::Choices&
       "--resume {}: its render had --strategy {}, and a checkpoint alone must not run your files: "
       "give --strategy {} too",
       options.resume.string(), then->second, then->second));
+}
+
+void replace(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write) {
+  if (!checkpoint::is_replaceable(file)) // any longer
+    throw WriteError(fmt::format("{}: is no checkpoint, and is kept: name another file", file.string()));
+  files::write_file(file, write);
+}
+
+// Rendering continues where memory, threads or disks do not suffice for a checkpoint.
+template<class Step>
+void warn_if_it_fails(const std::filesystem::path& file, const Step& step) {
+  constexpr const char* consequence = "rendering continues, and the next checkpoint may succeed";
+  try {
+    step();
+  } catch (const WriteError& error) {
+    spdlog::warn("{}: {}", error.what(), consequence);
+  } catch (const std::exception& error) {
+    spdlog::warn("{}: no checkpoint: {}: {}", file.string(), error.what(), consequence);
+  }
 }
 
 } // namespace
@@ -54,40 +84,45 @@ Checkpoints::Checkpoints(std::filesystem::path file, const RenderOptions& option
       between_(std::chrono::duration_cast<Clock::duration>(
           std::chrono::duration<double>(options.checkpoint_seconds.value_or(default_checkpoint_seconds)))),
       next_(Clock::now() + between_) {
-  if (!file_.empty() && options.resume.empty() && std::filesystem::is_regular_file(file_))
+  if (file_.empty()) return;
+  if (!checkpoint::is_replaceable(file_))
+    throw UsageError(fmt::format(
+        "--checkpoint {}: is no checkpoint of phlux, and would be lost: name another file, or delete it",
+        file_.string()));
+  std::error_code none;
+  if (options.resume.empty() && std::filesystem::is_regular_file(file_, none) &&
+      !std::filesystem::is_empty(file_, none))
     spdlog::warn("--checkpoint {}: replaces an earlier checkpoint, from which --resume would continue",
                  file_.string());
 }
 
 void Checkpoints::wait() {
-  try {
-    if (writing_.valid()) writing_.get();
-  } catch (const WriteError& error) {
-    spdlog::warn("{}: rendering continues, and the next checkpoint may succeed", error.what());
-  }
+  if (writing_.valid()) writing_.get();
 }
 
 void Checkpoints::update(const film::Film& film, const render::Progress& progress) {
   if (file_.empty() || Clock::now() < next_) return;
   if (writing_.valid() && writing_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
-  wait();
-  session_.state = progress.state();
-  writing_ = std::async(std::launch::async, [file = file_, bytes = checkpoint::encode(session_, film)] {
-    files::write_file(file, bytes);
+  warn_if_it_fails(file_, [&] { wait(); });
+  warn_if_it_fails(file_, [&] {
+    session_.state = progress.state();
+    if (is_large(film)) return write(film);
+    writing_ = std::async(std::launch::async, [file = file_, bytes = checkpoint::encode(session_, film)] {
+      replace(file, [&](std::ostream& to) { to << bytes; });
+    });
   });
   next_ = Clock::now() + between_;
 }
 
-std::optional<WriteError> Checkpoints::finish(const film::Film& film, const render::RenderState& state) {
-  if (file_.empty()) return std::nullopt;
-  wait();
+void Checkpoints::write(const film::Film& film) const {
+  replace(file_, [&](std::ostream& to) { checkpoint::write(session_, film, to); });
+}
+
+void Checkpoints::finish(const film::Film& film, const render::RenderState& state) {
+  if (file_.empty()) return;
+  warn_if_it_fails(file_, [&] { wait(); });
   session_.state = state;
-  try {
-    files::write_file(file_, checkpoint::encode(session_, film));
-  } catch (const WriteError& error) {
-    return error;
-  }
-  return std::nullopt;
+  write(film);
 }
 
 } // namespace phlux::cli

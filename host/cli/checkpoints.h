@@ -8,7 +8,6 @@
 
 #include "checkpoint/checkpoint.h"
 #include "cli/options.h"
-#include "errors.h"
 
 namespace phlux::cli {
 
@@ -25,18 +24,19 @@ void check_same(const checkpoint::Checkpoint& earlier, const checkpoint::Session
 /// Writes checkpoints to one file, each replacing the last. Does nothing without a file name.
 class Checkpoints {
 public:
+  /// @throws UsageError if the file is something else than a checkpoint, which would be lost
   Checkpoints(std::filesystem::path file, const RenderOptions& options, checkpoint::Session session);
 
   /// Writes a checkpoint when the interval has passed, in another thread; the render waits only for the copy
-  /// in memory. A failed write is a warning, as the next may succeed.
+  /// in memory, or, if that would be large, for the file. A failure is a warning, as the next may succeed.
   void update(const film::Film& film, const render::Progress& progress);
-  /// Writes the last checkpoint. Returns an error rather than throwing it, so that the image is written
-  /// first.
-  [[nodiscard]] std::optional<WriteError> finish(const film::Film& film, const render::RenderState& state);
+  /// Writes the last checkpoint. @throws WriteError
+  void finish(const film::Film& film, const render::RenderState& state);
 
 private:
   using Clock = std::chrono::steady_clock;
   void wait();
+  void write(const film::Film& film) const;
 
   std::filesystem::path file_;
   checkpoint::Session session_;

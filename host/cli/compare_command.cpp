@@ -16,6 +16,8 @@
 #include "files/json.h"
 #include "files/output.h"
 #include "files/png.h"
+#include "printable.h"
+#include "terminal.h"
 
 namespace phlux::cli {
 namespace {
@@ -27,10 +29,7 @@ void check_picture_file(const CompareOptions& options) {
   if (is_of_another_format(options.picture, ".png"))
     throw UsageError(fmt::format("--png {}: the picture is a PNG file, such as {}", name,
                                  fs::path(options.picture).replace_extension(".png").string()));
-  for (const fs::path& image : {options.a, options.b})
-    if (std::error_code error; fs::equivalent(options.picture, image, error))
-      throw UsageError(
-          fmt::format("--png {}: is one of the images to compare: name another file for the picture", name));
+  reject_inputs({options.picture}, {options.a, options.b});
   files::check_writable(options.picture);
 }
 
@@ -66,7 +65,7 @@ bool any_above_limit(const CompareOptions& options, const nlohmann::ordered_json
   bool any = false;
   for (const auto& [metric, limit] : options.limits) {
     if (json[metric].get<double>() <= limit) continue;
-    fmt::print(stderr, "phlux: {} is {}: must be at most {}\n", metric, text_of(json[metric]), limit);
+    tell("phlux: {} is {}: must be at most {}\n", metric, text_of(json[metric]), limit);
     any = true;
   }
   return any;
@@ -75,8 +74,8 @@ bool any_above_limit(const CompareOptions& options, const nlohmann::ordered_json
 // Prints what is left out.
 bool too_many_not_finite(const CompareOptions& options, std::uint64_t count) {
   if (count == 0) return false;
-  fmt::print(stderr, "phlux: {} values of {} and {} are not finite: the figures leave their pixels out\n",
-             count, options.a.string(), options.b.string());
+  tell("phlux: {} values of {} and {} are not finite: the figures leave their pixels out\n", count,
+       printable(options.a.string()), printable(options.b.string()));
   return std::ranges::find(options.limits, "nonfinite", &CompareOptions::Limit::metric) ==
          options.limits.end();
 }
@@ -93,9 +92,9 @@ int compare(const CompareOptions& options) {
   if (!options.picture.empty())
     files::write_file(options.picture, files::encode_png(files::compare_picture(image_a, image_b, a, b)));
   if (options.json)
-    fmt::print("{}", files::json_text(json));
+    say("{}", files::json_text(json));
   else
-    for (const auto& [name, value] : json.items()) fmt::print("{:<16}{}\n", name, text_of(value));
+    for (const auto& [name, value] : json.items()) say("{:<16}{}\n", name, text_of(value));
   const bool unsound = too_many_not_finite(options, comparison.nonfinite);
   return any_above_limit(options, json) || unsound ? 1 : 0;
 }

@@ -9,6 +9,7 @@
 #include "device/device.h"
 #include "errors.h"
 #include "files/json.h"
+#include "terminal.h"
 
 namespace phlux::cli {
 namespace {
@@ -79,13 +80,12 @@ int list_devices(const DevicesOptions& options) {
     rows.push_back(to_row(info, is_default));
   }
   if (options.json) {
-    fmt::print("{}", files::json_text(json));
+    say("{}", files::json_text(json));
   } else {
     print_table(rows);
-    fmt::print("* used unless --device says otherwise; WIDTH: paths that one work item traces at a time\n");
+    say("* used unless --device says otherwise; WIDTH: paths that one work item traces at a time\n");
     for (const device::PlatformInfo& platform : device::list_platforms())
-      if (platform.devices == 0)
-        fmt::print("platform {}, {}, has no devices\n", platform.index, platform.name);
+      if (platform.devices == 0) say("platform {}, {}, has no devices\n", platform.index, platform.name);
   }
   return 0;
 }

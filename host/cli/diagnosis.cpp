@@ -7,6 +7,8 @@
 
 #include "advice/advice.h"
 #include "cli/spelling.h"
+#include "errors.h"
+#include "terminal.h"
 
 namespace phlux::cli {
 namespace {
@@ -44,18 +46,20 @@ std::string doubt(const film::Reliability& r, const film::Film& film) {
 
 } // namespace
 
-Diagnosis diagnose(const film::Film& film, const render::Statistics& statistics,
-                   const render::Settings& settings, scene::Scene&& scene, bool insist) {
-  Diagnosis diagnosis;
+void diagnose(const film::Film& film, const render::Statistics& statistics, const render::Settings& settings,
+              scene::Scene&& scene, bool insist, Diagnosis& diagnosis) {
   diagnosis.reliability = film::reliability_of(film);
-  if (statistics.interrupted || !statistics.shines || (diagnosis.reliability.trusted && !insist))
-    return diagnosis;
+  if (statistics.interrupted || !statistics.shines || (diagnosis.reliability.trusted && !insist)) return;
   if (const double seconds = trial_seconds(statistics, advice::trials_of(scene), insist); seconds > 0.0) {
-    const advice::Advice advice = advice::advise(std::move(scene), settings, seconds);
-    diagnosis.advice = with_options(advice.words);
-    diagnosis.better_found = advice.found;
+    try {
+      const advice::Advice advice = advice::advise(std::move(scene), settings, seconds);
+      diagnosis.advice = with_options(advice.words);
+      diagnosis.better_found = advice.found;
+    } catch (const DeviceError& error) {
+      if (insist) throw;
+      spdlog::info("no trials of other integrators: {}", error.what());
+    }
   }
-  return diagnosis;
 }
 
 void report(const Diagnosis& diagnosis, const film::Film& film, const render::Statistics& statistics,
@@ -72,10 +76,11 @@ void report(const Diagnosis& diagnosis, const film::Film& film, const render::St
                  100.0 * film.clamped_share());
   if (quiet) return;
   const film::Reliability& r = diagnosis.reliability;
-  if (statistics.shines && !r.trusted && film.samples_per_pixel() >= film::least_samples)
+  if (statistics.shines && !r.trusted && !r.reasons.empty() &&
+      film.samples_per_pixel() >= film::least_samples)
     spdlog::warn("{}: {}", doubt(r, film), remedies(diagnosis, settings));
   else if (!diagnosis.advice.empty())
-    fmt::print("advice: {}\n", diagnosis.advice);
+    say("advice: {}\n", diagnosis.advice);
 }
 
 } // namespace phlux::cli

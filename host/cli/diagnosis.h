@@ -16,9 +16,10 @@ struct Diagnosis {
 
 /// Estimates the reliability of the film's error. Tries other methods: for a second each if `insist`, else
 /// only if the error is unreliable and the trials and the setup together take at most 3% of the render's
-/// time.
-[[nodiscard]] Diagnosis diagnose(const film::Film& film, const render::Statistics& statistics,
-                                 const render::Settings& settings, scene::Scene&& scene, bool insist);
+/// time. `diagnosis` has the reliability even if a trial fails. @throws DeviceError of a
+/// trial if `insist`
+void diagnose(const film::Film& film, const render::Statistics& statistics, const render::Settings& settings,
+              scene::Scene&& scene, bool insist, Diagnosis& diagnosis);
 
 /// Logs contributions that were not finite or clamped. Unless `quiet`, also logs the likely error and the
 /// remedy where the error estimate is unreliable, and else prints the advice.

@@ -1,12 +1,12 @@
-// SIGINT and SIGTERM as a flag that the dispatch loop polls.
+// Signals that end a render as a flag that the dispatch loop polls.
 #pragma once
 
 namespace phlux::cli {
 
 inline constexpr int interrupted_exit_code = 130;
 
-/// During its lifetime the first SIGINT or SIGTERM only sets a flag; a second one ends the process at once.
-/// There must be only one at a time.
+/// During its lifetime SIGINT, SIGTERM, SIGHUP (a closed terminal; not if nohup has it ignored) and SIGXCPU
+/// only set a flag. A second SIGINT or SIGTERM ends the process at once. There must be only one at a time.
 class InterruptGuard {
 public:
   InterruptGuard();
@@ -16,5 +16,9 @@ public:
 
   [[nodiscard]] bool requested() const;
 };
+
+/// Lets writes to pipes without a reader and beyond a limit on the size of files fail; by default their
+/// signals, SIGPIPE and SIGXFSZ, end the process.
+void let_writes_fail();
 
 } // namespace phlux::cli

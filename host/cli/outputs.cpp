@@ -9,6 +9,7 @@
 #include <spdlog/stopwatch.h>
 
 #include "errors.h"
+#include "files/contributions.h"
 #include "files/output.h"
 #include "files/png.h"
 
@@ -41,19 +42,33 @@ fs::path preview_beside(const fs::path& image) {
   return fs::path(image) += ".png";
 }
 
-void reject_same_names(const Outputs& outputs) {
-  std::vector<fs::path> names;
-  for (const fs::path& file : {outputs.image, outputs.preview, outputs.statistics, outputs.checkpoint}) {
-    const fs::path name = file.lexically_normal();
-    if (!name.empty() && name != "/dev/null" && std::ranges::find(names, name) != names.end())
-      throw UsageError(
-          fmt::format("{}: named for two outputs: image, preview, statistics and checkpoint need a file each",
-                      file.string()));
-    names.push_back(name);
-  }
+// Whether a write replaces nothing, such as /dev/null.
+bool is_device(const fs::path& file) {
+  std::error_code error;
+  return fs::is_character_file(file, error);
+}
+
+bool same(const fs::path& a, const fs::path& b) {
+  return files::same_file(a, b) && !is_device(a);
+}
+
+void reject_same_names(const std::vector<fs::path>& files) {
+  for (std::size_t i = 0; i < files.size(); ++i)
+    for (std::size_t other = 0; other < i; ++other)
+      if (same(files[i], files[other]))
+        throw UsageError(fmt::format(
+            "{}: named for two outputs: image, preview, statistics and checkpoint need a file each",
+            files[i].string()));
 }
 
 } // namespace
+
+void warn_of_nonfinite(const fs::path& file, const files::NonFinite& values) {
+  for (const auto& [channel, count] : values)
+    spdlog::warn("{}: {} values of channel {} are not finite, being beyond a float's 3e38 or undefined: dim "
+                 "the lights",
+                 file.string(), count, channel);
+}
 
 bool is_of_another_format(const fs::path& file, const std::string& own) {
   const std::vector<std::string> formats = {".exr", ".png",  ".jpg", ".jpeg", ".hdr",  ".pfm", ".ppm",
@@ -62,9 +77,15 @@ bool is_of_another_format(const fs::path& file, const std::string& own) {
   return extension != own && std::ranges::find(formats, extension) != formats.end();
 }
 
+std::vector<fs::path> Outputs::files() const {
+  std::vector<fs::path> files = {image, preview, statistics, checkpoint};
+  std::erase(files, fs::path());
+  return files;
+}
+
 Outputs outputs_of(const RenderOptions& options) {
   Outputs outputs{options.output, options.preview, options.statistics,
-                  options.checkpoint.empty() ? options.resume : options.checkpoint};
+                  options.checkpoint.empty() ? options.resume : options.checkpoint, options.contributions};
   if (outputs.checkpoint == "none") outputs.checkpoint.clear();
   if (outputs.image.empty()) outputs.image = options.scene_file.stem() += ".exr";
   reject_other_formats(outputs.image, outputs.preview);
@@ -72,21 +93,50 @@ Outputs outputs_of(const RenderOptions& options) {
     outputs.preview.clear();
   else if (outputs.preview.empty())
     outputs.preview = preview_beside(outputs.image);
-  reject_same_names(outputs);
+  reject_same_names(outputs.files());
   return outputs;
 }
 
+void reject_inputs(const std::vector<fs::path>& outputs, const std::vector<fs::path>& inputs) {
+  for (const fs::path& output : outputs)
+    for (const fs::path& input : inputs)
+      if (same(output, input))
+        throw UsageError(
+            fmt::format("{}: named for an output, but {}: name another file", output.string(),
+                        input == output ? "it is an input" : fmt::format("is the input {}", input.string())));
+}
+
+void reject_inputs(const Outputs& outputs, const RenderOptions& options, const scene::Scene& scene) {
+  std::vector<fs::path> inputs = scene.files;
+  inputs.insert(inputs.end(), options.lobes.begin(), options.lobes.end());
+  if (const auto strategy = options.texts.find("strategy");
+      strategy != options.texts.end() && settings::is_strategy_file(strategy->second))
+    inputs.emplace_back(strategy->second);
+  std::vector<fs::path> files = outputs.files();
+  reject_inputs(files, inputs);
+  if (!options.resume.empty()) { // which its own checkpoints may replace
+    std::erase(files, outputs.checkpoint);
+    reject_inputs(files, {options.resume});
+  }
+  if (outputs.contributions.empty()) return;
+  inputs.push_back(options.resume);
+  for (const std::vector<fs::path>& others : {inputs, outputs.files()})
+    for (const fs::path& other : others)
+      if (files::is_contribution(outputs.contributions, other))
+        throw UsageError(fmt::format("--contributions {}: would replace {}: name another folder",
+                                     outputs.contributions.string(), other.string()));
+}
+
 void check_writable(const Outputs& outputs) {
-  for (const fs::path& file : {outputs.image, outputs.preview, outputs.statistics, outputs.checkpoint})
-    if (!file.empty()) files::check_writable(file);
+  for (const fs::path& file : outputs.files()) files::check_writable(file);
 }
 
 void PreviewRefresher::update(const film::Film& film, double seconds) {
   if (file_.empty() || seconds < next_) return;
   const spdlog::stopwatch watch;
   try {
-    files::write_png(file_, files::image_of(film, {}, false));
-  } catch (const WriteError& error) {
+    files::write_png(file_, files::rows_of(film, false));
+  } catch (const std::exception& error) {
     spdlog::info("{}", error.what());
   }
   next_ = seconds + std::max(seconds_between, watch.elapsed().count() / preview_share_of_time);

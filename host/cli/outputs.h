@@ -3,30 +3,45 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "cli/options.h"
-#include "files/image.h"
+#include "files/exr.h"
+#include "scene/scene.h"
 
 namespace phlux::cli {
 
 /// An empty name: not written.
 struct Outputs {
   std::filesystem::path image, preview, statistics, checkpoint;
+  std::filesystem::path contributions; ///< folder
+
+  [[nodiscard]] std::vector<std::filesystem::path> files() const; ///< those that have a name
 };
+
+/// Warns of values that are NaN or infinite.
+void warn_of_nonfinite(const std::filesystem::path& file, const files::NonFinite& values);
 
 /// Whether the file's name says that it is an image of another format than `own`, such as ".png".
 [[nodiscard]] bool is_of_another_format(const std::filesystem::path& file, const std::string& own);
 
 /// The options' files or their defaults; the default checkpoint is the file that the render resumes from.
 /// There is no default preview for an image that is not a regular file (/dev/null).
-/// @throws UsageError for a name given twice, or the name of another image format
+/// @throws UsageError for two outputs in one file, or the name of another image format
 [[nodiscard]] Outputs outputs_of(const RenderOptions& options);
+
+/// @throws UsageError if a file of `outputs` is one of `inputs`, the files that are read
+void reject_inputs(const std::vector<std::filesystem::path>& outputs,
+                   const std::vector<std::filesystem::path>& inputs);
+
+/// The same for a render of `scene`, and for the files of its --contributions.
+void reject_inputs(const Outputs& outputs, const RenderOptions& options, const scene::Scene& scene);
 
 /// @throws WriteError for the first file that cannot be written
 void check_writable(const Outputs& outputs);
 
 /// Rewrites the preview during the render, at most every three seconds and for at most 2% of the time. A
-/// failed write is only noted; the last one, at the end of the render, throws.
+/// failure is only noted.
 class PreviewRefresher {
 public:
   explicit PreviewRefresher(std::filesystem::path file) : file_(std::move(file)) {}

@@ -10,6 +10,8 @@
 
 #include <fmt/format.h>
 
+#include "terminal.h"
+
 namespace phlux::cli {
 namespace {
 
@@ -25,7 +27,8 @@ std::size_t terminal_columns() {
 }
 
 std::string clock_text(double seconds) {
-  const auto whole = static_cast<std::int64_t>(std::ceil(seconds));
+  constexpr double longest = 1e12; // 30,000 years
+  const auto whole = static_cast<std::int64_t>(std::ceil(std::min(seconds, longest)));
   if (whole < 3600) return fmt::format("{}:{:02}", whole / 60, whole % 60);
   return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
 }
@@ -84,16 +87,16 @@ void ProgressDisplay::update(const render::Progress& progress, const std::functi
 }
 
 void ProgressDisplay::clear() {
-  if (line_is_shown_) fmt::print(stderr, "\r\x1b[K");
+  if (line_is_shown_) tell("\r\x1b[K");
   line_is_shown_ = false;
 }
 
 void ProgressDisplay::show(const std::string& text) {
   if (!terminal_) {
-    fmt::print(stderr, "phlux: {}\n", text);
+    tell("phlux: {}\n", text);
     return;
   }
-  fmt::print(stderr, "\r\x1b[K{}", text);
+  tell("\r\x1b[K{}", text);
   std::fflush(stderr);
   line_is_shown_ = true;
 }

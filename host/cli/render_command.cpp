@@ -7,10 +7,12 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "cli/attempts.h"
 #include "cli/checkpoints.h"
 #include "cli/commands.h"
 #include "cli/diagnosis.h"
 #include "cli/interrupt.h"
+#include "cli/memory.h"
 #include "cli/outputs.h"
 #include "cli/progress.h"
 #include "cli/spelling.h"
@@ -21,8 +23,10 @@
 #include "files/json.h"
 #include "files/output.h"
 #include "files/png.h"
+#include "printable.h"
 #include "scene/digest.h"
 #include "scene_file/load.h"
+#include "terminal.h"
 
 namespace phlux::cli {
 namespace {
@@ -67,16 +71,19 @@ render::Statistics render_scene(const scene::Scene& scene, const render::Setting
   throw SceneError(fmt::format("{}: {}", file.string(), error.what()));
 }
 
+// Renders. Failing devices end a render early, as an interruption does, and are added to `attempts`.
 render::Statistics run(const scene::Scene& scene, const render::Settings& settings, film::Film& film,
                        const Outputs& outputs, const RenderOptions& options, Checkpoints& checkpoints,
-                       const render::RenderState& from) {
-  const InterruptGuard interrupt;
+                       const render::RenderState& from, const InterruptGuard& interrupt, Attempts& attempts) {
   ProgressDisplay display(options.quiet, settings.time_limit, settings.target_error);
   PreviewRefresher preview(outputs.preview);
   ErrorSoFar error(film);
   bool interrupted = false;
   render::Events events;
-  events.warning = [](const std::string& text) { spdlog::warn("{}", with_options(text)); };
+  events.warning = [&](const std::string& text) {
+    display.clear();
+    spdlog::warn("{}", with_options(text));
+  };
   events.building_kernels = [&] { display.building_kernels(); };
   events.progress = [&](const render::Progress& progress) {
     display.update(progress, [&] { return error.at(progress.samples_done); });
@@ -85,7 +92,14 @@ render::Statistics run(const scene::Scene& scene, const render::Settings& settin
     interrupted = interrupt.requested();
     return !interrupted;
   };
-  render::Statistics statistics = render_scene(scene, settings, film, events, from, options.scene_file);
+  render::Statistics statistics;
+  try {
+    statistics = render_scene(scene, settings, film, events, from, options.scene_file);
+  } catch (const render::DevicesFailed& failure) {
+    attempts.failed(failure);
+    statistics = failure.statistics;
+    interrupted = true;
+  }
   statistics.interrupted = interrupted;
   return statistics;
 }
@@ -107,35 +121,36 @@ files::RenderInfo info_of(const checkpoint::Session& session, const film::Film& 
       .clamped_share = film.clamped_share()};
 }
 
-void warn_of_moments(const files::Image& image) {
-  if (image.channels.size() == 3) {
-    spdlog::warn("--moments: variances need two samples in every pixel: their channels are left out");
-    return;
-  }
-  for (const auto& [name, values] : image.channels)
-    if (std::ranges::any_of(values, [](float value) { return std::isinf(value); })) {
-      spdlog::warn("--moments: {} has values beyond a float's 3e38, written as inf: dim the lights", name);
-      return;
+// Writes the image where it can. Returns its path, empty if it cannot be written.
+std::filesystem::path write_image(const std::filesystem::path& wanted, const files::Rows& rows,
+                                  const files::RenderInfo& info, Attempts& attempts) {
+  try {
+    warn_of_nonfinite(wanted, files::write_exr(wanted, rows, info));
+    return wanted;
+  } catch (const WriteError& error) {
+    const std::filesystem::path second = files::elsewhere(wanted);
+    try {
+      warn_of_nonfinite(second, files::write_exr(second, rows, info));
+    } catch (const WriteError& other) {
+      attempts.failed(WriteError(fmt::format("{}; {}", error.what(), other.what())));
+      return {};
     }
-}
-
-void write(const Outputs& outputs, const files::RenderInfo& info, const film::Film& film, bool moments) {
-  const files::Image image = files::image_of(film, info, moments && film.has_variance());
-  if (moments) warn_of_moments(image);
-  files::write_exr(outputs.image, image);
-  if (!outputs.preview.empty()) files::write_png(outputs.preview, image);
+    attempts.failed(WriteError(fmt::format("{}; the image is in {}", error.what(), second.string())));
+    return second;
+  }
 }
 
 void write_techniques(const std::filesystem::path& folder, film::Film& film, const files::RenderInfo& info) {
-  files::write_contributions(folder, film, info);
+  warn_of_nonfinite(folder, files::write_contributions(folder, film, info));
   if (const std::uint64_t left_out = film.techniques()->left_out(); left_out > 0)
     spdlog::warn("--contributions: paths of more than {} edges are in the image alone ({} contributions)",
                  film::most_technique_edges, left_out);
 }
 
-std::string summary(const Outputs& outputs, const film::Film& film, const render::Statistics& statistics) {
+std::string summary(const std::filesystem::path& image, const std::filesystem::path& checkpoint,
+                    const film::Film& film, const render::Statistics& statistics) {
   const double seconds = statistics.seconds_render;
-  std::string text = fmt::format("{}: {}x{}, {:.6g} samples per pixel, {:.3g} s", outputs.image.string(),
+  std::string text = fmt::format("{}: {}x{}, {:.6g} samples per pixel, {:.3g} s", image.string(),
                                  film.width(), film.height(), film.samples_per_pixel(), seconds);
   if (seconds > 0.0)
     text += fmt::format(", {:.3g} M paths/s", 1e-6 * static_cast<double>(statistics.paths) / seconds);
@@ -145,7 +160,41 @@ std::string summary(const Outputs& outputs, const film::Film& film, const render
                     film.samples_per_pixel() < film::least_samples ? " (of too few samples to trust)" : "");
   if (!statistics.interrupted) return text;
   return text + ", interrupted" +
-         (outputs.checkpoint.empty() ? "" : ": --resume " + outputs.checkpoint.string() + " goes on");
+         (checkpoint.empty() ? "" : ": --resume " + checkpoint.string() + " goes on");
+}
+
+// Everything that a render leaves, the image first. A failure of one prevents no other.
+void write_all(const Outputs& outputs, const RenderOptions& options, const checkpoint::Session& session,
+               film::Film& film, const render::Statistics& statistics, scene::Scene&& scene,
+               Checkpoints& checkpoints, Attempts& attempts) {
+  const render::Settings& settings = session.settings;
+  const files::RenderInfo info = info_of(session, film, statistics);
+  std::filesystem::path image_file, checkpoint_file;
+  attempts(outputs.image, [&] {
+    if (options.moments && !film.has_variance())
+      spdlog::warn("--moments: variances need two samples in every pixel: their channels are left out");
+    const files::Rows rows = files::rows_of(film, options.moments && film.has_variance());
+    image_file = write_image(outputs.image, rows, info, attempts);
+  });
+  attempts(outputs.checkpoint, [&] {
+    checkpoints.finish(film, statistics);
+    checkpoint_file = outputs.checkpoint;
+  });
+  if (!outputs.preview.empty())
+    attempts(outputs.preview, [&] { files::write_png(outputs.preview, files::rows_of(film, false)); });
+  if (settings.techniques)
+    attempts(options.contributions, [&] { write_techniques(options.contributions, film, info); });
+  Diagnosis diagnosis;
+  attempts("diagnosis",
+           [&] { diagnose(film, statistics, settings, std::move(scene), options.advise, diagnosis); });
+  if (!outputs.statistics.empty())
+    attempts(outputs.statistics, [&] {
+      files::write_file(outputs.statistics,
+                        files::json_text(statistics_json(statistics, settings, info, film, diagnosis)));
+    });
+  if (!options.quiet && !image_file.empty())
+    say("{}\n", printable(summary(image_file, checkpoint_file, film, statistics)));
+  report(diagnosis, film, statistics, settings, options.quiet);
 }
 
 } // namespace
@@ -158,6 +207,7 @@ int render(const RenderOptions& given) {
   std::optional<checkpoint::Checkpoint> earlier = resumed(options);
   scene::Scene scene =
       scene_file::load(options.scene_file, options.definitions, options.size, lobes::Library(options.lobes));
+  reject_inputs(outputs, options, scene);
   const scene::Camera& camera = scene.camera;
   const checkpoint::Session session{.scene = options.scene_file.string(),
                                     .scene_digest = scene::digest(scene),
@@ -165,29 +215,19 @@ int render(const RenderOptions& given) {
                                     .settings = settings_of(options, scene.defaults),
                                     .state = {}};
   if (earlier) check_same(*earlier, session, camera, options.resume);
-  const render::Settings& settings = session.settings;
+  if (!earlier) require_memory(camera, session.settings, outputs);
   film::Film film = earlier ? std::move(earlier->film) : film::Film(camera.width, camera.height);
   Checkpoints checkpoints(outputs.checkpoint, options, session);
-  const render::Statistics statistics = run(scene, settings, film, outputs, options, checkpoints,
-                                            earlier ? earlier->session.state : render::RenderState());
-
-  if (film.samples_per_pixel() == 0.0) { // an older image is worth more than a black one
+  const InterruptGuard interrupt; // until everything is written
+  Attempts attempts;
+  const render::Statistics statistics =
+      run(scene, session.settings, film, outputs, options, checkpoints,
+          earlier ? earlier->session.state : render::RenderState(), interrupt, attempts);
+  if (film.samples_per_pixel() == 0.0) // an older image is worth more than a black one
     spdlog::warn("interrupted before the first sample: nothing is written");
-    return interrupted_exit_code;
-  }
-  const std::optional<WriteError> failure = checkpoints.finish(film, statistics);
-  const files::RenderInfo info = info_of(session, film, statistics);
-  // Before the diagnosis, which may fail.
-  write(outputs, info, film, options.moments);
-  const Diagnosis diagnosis = diagnose(film, statistics, settings, std::move(scene), options.advise);
-  if (!outputs.statistics.empty())
-    files::write_file(outputs.statistics,
-                      files::json_text(statistics_json(statistics, settings, info, film, diagnosis)));
-  if (settings.techniques) write_techniques(options.contributions, film, info);
-  if (!options.quiet) fmt::print("{}\n", summary(outputs, film, statistics));
-  report(diagnosis, film, statistics, settings, options.quiet);
-  if (failure) throw WriteError(*failure);
-  return statistics.interrupted ? interrupted_exit_code : 0;
+  else
+    write_all(outputs, options, session, film, statistics, std::move(scene), checkpoints, attempts);
+  return attempts.report(statistics.interrupted ? interrupted_exit_code : 0);
 }
 
 } // namespace phlux::cli

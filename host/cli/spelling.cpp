@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <regex>
 
+#include "printable.h"
 #include "settings/settings.h"
 
 namespace phlux::cli {
@@ -25,7 +26,7 @@ std::string with_options(const std::string& text) {
     result += is_option((*match)[1]) ? "--" + (*match)[1].str() : all.str();
     rest = all.second;
   }
-  return result.append(rest, text.end());
+  return printable(result.append(rest, text.end()), true);
 }
 
 } // namespace phlux::cli

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "terminal.h"
+
 namespace phlux::cli {
 
 /// Prints rows with aligned columns, two spaces apart.
@@ -22,7 +24,7 @@ inline void print_table(const std::vector<std::vector<std::string>>& rows) {
     for (std::size_t column = 0; column < row.size(); ++column)
       line += fmt::format("{:<{}}  ", row[column], widths[column]);
     line.erase(line.find_last_not_of(' ') + 1);
-    fmt::print("{}\n", line);
+    say("{}\n", line);
   }
 }
 

@@ -5,12 +5,14 @@
 #include <fmt/format.h>
 
 #include "cli/commands.h"
+#include "cli/outputs.h"
 #include "cli/spelling.h"
 #include "cli/verify_tables.h"
 #include "clock.h"
 #include "device/device.h"
 #include "files/json.h"
 #include "files/output.h"
+#include "terminal.h"
 #include "verify/integrators/check_integrators.h"
 #include "verify/lobe/contradictions.h"
 #include "verify/lobe/verify_lobe.h"
@@ -94,7 +96,11 @@ Report run(const device::Device& device, const verify::Settings& settings, const
 int verify(const VerifyOptions& options) {
   const std::vector<verify::LobeToVerify> lobes = lobes_of(options);
   const device::Device device = device::open_devices(options.devices).front();
-  if (!options.json.empty()) files::check_writable(options.json);
+  if (!options.json.empty()) {
+    reject_inputs({options.json}, options.lobes);
+    reject_inputs({options.json}, {options.strategies.begin(), options.strategies.end()});
+    files::check_writable(options.json);
+  }
   verify::Settings settings;
   settings.lanes = options.lanes != 0 ? options.lanes : device.info.lanes;
   settings.quick = options.quick;
@@ -102,8 +108,8 @@ int verify(const VerifyOptions& options) {
   settings.strategies = options.strategies;
   settings.integrators = options.integrators;
   if (!options.kernel_dir.empty()) settings.kernels = sources::KernelFiles(options.kernel_dir);
-  fmt::print("{} ({}, driver {}), WIDTH {}\n", device.info.name, device.info.platform, device.info.driver,
-             settings.lanes);
+  say("{} ({}, driver {}), WIDTH {}\n", device.info.name, device.info.platform, device.info.driver,
+      settings.lanes);
   const Clock::time_point start = Clock::now();
   std::vector<std::string> conclusions;
   Report report = run(device, settings, options, lobes, conclusions);
@@ -112,17 +118,17 @@ int verify(const VerifyOptions& options) {
   print_results(report);
   print_meanings(report);
   print_failures(report);
-  for (const std::string& text : conclusions) fmt::print("{}\n", text);
+  for (const std::string& text : conclusions) say("{}\n", text);
   if (!options.json.empty()) {
     auto json = json_of(report, device, settings.lanes, seconds);
     json["conclusions"] = conclusions;
     files::write_file(options.json, files::json_text(json));
   }
   if (device::portable_lanes(device))
-    fmt::print("portable lanes: the compiler refuses the processor's own instructions\n");
-  fmt::print("{}: {} checks, {} p-values with a false alarm in {:g} runs, {:.1f} s\n",
-             report.passed() ? "passed" : "FAILED", report.results().size(), report.p_values(),
-             1 / verify::false_alarm_rate, seconds);
+    say("portable lanes: the compiler refuses the processor's own instructions\n");
+  say("{}: {} checks, {} p-values with a false alarm in {:g} runs, {:.1f} s\n",
+      report.passed() ? "passed" : "FAILED", report.results().size(), report.p_values(),
+      1 / verify::false_alarm_rate, seconds);
   return report.passed() ? 0 : 1;
 }
 

@@ -9,6 +9,7 @@
 
 #include "cli/spelling.h"
 #include "cli/table.h"
+#include "terminal.h"
 #include "verify/integrators/methods.h"
 #include "verify/meanings.h"
 
@@ -81,7 +82,7 @@ void print_columns(const Report& report, const std::string& title, const Filter&
       for (std::size_t row = 0; row < rows.size(); ++row) rows[row].push_back(column[row]);
     }
     print_table(rows);
-    fmt::print("\n");
+    say("\n");
   }
 }
 
@@ -92,7 +93,7 @@ void print_rows(const Report& report, const std::string& name) {
     if (result.strategy == name)
       rows.push_back({result.check, figure(result), limit_text(result), result.where});
   print_table(rows);
-  fmt::print("\n");
+  say("\n");
 }
 
 // One row per number of edges, one column per number of light vertices.
@@ -116,9 +117,9 @@ void print_techniques(const Report& report) {
     row.resize(rows[0].size() - 1);
     row.push_back(cell(verify::check_of_length(edges)));
   }
-  fmt::print("TECHNIQUES of bidir with s light vertices, limit {}\n", limit);
+  say("TECHNIQUES of bidir with s light vertices, limit {}\n", limit);
   print_table(rows);
-  fmt::print("\n");
+  say("\n");
 }
 
 bool of_integrator(const Result& result) {
@@ -141,7 +142,7 @@ void print_results(const Report& report) {
 }
 
 void print_meanings(const Report& report) {
-  fmt::print("Each figure is the worst over materials, angles and channels; p is a p-value.\n");
+  say("Each figure is the worst over materials, angles and channels; p is a p-value.\n");
   Rows rows;
   for (const auto& [title, filter] : {std::pair<const char*, Filter>{"STRATEGY", of_kind(Kind::strategy)},
                                       {"MODEL", of_kind(Kind::model)},
@@ -163,23 +164,22 @@ void print_meanings(const Report& report) {
     rows.push_back({"  weighted", "the same by all techniques that make such paths, weighted (t-test)"});
   }
   print_table(rows);
-  fmt::print("\n");
+  say("\n");
 }
 
 void print_failures(const Report& report) {
   for (const Result& result : report.results())
     if (result.passed && !result.note.empty())
-      fmt::print("{}{}: {}\n", result.strategy.empty() ? "" : result.strategy + ": ", result.check,
-                 result.note);
+      say("{}{}: {}\n", result.strategy.empty() ? "" : result.strategy + ": ", result.check, result.note);
   for (const Result& result : report.results()) {
     if (result.passed) continue;
-    fmt::print("FAILED {}: {}{:.6g}, must be {}, for {}\n", name_of(result),
-               result.note.empty() ? "" : with_options(result.note) + ": ", result.worst, limit_text(result),
-               result.where);
-    fmt::print("  what it is: {}\n", verify::meaning_of(result));
+    say("FAILED {}: {}{:.6g}, must be {}, for {}\n", name_of(result),
+        result.note.empty() ? "" : with_options(result.note) + ": ", result.worst, limit_text(result),
+        result.where);
+    say("  what it is: {}\n", verify::meaning_of(result));
     if (const std::string function = verify::function_to_look_at(result); !function.empty())
-      fmt::print("  look at {}\n", function);
-    for (const std::string& file : result.files) fmt::print("  written: {}\n", file);
+      say("  look at {}\n", function);
+    for (const std::string& file : result.files) say("  written: {}\n", file);
   }
 }
 

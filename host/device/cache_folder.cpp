@@ -1,5 +1,6 @@
 #include "device/cache_folder.h"
 
+#include <cerrno>
 #include <cstdlib>
 #include <mutex>
 
@@ -7,6 +8,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 #include <sys/stat.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 
 namespace phlux::device {
@@ -21,6 +23,24 @@ std::optional<std::string> environment(const char* name) {
   return value;
 }
 
+// Whether the folder has room for what PoCL writes for several programs.
+bool has_room(const fs::path& folder) {
+  constexpr double least = 16 << 20; // bytes
+  constexpr off_t probed = 1 << 20;  // a quota shows only when it is met
+  struct statvfs of_folder {};
+  if (statvfs(folder.c_str(), &of_folder) == 0 &&
+      static_cast<double>(of_folder.f_bavail) * static_cast<double>(of_folder.f_frsize) < least)
+    return false;
+  const std::string probe = (folder / fmt::format(".room-{}", getpid())).string();
+  const int file = open(probe.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0600);
+  const int error = file < 0 ? errno : posix_fallocate(file, 0, probed);
+  if (file >= 0) {
+    close(file);
+    unlink(probe.c_str());
+  }
+  return error != ENOSPC && error != EDQUOT;
+}
+
 void choose_pocl_cache() {
   fs::path wanted;
   if (auto given = environment("POCL_CACHE_DIR")) {
@@ -28,17 +48,19 @@ void choose_pocl_cache() {
   } else if (auto user = user_cache_folder("pocl/kcache")) { // PoCL's own default
     wanted = *user;
   }
-  if (!wanted.empty() && writable_folder(wanted)) {
+  const bool writable = !wanted.empty() && writable_folder(wanted);
+  if (writable && has_room(wanted)) {
     setenv("POCL_CACHE_DIR", wanted.c_str(), 1);
     return;
   }
   const auto temporary = temporary_cache_folder("pocl");
-  if (!temporary) {
-    spdlog::warn("no writable folder for PoCL's kernel cache: set POCL_CACHE_DIR to one");
+  if (!temporary || !has_room(*temporary)) {
+    spdlog::warn("no writable folder with 16 MB of room for PoCL's kernel cache: set POCL_CACHE_DIR to one");
     return;
   }
   if (!wanted.empty())
-    spdlog::warn("PoCL's kernel cache {} is not writable: using {}", wanted.string(), temporary->string());
+    spdlog::warn("PoCL's kernel cache {} {}: using {}", wanted.string(),
+                 writable ? "has no room" : "is not writable", temporary->string());
   setenv("POCL_CACHE_DIR", temporary->c_str(), 1);
 }
 

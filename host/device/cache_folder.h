@@ -16,8 +16,8 @@ namespace phlux::device {
 /// A folder in the system's temporary one that only this user can write to; nothing when there can be none.
 [[nodiscard]] std::optional<std::filesystem::path> temporary_cache_folder(const std::string& name);
 
-/// Sets POCL_CACHE_DIR, once, to a writable folder, without which PoCL 3.1 finds no device. Must be called
-/// before the first OpenCL call of the process.
+/// Sets POCL_CACHE_DIR, once, to a writable folder with room for several programs, without which PoCL 3.1
+/// finds no device. Must be called before the first OpenCL call of the process.
 void prepare_pocl_cache();
 
 } // namespace phlux::device

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
+#include <iterator>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -154,6 +156,17 @@ Device open(const DeviceInfo& info, const cl::Device& handle) {
   }
 }
 
+// By their places in all_found(), and those that were forgotten. Never destroyed, as all_found().
+struct Opened {
+  std::mutex mutex;
+  std::vector<std::optional<Device>> devices, forgotten;
+};
+
+Opened& opened() {
+  static Opened& all = *new Opened;
+  return all;
+}
+
 } // namespace
 
 std::vector<PlatformInfo> list_platforms() {
@@ -170,21 +183,27 @@ std::vector<Device> open_devices(const std::vector<std::string>& specifications)
       wanted.empty() && preset != nullptr && *preset != '\0')
     wanted.emplace_back(preset);
 
-  static std::mutex mutex;
-  static auto& opened = *new std::vector<std::optional<Device>>; // never destroyed, as above
   static std::set<std::string> told;
-  const std::lock_guard lock(mutex);
+  Opened& all = opened();
+  const std::lock_guard lock(all.mutex);
   const Found& found = some_found();
   const Choice choice = choice_of(wanted, found);
   for (const std::string& note : choice.notes)
     if (told.insert(note).second) spdlog::warn("{}", note);
-  opened.resize(found.devices.size());
+  all.devices.resize(found.devices.size());
   std::vector<Device> devices;
   for (const std::size_t i : choice.devices) {
-    if (!opened[i]) opened[i] = open(found.devices[i], found.handles[i]);
-    devices.push_back(*opened[i]);
+    if (!all.devices[i]) all.devices[i] = open(found.devices[i], found.handles[i]);
+    devices.push_back(*all.devices[i]);
   }
   return devices;
+}
+
+void reopen_devices() {
+  Opened& all = opened();
+  const std::lock_guard lock(all.mutex);
+  std::ranges::move(all.devices, std::back_inserter(all.forgotten));
+  all.devices.clear();
 }
 
 } // namespace phlux::device

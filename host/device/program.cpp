@@ -17,6 +17,7 @@
 
 #include "clock.h"
 #include "device/binary_cache.h"
+#include "device/driver_cache.h"
 #include "errors.h"
 
 namespace phlux::device {
@@ -62,8 +63,7 @@ std::string cache_key(const Device& device, const std::string& text) {
 }
 
 // The cache folder of a driver that caches programs itself, if it does. PoCL does; a query for a binary would
-// make it compile every kernel a second time. Records in its own folder say which programs it has cached, and
-// are deleted with them.
+// make it compile every kernel a second time.
 std::optional<std::filesystem::path> driver_cache(const Device& device) {
   if (device.info.platform != "Portable Computing Language") return std::nullopt;
   const char* folder = std::getenv("POCL_CACHE_DIR"); // device.cpp has set it
@@ -200,11 +200,10 @@ namespace {
 BuiltProgram build_expanded(const Device& device, const std::string& name, const std::string& text) {
   const std::string key = cache_key(device, text);
   if (const auto folder = driver_cache(device)) {
-    const BinaryCache records(*folder / "phlux");
-    const bool known = records.load(key).has_value();
-    const auto program = build_text(device, name, text);
-    if (!known) records.store(key, {1});
-    return {program, known, 0, argument_names(program)};
+    const DriverCache cache(*folder, key);
+    const auto program = build_text(device, name, text + cache.definition_of_mark());
+    cache.built();
+    return {program, cache.has_program(), 0, argument_names(program)};
   }
   const BinaryCache cache(binary_cache_folder());
   if (const auto bytes = cache.load(key)) { // with names, which a driver may not know for a binary

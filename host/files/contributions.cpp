@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <regex>
 
 #include <fmt/format.h>
 
@@ -76,7 +77,7 @@ private:
 
 } // namespace
 
-void write_contributions(const std::filesystem::path& folder, film::Film& film, const RenderInfo& info) {
+NonFinite write_contributions(const std::filesystem::path& folder, film::Film& film, const RenderInfo& info) {
   std::error_code failure;
   std::filesystem::create_directories(folder, failure);
   if (failure)
@@ -86,17 +87,28 @@ void write_contributions(const std::filesystem::path& folder, film::Film& film, 
   int most_edges = 1;
   for (const auto& [technique, sums] : techniques.sums())
     most_edges = std::max(most_edges, technique.edges());
+  NonFinite not_finite;
   Sheet sheet(film.width(), film.height(), most_edges, info);
   for (const auto& [technique, sums] : techniques.sums()) {
     const std::string name = fmt::format("s{}-t{}", technique.light_vertices, technique.eye_vertices);
     for (const bool weighted : {true, false}) {
       const Pixels pixels = film.technique_image(weighted ? sums.weighted : sums.unweighted);
-      write_exr(folder / (name + (weighted ? ".exr" : "-unweighted.exr")),
-                image_of(pixels, film.width(), film.height(), info));
+      for (const auto& [channel, count] : write_exr(folder / (name + (weighted ? ".exr" : "-unweighted.exr")),
+                                                    image_of(pixels, film.width(), film.height(), info)))
+        not_finite[channel] += count;
       sheet.put(technique, pixels, weighted);
     }
   }
-  write_png(folder / "contributions.png", sheet.image());
+  write_png(folder / "contributions.png", rows_of(sheet.image()));
+  return not_finite;
+}
+
+bool is_contribution(const std::filesystem::path& folder, const std::filesystem::path& file) {
+  static const std::regex name(R"(s\d+-t\d+(-unweighted)?\.exr|contributions\.png)");
+  std::error_code error;
+  const std::filesystem::path there = std::filesystem::canonical(file, error);
+  return !error && std::regex_match(there.filename().string(), name) &&
+         std::filesystem::equivalent(folder, there.parent_path(), error);
 }
 
 } // namespace phlux::files

@@ -4,7 +4,9 @@
 #include <cctype>
 #include <cerrno>
 #include <charconv>
+#include <cmath>
 #include <cstring>
+#include <ostream>
 #include <sstream>
 
 #include <ImfChannelList.h>
@@ -12,10 +14,12 @@
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfIO.h>
-#include <ImfInputFile.h>
+#include <ImfInputPart.h>
 #include <ImfIntAttribute.h>
+#include <ImfMultiPartInputFile.h>
 #include <ImfOutputFile.h>
 #include <ImfStringAttribute.h>
+#include <ImfTileDescription.h>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -23,26 +27,21 @@
 
 #include "errors.h"
 #include "files/output.h"
+#include "printable.h"
 
 namespace phlux::files {
 namespace {
 
-class MemoryStream final : public Imf::OStream {
+// OpenEXR's interface to a stream.
+class Stream final : public Imf::OStream {
 public:
-  MemoryStream() : Imf::OStream("memory") {}
-  void write(const char* data, int count) override {
-    const std::size_t size = static_cast<std::size_t>(count);
-    if (position_ + size > bytes.size()) bytes.resize(position_ + size);
-    std::memcpy(bytes.data() + position_, data, size);
-    position_ += size;
-  }
-  std::uint64_t tellp() override { return position_; }
-  void seekp(std::uint64_t position) override { position_ = position; }
-
-  std::string bytes;
+  explicit Stream(std::ostream& to) : Imf::OStream("output"), to_(to) {}
+  void write(const char* data, int count) override { to_.write(data, count); }
+  std::uint64_t tellp() override { return static_cast<std::uint64_t>(to_.tellp()); }
+  void seekp(std::uint64_t position) override { to_.seekp(static_cast<std::streamoff>(position)); }
 
 private:
-  std::size_t position_ = 0;
+  std::ostream& to_;
 };
 
 Imf::Slice slice_of(const std::vector<float>& values, const Imath::Box2i& window) {
@@ -72,6 +71,7 @@ std::vector<SampleRange> ranges_in(const std::string& text) {
   SampleRange range;
   char colon = 0, minus = 0, comma = 0;
   while (stream >> range.seed >> colon >> range.first >> minus >> range.end) {
+    if (range.first < 0 || range.end <= range.first) return {};
     ranges.push_back(range);
     stream >> comma;
   }
@@ -133,7 +133,8 @@ void find_attribute(const Imf::Header& header, const char* name, std::string& va
     value = attribute->value();
 }
 void find_attribute(const Imf::Header& header, const char* name, double& value) {
-  if (const auto* attribute = header.findTypedAttribute<Imf::DoubleAttribute>(name))
+  if (const auto* attribute = header.findTypedAttribute<Imf::DoubleAttribute>(name);
+      attribute != nullptr && std::isfinite(attribute->value()))
     value = attribute->value();
 }
 
@@ -157,73 +158,128 @@ RenderInfo find_attributes(const Imf::Header& header) {
   return info;
 }
 
-// A damaged header may claim any size; 2^29 pixels in one channel are 2 GiB.
-constexpr std::int64_t most_pixels = std::int64_t{1} << 29;
+constexpr std::array<const char*, 7> known_channels = {"R",          "G",          "B",          "variance.R",
+                                                       "variance.G", "variance.B", "reliability"};
 
-Image read_pixels(Imf::InputFile& file) {
-  const Imf::Header& header = file.header();
+// Bytes that one level of a tiled file, or one chunk of lines, takes in memory.
+double chunk_bytes(const Imf::Header& header, double width) {
+  constexpr double most_lines = 256; // of a chunk: DWAB's
+  double pixel = 0.0;                // bytes
+  for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel)
+    pixel += channel.channel().type == Imf::HALF ? 2.0 : 4.0;
+  if (!header.hasTileDescription()) return pixel * width * most_lines;
+  const Imf::TileDescription& tile = header.tileDescription();
+  return pixel * std::max(width, static_cast<double>(tile.xSize)) * static_cast<double>(tile.ySize);
+}
+
+// A damaged header may claim any size. What is allocated for it must be in proportion to the file: Deflate
+// packs at most 1032 bytes into one, and floats may be stored as halves.
+void check_size(const Imf::Header& header, double width, double height, std::size_t channels,
+                double file_bytes) {
+  constexpr double always = 1 << 28, per_byte = 2 * 1032;
+  const double needed = 4.0 * width * height * static_cast<double>(channels);
+  const double most = always + per_byte * file_bytes;
+  if (width > 0 && height > 0 && needed <= most && chunk_bytes(header, width) <= most) return;
+  throw std::runtime_error(
+      fmt::format("it claims {}x{} pixels in a file of {} bytes", width, height, file_bytes));
+}
+
+Image read_pixels(Imf::MultiPartInputFile& file, double file_bytes) {
+  const Imf::Header& header = file.header(0);
   const Imath::Box2i window = header.dataWindow();
   const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
   const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
-  if (width <= 0 || height <= 0 || width > most_pixels / height)
-    throw std::runtime_error(fmt::format("an image of {}x{} pixels", width, height));
+  std::vector<const char*> names;
+  for (const char* name : known_channels) {
+    const Imf::Channel* channel = header.channels().findChannel(name);
+    if (channel == nullptr) continue;
+    if (channel->xSampling != 1 || channel->ySampling != 1)
+      throw std::runtime_error(fmt::format("channel {} is subsampled", name));
+    names.push_back(name);
+  }
+  check_size(header, static_cast<double>(width), static_cast<double>(height), names.size(), file_bytes);
 
   Image image{.width = static_cast<int>(width),
               .height = static_cast<int>(height),
               .channels = {},
               .info = find_attributes(header)};
   Imf::FrameBuffer frame;
-  for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel) {
-    if (channel.channel().xSampling != 1 || channel.channel().ySampling != 1)
-      throw std::runtime_error(fmt::format("channel {} is subsampled", channel.name()));
-    const auto [entry, _] = image.channels.emplace(channel.name(), static_cast<std::size_t>(width * height));
-    frame.insert(channel.name(), slice_of(entry->second, window));
+  for (const char* name : names) {
+    const auto [entry, _] = image.channels.emplace(name, static_cast<std::size_t>(width * height));
+    frame.insert(name, slice_of(entry->second, window));
   }
-  file.setFrameBuffer(frame);
-  file.readPixels(window.min.y, window.max.y);
+  Imf::InputPart part(file, 0);
+  part.setFrameBuffer(frame);
+  part.readPixels(window.min.y, window.max.y);
   return image;
-}
-
-std::string one_line(std::string text) {
-  std::ranges::replace(text, '\n', ' ');
-  return text;
 }
 
 } // namespace
 
-std::string encode_exr(const Image& image) {
-  Imf::Header header(image.width, image.height);
+NonFinite encode_exr(const Rows& rows, const RenderInfo& info, std::ostream& to) {
+  constexpr int strip_lines = 16; // those that ZIP compresses together
+  const auto width = static_cast<std::size_t>(rows.width);
+  std::vector<float> strip(strip_lines * width * rows.channels.size());
+  Imf::Header header(rows.width, rows.height);
   header.compression() = Imf::ZIP_COMPRESSION;
-  insert_attributes(header, image.info);
-  Imf::FrameBuffer frame;
-  for (const auto& [name, values] : image.channels) {
-    header.channels().insert(name, Imf::Channel(Imf::FLOAT));
-    frame.insert(name, slice_of(values, header.dataWindow()));
-  }
-  MemoryStream stream;
-  {
-    Imf::OutputFile file(stream, header);
+  insert_attributes(header, info);
+  for (const std::string& name : rows.channels) header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+
+  NonFinite not_finite;
+  Stream stream(to);
+  Imf::OutputFile file(stream, header); // its destructor writes the table of line offsets
+  for (int first = 0; first < rows.height; first += strip_lines) {
+    const int lines = std::min(strip_lines, rows.height - first);
+    Imf::FrameBuffer frame;
+    for (std::size_t channel = 0; channel < rows.channels.size(); ++channel) {
+      float* const values = strip.data() + channel * strip_lines * width;
+      for (int line = 0; line < lines; ++line)
+        rows.fill(first + line, channel, values + static_cast<std::size_t>(line) * width);
+      const auto count = std::count_if(values, values + static_cast<std::size_t>(lines) * width,
+                                       [](float v) { return !std::isfinite(v); });
+      if (count > 0) not_finite[rows.channels[channel]] += static_cast<std::uint64_t>(count);
+      const Imath::Box2i window({0, first}, {rows.width - 1, first + lines - 1});
+      frame.insert(rows.channels[channel], Imf::Slice::Make(Imf::FLOAT, values, window));
+    }
     file.setFrameBuffer(frame);
-    file.writePixels(image.height);
-  } // its destructor writes the table of line offsets
-  return std::move(stream.bytes);
+    file.writePixels(lines);
+  }
+  return not_finite;
 }
 
-void write_exr(const std::filesystem::path& file, const Image& image) {
-  write_file(file, encode_exr(image));
+std::string encode_exr(const Image& image) {
+  std::ostringstream stream(std::ios::binary);
+  encode_exr(rows_of(image), image.info, stream);
+  return std::move(stream).str();
+}
+
+NonFinite write_exr(const std::filesystem::path& file, const Rows& rows, const RenderInfo& info) {
+  NonFinite not_finite;
+  write_file(file, [&](std::ostream& to) { not_finite = encode_exr(rows, info, to); });
+  return not_finite;
+}
+
+NonFinite write_exr(const std::filesystem::path& file, const Image& image) {
+  return write_exr(file, rows_of(image), image.info);
 }
 
 Image read_exr(const std::filesystem::path& file) {
   const std::string name = file.string();
-  if (::access(name.c_str(), R_OK) != 0)
+  std::error_code missing;
+  const bool regular = std::filesystem::is_regular_file(file, missing); // a pipe might never end
+  if (!regular || ::access(name.c_str(), R_OK) != 0)
     throw FileError(fmt::format("{}: cannot be read: {}: an existing OpenEXR image is needed", name,
-                                std::strerror(errno)));
+                                missing   ? missing.message()
+                                : regular ? std::strerror(errno)
+                                          : "is no file"));
   try {
-    Imf::InputFile input(name.c_str());
-    return read_pixels(input);
+    Imf::Header::setMaxImageSize(1 << 28, 1 << 28);
+    Imf::Header::setMaxTileSize(1 << 14, 1 << 14);
+    Imf::MultiPartInputFile input(name.c_str()); // reads the headers alone
+    return read_pixels(input, static_cast<double>(std::filesystem::file_size(file)));
   } catch (const std::exception& error) {
     throw FileError(
-        fmt::format("{}: is no OpenEXR image that phlux can read: {}", name, one_line(error.what())));
+        fmt::format("{}: is no OpenEXR image that phlux can read: {}", name, printable(error.what())));
   }
 }
 

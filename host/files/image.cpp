@@ -1,26 +1,12 @@
 #include "files/image.h"
 
 #include <algorithm>
+#include <cassert>
+#include <memory>
 
 #include "film/reliability.h"
 
 namespace phlux::files {
-namespace {
-
-template<class Function>
-void add_channels(Image& image, const ChannelNames& names, std::size_t pixels, Function values_of) {
-  std::array<float*, 3> channels{};
-  for (std::size_t channel = 0; channel < names.size(); ++channel)
-    channels[channel] = image.channels.emplace(names[channel], pixels).first->second.data();
-  for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
-    const std::array<double, 3> values = values_of(pixel);
-    for (std::size_t channel = 0; channel < names.size(); ++channel)
-      channels[channel][pixel] = static_cast<float>(values[channel]);
-  }
-}
-
-} // namespace
-
 std::string RenderInfo::text(const std::string& setting) const {
   const auto found = settings.find(setting);
   return found == settings.end() ? std::string() : settings::text_of(found->second);
@@ -43,14 +29,61 @@ std::map<std::string, settings::Value> stored(const settings::Settings& settings
   return values;
 }
 
+RadianceRow::RadianceRow(const Rows& rows) : rows_(rows) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto found = std::ranges::find(rows.channels, radiance_names[i]);
+    assert(found != rows.channels.end());
+    channels_[i] = static_cast<std::size_t>(found - rows.channels.begin());
+    values[i].resize(static_cast<std::size_t>(rows.width));
+  }
+}
+
+void RadianceRow::read(int row) {
+  for (std::size_t i = 0; i < 3; ++i) rows_.fill(row, channels_[i], values[i].data());
+}
+
+Rows rows_of(const Image& image) {
+  Rows rows{.width = image.width, .height = image.height, .channels = {}, .fill = {}};
+  std::vector<const float*> values;
+  for (const auto& [name, channel] : image.channels) {
+    rows.channels.push_back(name);
+    values.push_back(channel.data());
+  }
+  rows.fill = [width = static_cast<std::size_t>(image.width), values](int row, std::size_t channel,
+                                                                      float* to) {
+    std::copy_n(values[channel] + static_cast<std::size_t>(row) * width, width, to);
+  };
+  return rows;
+}
+
+Rows rows_of(const film::Film& film, bool moments) {
+  Rows rows{.width = film.width(), .height = film.height(), .channels = {}, .fill = {}};
+  rows.channels.assign(radiance_names.begin(), radiance_names.end());
+  std::shared_ptr<const film::ReliabilityMap> reliability;
+  if (moments) {
+    rows.channels.insert(rows.channels.end(), variance_names.begin(), variance_names.end());
+    rows.channels.emplace_back("reliability");
+    reliability = std::make_shared<film::ReliabilityMap>(film);
+  }
+  rows.fill = [&film, reliability](int row, std::size_t channel, float* to) {
+    const auto width = static_cast<std::size_t>(film.width()), first = static_cast<std::size_t>(row) * width;
+    for (std::size_t pixel = first; pixel < first + width; ++pixel)
+      *to++ = channel < 3   ? static_cast<float>(film.mean(pixel)[channel])
+              : channel < 6 ? static_cast<float>(film.variance_of_mean(pixel)[channel - 3])
+                            : (*reliability)[pixel];
+  };
+  return rows;
+}
+
 Image image_of(const film::Film& film, const RenderInfo& info, bool moments) {
   Image image{.width = film.width(), .height = film.height(), .channels = {}, .info = info};
-  const std::size_t pixels = film.pixels().size();
-  add_channels(image, radiance_names, pixels, [&](std::size_t pixel) { return film.mean(pixel); });
-  if (moments) {
-    add_channels(image, variance_names, pixels,
-                 [&](std::size_t pixel) { return film.variance_of_mean(pixel); });
-    image.channels.emplace("reliability", film::reliability_map(film));
+  const Rows rows = rows_of(film, moments);
+  for (std::size_t channel = 0; channel < rows.channels.size(); ++channel) {
+    std::vector<float>& values = image.channels[rows.channels[channel]];
+    values.resize(film.pixels().size());
+    for (int row = 0; row < rows.height; ++row)
+      rows.fill(row, channel,
+                values.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(rows.width));
   }
   return image;
 }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -56,6 +57,31 @@ struct Image {
 
   [[nodiscard]] bool has(const ChannelNames& names) const;
 };
+
+/// An image whose values are computed when they are written, so that they take no memory.
+struct Rows {
+  int width = 0, height = 0;
+  std::vector<std::string> channels;
+  /// Writes the `width` values of a channel, an index into `channels`, in a row from the top.
+  std::function<void(int row, std::size_t channel, float* to)> fill;
+};
+
+/// A row of the channels R, G and B.
+class RadianceRow {
+public:
+  explicit RadianceRow(const Rows& rows);
+  void read(int row); ///< into `values`
+  std::array<std::vector<float>, 3> values;
+
+private:
+  const Rows& rows_;
+  std::array<std::size_t, 3> channels_{};
+};
+
+/// `image` must live as long as the result.
+[[nodiscard]] Rows rows_of(const Image& image);
+/// The channels of image_of(film, ...). `film` must live as long as the result.
+[[nodiscard]] Rows rows_of(const film::Film& film, bool moments);
 
 /// Channels R, G, B: mean radiance, linear, neither exposed nor clamped. With `moments` also variance.R, .G
 /// and .B, the variance of that mean, and reliability, see film::reliability_map.

@@ -1,6 +1,8 @@
 #include "files/merge.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -79,29 +81,26 @@ void add_info(const RenderInfo& info, RenderInfo& all) {
   append(info.driver, all.driver);
 }
 
-bool overlap(const SampleRange& a, const SampleRange& b) {
-  return a.seed == b.seed && a.first < b.end && b.first < a.end;
-}
-
-// Samples that two images share would count twice, and the variance would be wrong.
-void check_ranges(const std::string& name, const RenderInfo& info, const std::string& other_name,
-                  const RenderInfo& other) {
-  for (const SampleRange& range : info.ranges)
-    for (const SampleRange& taken : other.ranges)
-      if (overlap(range, taken))
-        throw FileError(fmt::format(
-            "{}: has samples {} to {} of seed {}, and {} has samples {} to {}: render one of them with "
-            "another `seed`, or with `first-sample` {}",
-            name, range.first, range.end - 1, range.seed, other_name, taken.first, taken.end - 1, taken.end));
-}
-
 } // namespace
+
+void Merger::TakenSamples::add(const std::string& name, const SampleRange& range) {
+  const auto after = ranges_.lower_bound({range.seed, range.end});
+  if (after != ranges_.begin()) {
+    const auto& [key, taken] = *std::prev(after);
+    if (key.first == range.seed && taken.end > range.first)
+      throw FileError(fmt::format(
+          "{}: has samples {} to {} of seed {}, and {} has samples {} to {}: render one of them with "
+          "another `seed`, or with `first-sample` {}",
+          name, range.first, range.end - 1, range.seed, taken.name, key.second, taken.end - 1, taken.end));
+  }
+  ranges_.emplace(std::pair(range.seed, range.first), Range{range.end, name});
+}
 
 void Merger::check(const Source& source, const Image& image) const {
   const auto& [name, info, variance] = source;
   if (!image.has(radiance_names))
     throw FileError(fmt::format("{}: lacks a channel of R, G and B: name a render of phlux", name));
-  if (!(info.samples > 0.0) || info.ranges.empty())
+  if (!(info.samples > 0.0) || !std::isfinite(info.samples) || info.ranges.empty())
     throw FileError(
         fmt::format("{}: does not say which samples it has, to weigh it by: name a render of phlux", name));
   if (sources_.empty()) return;
@@ -123,12 +122,14 @@ void Merger::check(const Source& source, const Image& image) const {
   if (bias_of(info) != bias_of(other))
     throw FileError(fmt::format("{}: {}, but {} {}: only images with the same bias, or none, can be merged",
                                 name, bias_of(info), first, bias_of(other)));
-  for (const Source& earlier : sources_) check_ranges(name, info, earlier.name, earlier.info);
 }
 
 void Merger::add(const std::string& name, const Image& image) {
   const Source source{name, image.info, image.has(variance_names)};
   check(source, image);
+  TakenSamples taken = taken_;
+  for (const SampleRange& range : image.info.ranges) taken.add(name, range);
+  taken_ = std::move(taken);
   width_ = image.width;
   height_ = image.height;
   const double samples = image.info.samples;

@@ -27,10 +27,24 @@ private:
     RenderInfo info;
     bool variance = false;
   };
+  // Samples that two images share would count twice, and the variance would be wrong.
+  class TakenSamples {
+  public:
+    // Logarithmic in the number of ranges. @throws FileError if some of the samples are taken
+    void add(const std::string& name, const SampleRange& range);
+
+  private:
+    struct Range {
+      std::int64_t end;
+      std::string name;
+    };
+    std::map<std::pair<std::uint64_t, std::int64_t>, Range> ranges_; // by seed and first sample; disjoint
+  };
   void check(const Source& source, const Image& image) const;
 
   int width_ = 0, height_ = 0;
   std::vector<Source> sources_;
+  TakenSamples taken_;
   std::array<std::vector<double>, 3> radiance_, variance_; // weighted sums
 };
 

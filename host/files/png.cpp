@@ -43,14 +43,24 @@ std::string encode_png(const Canvas& canvas) {
   return bytes;
 }
 
-std::string encode_png(const Image& image) {
-  Canvas canvas(image.width, image.height, {});
-  draw_image(canvas, 0, 0, 1, image, exposure(image));
+std::string encode_png(const Rows& rows) {
+  Canvas canvas(rows.width, rows.height, {});
+  const float scale = exposure(rows);
+  RadianceRow radiance(rows);
+  for (int y = 0; y < rows.height; ++y) {
+    radiance.read(y);
+    for (int x = 0; x < rows.width; ++x) {
+      const auto code = [&](std::size_t channel) {
+        return srgb_code(compress_highlights(scale * radiance.values[channel][static_cast<std::size_t>(x)]));
+      };
+      canvas.fill(x, y, 1, 1, {code(0), code(1), code(2)});
+    }
+  }
   return encode_png(canvas);
 }
 
-void write_png(const std::filesystem::path& file, const Image& image) {
-  write_file(file, encode_png(image));
+void write_png(const std::filesystem::path& file, const Rows& rows) {
+  write_file(file, encode_png(rows));
 }
 
 } // namespace phlux::files

@@ -16,10 +16,15 @@ void draw_image(Canvas& canvas, int left, int top, int zoom, const Image& image,
 /// The bytes of an 8-bit sRGB PNG file. Deterministic. @throws WriteError for more pixels than libpng writes
 [[nodiscard]] std::string encode_png(const Canvas& canvas);
 
-/// encode_png of the image, exposed by tone_map.h. @throws WriteError
-[[nodiscard]] std::string encode_png(const Image& image);
+/// encode_png of channels R, G, B, exposed by tone_map.h. Takes 6 bytes of memory per pixel. @throws
+/// WriteError
+[[nodiscard]] std::string encode_png(const Rows& rows);
+
+[[nodiscard]] inline std::string encode_png(const Image& image) {
+  return encode_png(rows_of(image));
+}
 
 /// encode_png to a file. @throws WriteError
-void write_png(const std::filesystem::path& file, const Image& image);
+void write_png(const std::filesystem::path& file, const Rows& rows);
 
 } // namespace phlux::files

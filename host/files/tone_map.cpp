@@ -12,24 +12,33 @@ constexpr double middle_grey = 0.18;
 constexpr float shoulder = 0.6F;            // where the curve leaves the identity
 constexpr std::size_t outliers_one_in = 20; // 5% at either end
 
-std::vector<float> lit_luminances(const Image& image) {
-  const std::vector<float>& red = image.channels.at("R");
-  const std::vector<float>& green = image.channels.at("G");
-  const std::vector<float>& blue = image.channels.at("B");
+std::vector<float> lit_luminances(const Rows& rows) {
+  constexpr std::size_t most = std::size_t{1} << 22;
+  const auto width = static_cast<std::size_t>(rows.width),
+             pixels = width * static_cast<std::size_t>(rows.height);
+  const std::size_t step = (pixels - 1) / most | 1; // odd, so that it does not divide common widths
+  RadianceRow radiance(rows);
+  const auto& [red, green, blue] = radiance.values;
   std::vector<float> luminances;
-  luminances.reserve(red.size());
-  for (std::size_t pixel = 0; pixel < red.size(); ++pixel) {
-    const float luminance =
-        0.2126F * red[pixel] + 0.7152F * green[pixel] + 0.0722F * blue[pixel]; // ITU-R BT.709
-    if (std::isfinite(luminance) && luminance > 0.0F) luminances.push_back(luminance);
+  luminances.reserve(pixels / step + 1);
+  std::size_t pixel = 0;
+  for (int y = 0; y < rows.height; ++y) {
+    const std::size_t first = static_cast<std::size_t>(y) * width;
+    if (pixel >= first + width) continue;
+    radiance.read(y);
+    for (; pixel < first + width; pixel += step) {
+      const std::size_t x = pixel - first;
+      const float luminance = 0.2126F * red[x] + 0.7152F * green[x] + 0.0722F * blue[x]; // ITU-R BT.709
+      if (std::isfinite(luminance) && luminance > 0.0F) luminances.push_back(luminance);
+    }
   }
   return luminances;
 }
 
 } // namespace
 
-float exposure(const Image& image) {
-  std::vector<float> luminances = lit_luminances(image);
+float exposure(const Rows& rows) {
+  std::vector<float> luminances = lit_luminances(rows);
   if (luminances.empty()) return 1.0F;
   const auto outliers = static_cast<std::ptrdiff_t>(luminances.size() / outliers_one_in);
   const auto first = luminances.begin() + outliers, last = luminances.end() - outliers;

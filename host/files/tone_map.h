@@ -12,8 +12,11 @@ namespace phlux::files {
 /// "Photographic tone reproduction for digital images", equations 1 and 2), reduced so that the 95th
 /// percentile is at most 1. Black pixels are ignored, and the darkest and brightest 5% of the others are not
 /// averaged, so that neither a visible light nor a dark background determines the exposure. 1 for a black
-/// image. `image` needs channels R, G, B.
-[[nodiscard]] float exposure(const Image& image);
+/// image. `rows` needs channels R, G, B. Of images above 4 million pixels it takes a part of the pixels.
+[[nodiscard]] float exposure(const Rows& rows);
+[[nodiscard]] inline float exposure(const Image& image) {
+  return exposure(rows_of(image));
+}
 
 /// Maps an exposed linear value to [0, 1): the identity up to 0.6, above it an exponential shoulder towards 1
 /// with a continuous slope, so that middle tones keep their colours and highlights fade to white. NaN and

@@ -57,6 +57,12 @@ TileMeans::TileMeans(int width, int height)
         1.0 / (part(width, tile % tiles_across_) * part(height, tile / tiles_across_));
 }
 
+bool TileMeans::has_nan() const {
+  return std::ranges::any_of(tiles_, [](const Tile& tile) {
+    return std::isnan(tile.sum) || std::isnan(tile.mean) || std::isnan(tile.splats);
+  });
+}
+
 std::array<int, 2> TileMeans::centre_of(std::size_t tile) const {
   const auto place = [](std::size_t i) { return static_cast<int>(i) * tile_edge + tile_edge / 2; };
   return {place(tile % tiles_across_), place(tile / tiles_across_)};

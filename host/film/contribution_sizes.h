@@ -16,9 +16,10 @@ namespace phlux::film {
 /// squared mean radiance of the pixel.
 class ContributionSizes {
 public:
-  /// Adds `count` contributions of a size >= 0.
+  /// Adds `count` contributions of a size >= 0; NaN, of sums that have overflowed, counts as 0.
   void add(double size, std::uint32_t count = 1) {
-    const auto bounded = static_cast<float>(std::min(size, double{std::numeric_limits<float>::max()}));
+    const auto bounded =
+        size > 0.0 ? static_cast<float>(std::min(size, double{std::numeric_limits<float>::max()})) : 0.0F;
     counts_[std::bit_cast<std::uint32_t>(bounded) >> dropped_bits] += count;
   }
   [[nodiscard]] double largest() const; ///< 0 if empty
@@ -74,8 +75,10 @@ public:
 
   template<class Archive>
   void serialize(Archive& archive) {
-    archive(width_, tiles_across_, rows_per_pixel_, tiles_);
+    for (Tile& tile : tiles_) archive(tile);
   }
+
+  [[nodiscard]] bool has_nan() const;
 
 private:
   struct Tile {
@@ -84,7 +87,7 @@ private:
 
     template<class Archive>
     void serialize(Archive& archive) {
-      archive(sum, mean, splats, one_by_pixels, samples);
+      archive(sum, mean, splats, samples);
     }
   };
   std::uint32_t width_, tiles_across_;

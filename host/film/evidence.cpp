@@ -1,6 +1,7 @@
 #include "film/evidence.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace phlux::film {
 
@@ -28,6 +29,13 @@ void Evidence::add_splat(std::size_t pixel, double square, double sum, std::uint
 
 void Evidence::set_splatting_paths(std::uint64_t paths) {
   pixels_per_path_ = pixels_ / static_cast<double>(paths);
+}
+
+bool Evidence::is_sound() const {
+  return !tiles_.has_nan() && std::isfinite(pixels_per_path_) && next_growth_ > 0 &&
+         std::ranges::all_of(history_, [](const Growth& growth) {
+           return growth.samples > 0 && std::isfinite(growth.largest) && growth.largest >= 0.0;
+         });
 }
 
 void Evidence::note_growth(std::uint64_t samples) {

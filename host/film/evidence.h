@@ -41,8 +41,14 @@ public:
 
   template<class Archive>
   void serialize(Archive& archive) {
-    archive(sizes_, tiles_, history_, pixels_, pixels_per_path_, next_growth_);
+    auto doublings = static_cast<std::uint8_t>(history_.size());
+    archive(sizes_, tiles_, doublings, pixels_per_path_, next_growth_);
+    history_.resize(doublings);
+    for (Growth& growth : history_) archive(growth);
   }
+
+  /// Whether all numbers are in their ranges.
+  [[nodiscard]] bool is_sound() const;
 
 private:
   ContributionSizes sizes_;

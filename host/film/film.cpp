@@ -22,6 +22,15 @@ double variance_of_mean_of(double sum, double sum_of_squares, double n) {
 
 } // namespace
 
+void BlockMoments::add(const BlockSum& block, std::uint32_t samples) {
+  for (std::size_t channel = 0; channel < channel_count; ++channel) {
+    const double sum = block.radiance[channel];
+    squares[channel] += sum * sum;
+    weighted[channel] += sum * samples;
+  }
+  squared_samples += static_cast<double>(samples) * samples;
+}
+
 Film::Film(int width, int height) : width_(width), height_(height), evidence_(width, height) {
   assert(width > 0 && height > 0);
   pixels_.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
@@ -42,8 +51,12 @@ void Film::add(std::size_t pixel, const BlockSum& block, std::uint32_t samples) 
     sums.sum[channel] += sum;
     sums.sum_of_squares[channel] += sum_of_squares;
     const double mean = sums.sum[channel] / static_cast<double>(sums.samples);
-    square += std::max(0.0, sum_of_squares - 2.0 * mean * sum + samples * mean * mean);
+    if (blocks_of_pixels_.empty())
+      square += std::max(0.0, sum_of_squares - 2.0 * mean * sum + samples * mean * mean);
+    else
+      square += (sum - samples * mean) * (sum - samples * mean);
   }
+  if (dependent_samples()) blocks_of_pixels_[pixel].add(block, samples);
   sums.sum_of_fourths += square * square;
   evidence_.add_block(pixel, square, block_sum, samples, mean_before);
   if (clamp_) clamped_ += block.clamped; // not written by the device otherwise
@@ -109,9 +122,7 @@ Film::Spread Film::spread(std::size_t pixel) const {
   Spread spread;
   for (std::size_t channel = 0; channel < channel_count; ++channel) {
     spread.mean += mean_in_units(pixel, channel) / channel_count;
-    if (own.samples > 0)
-      spread.squares += std::max(0.0, own.sum_of_squares[channel] - own.sum[channel] * own.sum[channel] /
-                                                                        static_cast<double>(own.samples));
+    if (own.samples > 0) spread.squares += squared_deviations(pixel, channel);
   }
   spread.variance_of_squares = variance_of_squares(own, spread.squares, spread.mean);
   if (splats_.empty()) return spread;
@@ -120,6 +131,32 @@ Film::Spread Film::spread(std::size_t pixel) const {
   spread.squares += std::accumulate(splats.sum_of_squares.begin(), splats.sum_of_squares.end(), 0.0);
   spread.variance_of_squares += splats.sum_of_fourths;
   return spread;
+}
+
+double Film::squared_deviations(std::size_t pixel, std::size_t channel) const {
+  const Pixel& own = pixels_[pixel];
+  const double n = static_cast<double>(own.samples), sum = own.sum[channel];
+  if (blocks_of_pixels_.empty()) return std::max(0.0, own.sum_of_squares[channel] - sum * sum / n);
+  const BlockMoments& blocks = blocks_of_pixels_[pixel];
+  const double mean = sum / n;
+  return std::max(0.0, blocks.squares[channel] - 2.0 * mean * blocks.weighted[channel] +
+                           mean * mean * blocks.squared_samples);
+}
+
+bool Film::has_variance(std::size_t pixel) const {
+  const double n = static_cast<double>(pixels_[pixel].samples);
+  return blocks_of_pixels_.empty() ? n >= 2.0 : n * n > blocks_of_pixels_[pixel].squared_samples;
+}
+
+// Of the mean over a pixel's own samples; 0 if it has fewer than two independent values. For blocks of n_b
+// samples, sum N, with sums S_b and mean m = sum(S_b) / N, it is sum((S_b - n_b m)^2) / (N^2 - sum(n_b^2)),
+// unbiased if the variances of the S_b are in proportion to n_b.
+double Film::variance_of_own(std::size_t pixel, std::size_t channel) const {
+  const Pixel& own = pixels_[pixel];
+  const double n = static_cast<double>(own.samples);
+  if (!has_variance(pixel)) return 0.0;
+  if (blocks_of_pixels_.empty()) return variance_of_mean_of(own.sum[channel], own.sum_of_squares[channel], n);
+  return squared_deviations(pixel, channel) / (n * n - blocks_of_pixels_[pixel].squared_samples);
 }
 
 double Film::splatting_paths_per_pixel() const {
@@ -140,8 +177,7 @@ double Film::mean_in_units(std::size_t pixel, std::size_t channel) const {
 double Film::variance_in_units(std::size_t pixel, std::size_t channel) const {
   const Pixel& own = pixels_[pixel];
   const double n = static_cast<double>(own.samples);
-  double variance =
-      own.samples >= 2 ? variance_of_mean_of(own.sum[channel], own.sum_of_squares[channel], n) : 0.0;
+  double variance = variance_of_own(pixel, channel);
   const double others = static_cast<double>(splatting_paths_) - n;
   if (!splats_.empty() && others >= 2.0) {
     const Splats& splats = splats_[pixel];
@@ -175,8 +211,53 @@ Film::technique_image(const std::vector<std::array<double, 3>>& sums) const {
   return image;
 }
 
+std::string Film::contradiction(const std::function<std::uint64_t(std::size_t pixel)>& samples_of,
+                                std::uint64_t paths) const {
+  const auto sound =
+      [](const auto& sums) { // infinity may come of overflow, but neither NaN nor a negative square
+        return !std::ranges::any_of(sums.sum, [](double sum) { return std::isnan(sum); }) &&
+               std::ranges::all_of(sums.sum_of_squares, [](double square) { return square >= 0.0; }) &&
+               sums.sum_of_fourths >= 0.0;
+      };
+  std::uint64_t samples = 0;
+  for (std::size_t pixel = 0; pixel < pixels_.size(); ++pixel) {
+    samples += pixels_[pixel].samples;
+    if (pixels_[pixel].samples != samples_of(pixel)) return "numbers of samples";
+    if (!sound(pixels_[pixel])) return "sums of samples";
+  }
+  for (std::size_t pixel = 0; pixel < blocks_of_pixels_.size(); ++pixel) {
+    const double n = static_cast<double>(pixels_[pixel].samples);
+    const BlockMoments& blocks = blocks_of_pixels_[pixel];
+    const bool sums_are_sound =
+        std::ranges::all_of(blocks.squares, [](double square) { return square >= 0.0; }) &&
+        !std::ranges::any_of(blocks.weighted, [](double sum) { return std::isnan(sum); });
+    if (!(blocks.squared_samples >= n && blocks.squared_samples <= n * n) || !sums_are_sound)
+      return "sums of point sets";
+  }
+  if (samples != own_samples_ || splatting_paths_ != paths || blocks_ > samples ||
+      (samples > 0) != (blocks_ > 0))
+    return "numbers of paths";
+  if (!std::ranges::all_of(splats_, sound)) return "sums of splats";
+  if (!(unit_ > 0.0) || !std::isfinite(unit_ + squared_block_samples_ + clamped_ + clamped_of_splats_) ||
+      squared_block_samples_ < static_cast<double>(samples) || clamped_ < 0.0 || clamped_of_splats_ < 0.0)
+    return "sums over the image";
+  if (!evidence_.is_sound()) return "contributions by size";
+  if (techniques_)
+    for (const auto& [technique, sums] : techniques_->sums()) {
+      const bool known = technique.light_vertices >= 0 && technique.eye_vertices >= 0 &&
+                         technique.edges() >= 1 && technique.edges() <= most_technique_edges;
+      for (const auto* image : {&sums.weighted, &sums.unweighted})
+        for (const std::array<double, 3>& pixel : *image)
+          if (!known || std::isnan(pixel[0]) || std::isnan(pixel[1]) || std::isnan(pixel[2]))
+            return "contributions of techniques";
+    }
+  return {};
+}
+
 bool Film::has_variance() const {
-  if (std::ranges::all_of(pixels_, [](const Pixel& pixel) { return pixel.samples >= 2; })) return true;
+  bool own_samples_suffice = true;
+  for (std::size_t pixel = 0; pixel < pixels_.size(); ++pixel) own_samples_suffice &= has_variance(pixel);
+  if (own_samples_suffice) return true;
   const bool only_splats =
       std::ranges::all_of(pixels_, [](const Pixel& pixel) { return pixel.samples == 0; });
   return only_splats && splatting_paths_per_pixel() >= 2.0;
@@ -188,7 +269,7 @@ double Film::mean_where_not_black(Function f) const {
   double total = 0.0;
   std::uint64_t count = 0;
   for (std::size_t pixel = 0; pixel < pixels_.size(); ++pixel) {
-    if (pixels_[pixel].samples < 2 && splatting_paths_ < 2) continue;
+    if (!has_variance(pixel) && splatting_paths_ < 2) continue;
     for (std::size_t channel = 0; channel < channel_count; ++channel) {
       const double mean = mean_in_units(pixel, channel);
       if (!(mean > 0.0)) continue;

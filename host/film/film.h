@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "film/evidence.h"
 #include "film/techniques.h"
+#include "film/zeroed_memory.h"
 
 namespace phlux::film {
 
@@ -22,7 +25,7 @@ struct BlockSum {
   float clamped = 0.0F;   ///< sum over channels of the radiance that clamping removed
 };
 
-/// Sums over the samples of a pixel.
+/// Sums over the samples of a pixel; new ones are 0.
 struct Pixel {
   std::array<double, 3> sum{}, sum_of_squares{};
   double sum_of_fourths = 0.0; ///< over blocks: squared sum over channels of squared deviations
@@ -31,6 +34,20 @@ struct Pixel {
   template<class Archive>
   void serialize(Archive& archive) {
     archive(sum, sum_of_squares, sum_of_fourths, samples);
+  }
+};
+
+/// Sums over the blocks of a pixel, where samples of a block are not independent.
+struct BlockMoments {
+  std::array<double, 3> squares{};  ///< of the sums of blocks
+  std::array<double, 3> weighted{}; ///< sums of blocks x their numbers of samples
+  double squared_samples = 0.0;     ///< of the numbers of samples
+
+  void add(const BlockSum& block, std::uint32_t samples);
+
+  template<class Archive>
+  void serialize(Archive& archive) {
+    archive(squares, weighted, squared_samples);
   }
 };
 
@@ -54,6 +71,12 @@ class Film {
 public:
   /// Black, without samples. Both sizes > 0.
   Film(int width, int height);
+  /// Bytes of memory of a film with these numbers of pixels, of sums of samples (0 or 1 per pixel), of splats
+  /// (0 or 1), of blocks of dependent samples (0 or 1), and of techniques.
+  [[nodiscard]] static double bytes(double pixels, int samples, int splats, int blocks, int techniques) {
+    return pixels * (samples * double{sizeof(Pixel)} + splats * double{sizeof(Splats)} +
+                     blocks * double{sizeof(BlockMoments)} + techniques * Techniques::bytes_per_pixel);
+  }
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
   /// Row by row from the top; sums are in units, see set_unit().
@@ -71,6 +94,7 @@ public:
   /// Clamps the contribution of each path to a pixel to at most `radiance` in any channel, which is a bias.
   /// The film clamps splats; the device clamps samples.
   void set_clamp(double radiance) { clamp_ = radiance / unit_; }
+  [[nodiscard]] bool clamps() const { return clamp_.has_value(); }
   /// Share of the light that clamping removed.
   [[nodiscard]] double clamped_share() const;
 
@@ -98,6 +122,11 @@ public:
   /// Counts paths of the whole image that may splat; to be called before their splats are added.
   void add_splatting_paths(std::uint64_t paths);
   [[nodiscard]] bool splats() const { return !splats_.empty(); }
+
+  /// Samples of a block are not independent of each other, but blocks are: variances are estimated from the
+  /// sums of blocks. To be called before the first add().
+  void use_dependent_samples() { blocks_of_pixels_.resize(pixels_.size()); }
+  [[nodiscard]] bool dependent_samples() const { return !blocks_of_pixels_.empty(); }
 
   /// Also records the contributions of each technique from here on.
   void use_techniques() {
@@ -138,18 +167,40 @@ public:
   };
   [[nodiscard]] Spread spread(std::size_t pixel) const;
 
-  /// The film's whole state: a film that is read from an archive continues as the written one, bit for bit.
+  /// The film's whole state but its size: a film of that size that is read from an archive continues as the
+  /// written one, bit for bit. Arrays have no lengths that a file could forge: memory is bounded by the
+  /// archive's size.
   template<class Archive>
   void serialize(Archive& archive) {
-    archive(width_, height_, unit_, pixels_, splats_, splatting_paths_, own_samples_, blocks_,
-            squared_block_samples_, evidence_, clamp_, clamped_, clamped_of_splats_, techniques_);
+    archive(unit_);
+    for (Pixel& pixel : pixels_) archive(pixel);
+    bool with_splats = splats(), with_techniques = techniques_.has_value(), dependent = dependent_samples();
+    archive(with_splats);
+    if (with_splats && !splats()) use_splats();
+    for (Splats& splats : splats_) archive(splats);
+    archive(dependent);
+    if (dependent && !dependent_samples()) use_dependent_samples();
+    for (BlockMoments& blocks : blocks_of_pixels_) archive(blocks);
+    archive(splatting_paths_, own_samples_, blocks_, squared_block_samples_, evidence_, clamp_, clamped_,
+            clamped_of_splats_, with_techniques);
+    if (!with_techniques) return;
+    use_techniques();
+    archive(*techniques_);
   }
+  /// The sums that contradict each other or what was rendered: `samples_of(pixel)` of its own and `paths`
+  /// that splat. Empty if there are none.
+  [[nodiscard]] std::string contradiction(const std::function<std::uint64_t(std::size_t pixel)>& samples_of,
+                                          std::uint64_t paths) const;
 
 private:
   void clamp(std::array<double, 3>& value);
   void count_splat(std::size_t pixel, double square, double sum);
   [[nodiscard]] double splatting_paths_per_pixel() const;
   [[nodiscard]] double equal_blocks_per_pixel() const;
+  // Of independent values, sum over them of (value - number of samples x mean of the pixel)^2.
+  [[nodiscard]] double squared_deviations(std::size_t pixel, std::size_t channel) const;
+  [[nodiscard]] double variance_of_own(std::size_t pixel, std::size_t channel) const;
+  [[nodiscard]] bool has_variance(std::size_t pixel) const;
   [[nodiscard]] double variance_of_squares(const Pixel& own, double squares, double mean) const;
   [[nodiscard]] double mean_in_units(std::size_t pixel, std::size_t channel) const;
   [[nodiscard]] double variance_in_units(std::size_t pixel, std::size_t channel) const;
@@ -158,8 +209,10 @@ private:
 
   int width_, height_;
   double unit_ = 1.0;
-  std::vector<Pixel> pixels_;
-  std::vector<Splats> splats_; ///< empty where nothing splats
+  std::vector<Pixel, ZeroedMemory<Pixel>> pixels_;
+  std::vector<Splats, ZeroedMemory<Splats>> splats_; ///< empty where nothing splats
+  std::vector<BlockMoments, ZeroedMemory<BlockMoments>>
+      blocks_of_pixels_; ///< empty where samples are independent
   std::uint64_t splatting_paths_ = 0, own_samples_ = 0, blocks_ = 0;
   double squared_block_samples_ = 0.0; ///< sum over blocks of samples^2
   Evidence evidence_;

@@ -52,6 +52,8 @@ struct Prediction {
   double error = 0.0; // standard error / radiance
 };
 
+} // namespace
+
 class Tiles {
 public:
   explicit Tiles(const Film& film)
@@ -127,6 +129,8 @@ private:
   std::vector<Tile> tiles_;
   Tile all_;
 };
+
+namespace {
 
 // From the largest contributions, as many as the square root of their number: that number goes to infinity,
 // and its share to 0, as Hill's estimate requires. Sizes are squares of contributions, whose index is twice
@@ -207,11 +211,18 @@ Reliability reliability_of(const Film& film) {
   return r;
 }
 
+ReliabilityMap::ReliabilityMap(const Film& film) : tiles_(std::make_unique<const Tiles>(film)) {}
+
+ReliabilityMap::~ReliabilityMap() = default;
+
+float ReliabilityMap::operator[](std::size_t pixel) const {
+  return static_cast<float>(tiles_->predict(pixel).coverage);
+}
+
 std::vector<float> reliability_map(const Film& film) {
-  const Tiles tiles(film);
+  const ReliabilityMap reliability(film);
   std::vector<float> map(film.pixels().size());
-  for (std::size_t pixel = 0; pixel < map.size(); ++pixel)
-    map[pixel] = static_cast<float>(tiles.predict(pixel).coverage);
+  for (std::size_t pixel = 0; pixel < map.size(); ++pixel) map[pixel] = reliability[pixel];
   return map;
 }
 

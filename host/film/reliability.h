@@ -3,6 +3,7 @@
 // standard errors, holds the right value less often than in 95% of the cases.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,6 +48,17 @@ struct Reliability {
 };
 
 [[nodiscard]] Reliability reliability_of(const Film& film);
+
+/// The values of reliability_map(), each computed when it is asked for. The film must stay as it is.
+class ReliabilityMap {
+public:
+  explicit ReliabilityMap(const Film& film);
+  ~ReliabilityMap();
+  [[nodiscard]] float operator[](std::size_t pixel) const;
+
+private:
+  std::unique_ptr<const class Tiles> tiles_;
+};
 
 /// Per pixel: the predicted probability that its 95% interval holds the right value; 0 in black pixels.
 [[nodiscard]] std::vector<float> reliability_map(const Film& film);

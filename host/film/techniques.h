@@ -29,12 +29,8 @@ public:
   struct Sums {
     std::vector<std::array<double, 3>> weighted, unweighted;
     std::uint64_t contributions = 0; ///< occluded ones included: the shadow rays, where s > 0
-
-    template<class Archive>
-    void serialize(Archive& archive) {
-      archive(weighted, unweighted, contributions);
-    }
   };
+  static constexpr double bytes_per_pixel = 2 * 3 * sizeof(double); ///< of one technique
 
   explicit Techniques(std::size_t pixels = 0) : pixels_(pixels) {}
 
@@ -45,7 +41,20 @@ public:
 
   template<class Archive>
   void serialize(Archive& archive) {
-    archive(pixels_, sums_, left_out_);
+    auto count = static_cast<std::uint16_t>(sums_.size());
+    archive(count);
+    auto each = sums_.begin();
+    for (std::uint16_t i = 0; i < count; ++i) {
+      Technique technique = each == sums_.end() ? Technique() : (each++)->first;
+      archive(technique);
+      Sums& sums = sums_[technique];
+      for (auto* image : {&sums.weighted, &sums.unweighted}) {
+        image->resize(pixels_);
+        for (std::array<double, 3>& pixel : *image) archive(pixel);
+      }
+      archive(sums.contributions);
+    }
+    archive(left_out_);
   }
 
 private:

@@ -116,6 +116,7 @@ scene::Model read_declaration(const std::string& name, const std::string& file, 
   model.needs_tangents = defines.is_one(prefix + "_NEEDS_TANGENTS");
   model.reflectivity_is_estimate = defines.is_one(prefix + "_REFLECTIVITY_IS_ESTIMATE");
   model.has_survival = defines.has(prefix + "_SURVIVAL");
+  model.has_textured = defines.has(prefix + "_TEXTURED");
   return model;
 }
 

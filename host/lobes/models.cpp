@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
 #include <iterator>
 
 #include <fmt/format.h>
 
 #include "errors.h"
+#include "input_file.h"
 #include "lobes/shipped.h"
 
 namespace phlux::lobes {
@@ -71,10 +71,10 @@ void Library::add(const std::filesystem::path& file) {
                                  path));
   if (find(name))
     throw SceneError(fmt::format("{}: there is a model {} already: give the file another name", path, name));
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(file))
+  const auto read = bytes_of(file);
+  if (!read)
     throw SceneError(fmt::format("{}: the reflectance model cannot be read: an existing file", path));
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  const std::string& text = *read;
   scene::Model model = read_declaration(name, path, text);
   if (model.derived_words > 0)
     throw SceneError(fmt::format("{}: only models that ship have derived parameters: compute them in the "

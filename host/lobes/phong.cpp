@@ -25,7 +25,8 @@ std::vector<float> derive(const scene::Material& m, LobeTables& tables) {
 
 scene::Material without_lobe(const scene::Material& m) {
   if (m.value("specular_reflectance") != scene::Rgb(0.0)) return m;
-  scene::Material material = diffuse(m.value("diffuse_reflectance"));
+  scene::Material material = diffuse(scene::Rgb(0.0));
+  material.take("reflectance", m, "diffuse_reflectance");
   material.two_sided = m.two_sided;
   return material;
 }

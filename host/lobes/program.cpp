@@ -10,10 +10,13 @@
 namespace phlux::lobes {
 namespace {
 
+std::size_t words_of(const scene::Parameter& parameter) {
+  return parameter.kind == scene::Parameter::Kind::colour ? 3 : 1;
+}
+
 int parameter_words(const scene::Model& model) {
   int words = model.derived_words;
-  for (const scene::Parameter& parameter : model.parameters)
-    words += parameter.kind == scene::Parameter::Kind::colour ? 3 : 1;
+  for (const scene::Parameter& parameter : model.parameters) words += static_cast<int>(words_of(parameter));
   return words;
 }
 
@@ -32,7 +35,8 @@ bool has(const std::vector<ModelPointer>& models, bool scene::Model::*property) 
 }
 
 scene::Material as_phong(const scene::Material& diffuse) {
-  scene::Material material = phong(diffuse.value("reflectance"), scene::Rgb(0.0), 0.0);
+  scene::Material material = phong(scene::Rgb(0.0), scene::Rgb(0.0), 0.0);
+  material.take("diffuse_reflectance", diffuse, "reflectance");
   material.two_sided = diffuse.two_sided;
   return material;
 }
@@ -49,6 +53,35 @@ void append_words(std::vector<float>& records, const scene::Material& material, 
   const std::vector<float> derived = model->derive(material, tables);
   records.insert(records.end(), derived.begin(), derived.end());
 }
+
+/// The words of texture numbers, see MaterialTable::texture_numbers.
+class TextureNumbers {
+public:
+  explicit TextureNumbers(MaterialTable& table) : table_(table) {}
+
+  /// Of a material whose record begins at `first`.
+  void set(const scene::Material& material, std::size_t first) {
+    std::size_t word = first + MATERIAL_HEADER;
+    for (std::size_t i = 0; i < material.values.size(); ++i) {
+      if (const scene::TexturePointer texture = material.texture(i)) {
+        table_.texture_numbers.resize(std::max(table_.texture_numbers.size(), word + 1));
+        table_.texture_numbers[word] = 1 + number(texture);
+      }
+      word += words_of(material.model->parameters[i]);
+    }
+  }
+
+private:
+  int number(const scene::TexturePointer& texture) {
+    auto& list = table_.textures;
+    const auto same = [&](const scene::TexturePointer& each) { return *each == *texture; };
+    const auto found = std::ranges::find_if(list, same) - list.begin();
+    if (found == std::ssize(list)) list.push_back(texture);
+    return static_cast<int>(found);
+  }
+
+  MaterialTable& table_;
+};
 
 } // namespace
 
@@ -70,6 +103,7 @@ std::map<std::string, std::string> files_of(const std::vector<ModelPointer>& mod
     const std::string name = macro_prefix(model->name);
     if (model->derived_words == 0) text += fmt::format("#define {}_DERIVED(NUMBER, INDEX)\n", name);
     text += fmt::format("#include \"{}\"\n", model->file);
+    if (!model->has_textured) text += fmt::format("#define {}_TEXTURED(m) (m)\n", name);
     if (!model->has_survival)
       text += fmt::format("#define {}_SURVIVAL(m, fixed, random) vec_max({}_reflectivity(m, fixed))\n", name,
                           model->name);
@@ -90,7 +124,8 @@ std::map<std::string, std::string> defines_of(const std::vector<ModelPointer>& m
 
 MaterialTable material_table(const std::vector<scene::Material>& materials,
                              std::vector<ModelPointer> models) {
-  MaterialTable table{std::move(models), {}, materials.size(), {}};
+  MaterialTable table{std::move(models), {}, materials.size(), {}, {}, {}};
+  TextureNumbers texture_numbers(table);
   const auto words = static_cast<std::size_t>(record_words(table.models));
   const bool has_phong = std::ranges::find(table.models, shipped("phong")) != table.models.end();
   LobeTables tables;
@@ -101,12 +136,15 @@ MaterialTable material_table(const std::vector<scene::Material>& materials,
     const std::size_t end = table.records.size() + words;
     if (found != table.models.end()) {
       const int sides = MATERIAL_FRONT | (material.two_sided ? MATERIAL_BACK : 0);
+      const int flags = (reflects(material) ? sides : 0) | (material.is_textured() ? MATERIAL_TEXTURED : 0);
+      texture_numbers.set(material, table.records.size());
       table.records.push_back(bits_of(static_cast<int>(found - table.models.begin())));
-      table.records.push_back(bits_of(reflects(material) ? sides : 0));
+      table.records.push_back(bits_of(flags));
       append_words(table.records, material, tables);
     }
     table.records.resize(end);
   }
+  if (!table.textures.empty()) table.texture_numbers.resize(table.records.size());
   // A material without a table has row 0 all the same: kernels read two neighbouring values of it.
   if (tables.values.empty()) tables.values.resize(2);
   table.tables = std::move(tables.values);

@@ -25,6 +25,10 @@ struct MaterialTable {
   std::vector<float> records;
   std::size_t count = 0; ///< number of records
   std::vector<float> tables;
+  std::vector<scene::TexturePointer> textures; ///< of all materials
+  /// As long as `records`: at the first word of a colour from a texture, 1 + its index in `textures`;
+  /// elsewhere 0. Empty if there are no textures.
+  std::vector<int> texture_numbers;
 };
 [[nodiscard]] MaterialTable material_table(const std::vector<scene::Material>& materials,
                                            std::vector<ModelPointer> models);

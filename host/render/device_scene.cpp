@@ -9,6 +9,20 @@
 namespace phlux::render {
 namespace {
 
+void check_room(const device::Device& device, std::size_t bytes, const char* what, const char* smaller) {
+  if (bytes > device.info.largest_buffer)
+    throw DeviceError(
+        fmt::format("{}: the scene's {} take {} MB and a buffer may have {} MB: use a device with more "
+                    "memory or {}",
+                    device.info.name, what, bytes >> 20, device.info.largest_buffer >> 20, smaller));
+}
+
+[[noreturn]] void fail_for_room(const device::Device& device, std::size_t bytes, const char* what,
+                                const cl::Error& error) {
+  throw DeviceError(fmt::format("{}: no room for the scene's {} ({} MB): {}", device.info.name, what,
+                                bytes >> 20, device::error_name(error.err())));
+}
+
 // Copies a table of entries of `elements_per_entry` elements. Kernels may load the first few_entries without
 // checking the table's length, so that shorter tables are padded with zeros.
 template<typename T>
@@ -21,17 +35,28 @@ cl::Buffer upload(const device::Device& device, const std::vector<T>& table, con
     return upload(device, longer, what, elements_per_entry);
   }
   const std::size_t bytes = table.size() * sizeof(T);
-  if (bytes > device.info.largest_buffer)
-    throw DeviceError(
-        fmt::format("{}: the scene's {} take {} MB and a buffer may have {} MB: use a device with more "
-                    "memory or a smaller mesh",
-                    device.info.name, what, bytes >> 20, device.info.largest_buffer >> 20));
+  check_room(device, bytes, what, "a smaller mesh");
   try {
     return cl::Buffer(device.context, CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR, bytes,
                       const_cast<T*>(table.data()));
   } catch (const cl::Error& error) {
-    throw DeviceError(fmt::format("{}: no room for the scene's {} ({} MB): {}", device.info.name, what,
-                                  bytes >> 20, device::error_name(error.err())));
+    fail_for_room(device, bytes, what, error);
+  }
+}
+
+// Copies the images from where they are: together they may be as large as the host's memory.
+cl::Buffer upload_texels(const device::Device& device, const tables::TextureTable& table) {
+  if (table.words == 0) return upload(device, std::vector<float>(), "textures");
+  const std::size_t bytes = table.words * sizeof(float);
+  check_room(device, bytes, "textures", "smaller images");
+  try {
+    cl::Buffer buffer(device.context, CL_MEM_READ_ONLY, bytes);
+    for (const auto& piece : table.pieces)
+      device.queue.enqueueWriteBuffer(buffer, CL_TRUE, piece.first_word * sizeof(float), piece.bytes.size(),
+                                      piece.bytes.data());
+    return buffer;
+  } catch (const cl::Error& error) {
+    fail_for_room(device, bytes, "textures", error);
   }
 }
 
@@ -51,6 +76,8 @@ DeviceScene::DeviceScene(const device::Device& device, const HostScene& scene, c
   table("lights", scene.lights.records, "lights");
   number("light_count", static_cast<cl_int>(scene.lights.records.size()));
   table("light_nodes", scene.lights.nodes, "tree of lights");
+  table("environment", std::vector<EnvironmentRecord>{scene.lights.environment.record}, "environment map");
+  table("environment_texels", scene.lights.environment.texels, "environment map");
   number("light_tree_probability", static_cast<cl_float>(scene.lights.tree_probability));
   if (parts.double_precision) {
     table("planars", geometry.double_planars, "triangles", PLANAR_FLOATS);
@@ -66,6 +93,10 @@ DeviceScene::DeviceScene(const device::Device& device, const HostScene& scene, c
   number("sphere_count", cl_int{geometry.sphere_count});
   table("corners", geometry.corners, "triangles' corners");
   table("vertex_normals", geometry.vertex_normals, "vertex normals");
+  table("uv_maps", geometry.uv_maps, "texture coordinates");
+  table("texture_numbers", scene.materials.texture_numbers, "materials");
+  table("textures", scene.textures.records, "textures");
+  arguments_.emplace_back("texels", upload_texels(device, scene.textures));
   table("nodes", geometry.nodes, "hierarchy");
   number("root", cl_int{geometry.root});
 }

@@ -29,7 +29,8 @@ int least_lane_jobs(int lanes, int block_samples) {
 
 int vertex_words(const Parts& parts) {
   return VERTEX_WORDS_PLAIN + (parts.smooth_normals ? VERTEX_WORDS_OF_NORMAL : 0) +
-         (parts.has_tangents() ? VERTEX_WORDS_OF_TANGENT : 0);
+         (parts.has_tangents() ? VERTEX_WORDS_OF_TANGENT : 0) +
+         (parts.has_textures() ? VERTEX_WORDS_OF_UV : 0);
 }
 
 // Size of Scalar (kernels/lanes/lanes.h), the type of vertices in scratch memory.
@@ -46,7 +47,8 @@ std::size_t record_words(const Parts& parts) {
 Planner::Planner(const device::DeviceInfo& device, const Parts& parts, double launch_seconds)
     : device_(device), parts_(parts), launch_seconds_(launch_seconds),
       local_size_(device::group_size(parts.lanes)), units_(device.compute_units),
-      first_items_(std::max(work_items(device) / 64, units_)), items_(work_items(device)) {}
+      first_items_(std::max(work_items(device) / 64, units_)), items_(work_items(device)),
+      most_jobs_(std::numeric_limits<cl_int>::max() / 8) {} // the kernel counts the words of sums in int
 
 int Planner::batch_jobs(int block_samples) const {
   return parts_.lanes * least_lane_jobs(parts_.lanes, block_samples);
@@ -58,16 +60,16 @@ std::int64_t Planner::wanted_jobs(std::int64_t left, int block_samples) const {
   std::int64_t jobs = static_cast<std::int64_t>(first_items_) * least;
   if (paths_per_second_ > 0)
     jobs = static_cast<std::int64_t>(paths_per_second_ * launch_seconds_ / block_samples);
-  // The kernel counts jobs and the words of their sums in int; a launch's records must fit a buffer.
-  std::int64_t largest = std::numeric_limits<cl_int>::max() / 8;
+  std::int64_t largest = most_jobs_;
   if (settings::info_of(parts_.integrator).light_paths) {
-    const double bytes_per_job =
+    const double bytes_per_job = // the records must fit a buffer
+
         (records_per_path_ + 1) * block_samples * static_cast<double>(record_words(parts_) * sizeof(float));
     largest = std::min(largest, static_cast<std::int64_t>(static_cast<double>(device_.largest_buffer) /
                                                           (4 * bytes_per_job)));
   }
   const std::int64_t lanes = parts_.lanes;
-  jobs = std::clamp(jobs, lanes, std::min(std::max(left, lanes), largest));
+  jobs = std::clamp(jobs, lanes, std::max(lanes, std::min(left, largest)));
   // Whole batches, so that batches do not depend on how the work is split into launches.
   return settings::info_of(parts_.integrator).light_paths ? (jobs + least - 1) / least * least : jobs;
 }
@@ -124,6 +126,17 @@ bool Planner::overflowed(const LaunchPlan& plan, const std::vector<cl_int>& reco
   if (splats) records_per_path_ = std::max(records_per_path_, 1.25 * most / paths);
   if (vertices) rows_per_path_ = std::max(rows_per_path_, 2 * plan.rows / (paths / parts_.lanes));
   return splats || vertices;
+}
+
+bool Planner::shrink(std::int64_t jobs) {
+  const bool batches = settings::info_of(parts_.integrator).light_paths;
+  const std::int64_t least = batches ? batch_jobs(samples_per_block) : parts_.lanes;
+  const std::int64_t before = std::min(jobs, most_jobs_), fewer_jobs = std::max(before / 2, least);
+  const std::size_t fewer_items = std::max(items_ / 2 / local_size_ * local_size_, local_size_);
+  const bool smaller = fewer_jobs < before || fewer_items < items_;
+  most_jobs_ = fewer_jobs;
+  items_ = fewer_items;
+  return smaller;
 }
 
 void Planner::note_time(std::int64_t paths, double seconds) {

@@ -39,6 +39,9 @@ public:
 
   /// Whether a batch had more vertices (a count below 0) or splats than fit; later plans have larger buffers.
   [[nodiscard]] bool overflowed(const LaunchPlan& plan, const std::vector<cl_int>& record_counts);
+  /// Halves the work-items and jobs of later launches, after one of `jobs` jobs for which there was no
+  /// memory. False if they are as small as they can be.
+  [[nodiscard]] bool shrink(std::int64_t jobs);
   /// Records the time of a finished launch.
   void note_time(std::int64_t paths, double seconds);
 
@@ -53,6 +56,7 @@ private:
   std::size_t units_;             // compute units
   std::size_t first_items_;       // work-items of the first launch
   std::size_t items_;             // work-items of a full launch
+  std::int64_t most_jobs_;        // of a launch
   double paths_per_second_ = 0.0; // measured; 0: not yet
   double records_per_path_ = 2.0; // capacity
   double rows_per_path_ = 6.0;    // capacity for vertices, per path of a lane

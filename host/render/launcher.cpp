@@ -17,10 +17,19 @@ cl_int bounded(int edges) {
   return edges < 0 ? std::numeric_limits<cl_int>::max() : edges;
 }
 
-double seconds_of(const cl::Event& kernel_done) {
+// 0 if the driver does not say: the film does not need it.
+double seconds_of(const cl::Event& kernel_done) try {
   const cl_ulong begin = kernel_done.getProfilingInfo<CL_PROFILING_COMMAND_START>();
   const cl_ulong end = kernel_done.getProfilingInfo<CL_PROFILING_COMMAND_END>();
   return static_cast<double>(end - begin) * 1e-9;
+} catch (const cl::Error&) {
+  return 0.0;
+}
+
+// Drivers may report a failure by the command's event alone.
+void check(const cl::Event& event, const char* what) {
+  const cl_int status = event.getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>();
+  if (status < 0) throw cl::Error(status, what);
 }
 
 } // namespace
@@ -35,23 +44,49 @@ Launcher::Launcher(const device::Device& device, const device::BuiltProgram& pro
   kernel_.set("pixel_count", static_cast<cl_int>(pixels_));
   kernel_.set("max_edges", bounded(settings.max_depth));
   kernel_.set("roulette_edges", bounded(settings.rr_depth));
-  kernel_.set("sky_light", static_cast<cl_int>(std::max(scene.lights.constant, 0)));
-  kernel_.set("ambient", static_cast<cl_float>(settings.ambient.value_or(0.0) / scene.lights.unit));
+  kernel_.set("sky_light", static_cast<cl_int>(std::max(scene.lights.sky, 0)));
+  kernel_.set("ambient", static_cast<cl_float>(settings.ambient
+                                                   ? in_units("ambient", *settings.ambient, scene.lights.unit)
+                                                   : 0.0));
   begin(settings);
 }
 
 void Launcher::begin(const Settings& settings) {
   kernel_.set("seed",
               cl_uint2{{static_cast<cl_uint>(settings.seed), static_cast<cl_uint>(settings.seed >> 32)}});
+  first_sample_ = settings.first_sample;
   // Two launches are in flight when the time is over.
   planner_.set_launch_seconds(std::min(settings.launch_seconds, settings.time_limit.value_or(INFINITY) / 40));
 }
 
-Launcher::~Launcher() {
+bool Launcher::finish() const noexcept {
   try {
     device_.queue.finish();
-  } catch (const cl::Error&) { // a failed device no longer writes
+    return true;
+  } catch (const cl::Error&) {
+    return false;
   }
+}
+
+void Launcher::abandon() noexcept {
+  const bool idle = finish() || finish();
+  for (Flight& flight : flights_) {
+    try {
+      unmap(flight);
+    } catch (const cl::Error&) { // the driver keeps the buffer
+    }
+  }
+  static_cast<void>(finish());
+  // A device that does not finish may yet write: the memory is kept for the life of the process.
+  if (!idle) new std::deque<Flight>(std::move(flights_));
+  flights_.clear();
+  spare_.clear();
+  counts_ = {};
+}
+
+bool Launcher::shrink() {
+  const bool one_less = !std::exchange(memory_is_short_, true);
+  return planner_.shrink(last_jobs_) || one_less;
 }
 
 void Launcher::warm_up() {
@@ -62,6 +97,7 @@ void Launcher::warm_up() {
 }
 
 void Launcher::enqueue(const Launch& launch) {
+  last_jobs_ = launch.jobs;
   Flight& flight = flights_.emplace_back();
   flight.launch = launch;
   if (!spare_.empty()) {
@@ -76,7 +112,7 @@ void Launcher::reserve(Buffer& buffer, std::size_t bytes, const char* what) cons
   bytes = std::max(bytes, sizeof(cl_float));
   if (bytes <= buffer.bytes) return;
   if (bytes > device_.info.largest_buffer)
-    throw DeviceError(
+    throw MemoryShort(
         fmt::format("{}: the {} of a launch take {} MB and a buffer may have {} MB: shorten the paths "
                     "(`max-depth`, `rr-depth`)",
                     device_.info.name, what, bytes >> 20, device_.info.largest_buffer >> 20));
@@ -84,7 +120,7 @@ void Launcher::reserve(Buffer& buffer, std::size_t bytes, const char* what) cons
   try {
     buffer.memory = cl::Buffer(device_.context, CL_MEM_READ_WRITE, bytes);
   } catch (const cl::Error& error) {
-    throw DeviceError(
+    throw MemoryShort(
         fmt::format("{}: no room for the {} of a launch ({} MB): {}: shorten the paths (`max-depth`, "
                     "`rr-depth`)",
                     device_.info.name, what, bytes >> 20, device::error_name(error.err())));
@@ -101,6 +137,9 @@ void Launcher::start(Flight& flight) {
   kernel_.set("job_count", static_cast<cl_int>(launch.jobs));
   kernel_.set("first_sample", static_cast<cl_int>(launch.first_sample));
   kernel_.set("block_samples", static_cast<cl_int>(launch.block_samples));
+  kernel_.set("point_sets",
+              cl_uint2{{static_cast<cl_uint>(first_sample_),
+                        static_cast<cl_uint>(point_bits(launch.first_sample - first_sample_))}});
   kernel_.set("batch_jobs", static_cast<cl_int>(plan.batch_jobs));
   kernel_.set("record_words", static_cast<cl_int>(record_words(parts_)));
   kernel_.set("record_capacity", static_cast<cl_int>(plan.record_capacity));
@@ -124,10 +163,11 @@ void Launcher::start(Flight& flight) {
 }
 
 void Launcher::read_back(Flight& flight) {
+  flight.copies.clear();
   const auto read = [&](const cl::Buffer& buffer, auto& to, std::size_t count) {
     to.resize(count);
     device_.queue.enqueueReadBuffer(buffer, CL_FALSE, 0, count * sizeof(to[0]), to.data(), nullptr,
-                                    &flight.read);
+                                    &flight.copies.emplace_back());
   };
   const Buffers& from = flight.buffers;
   if (flight.plan.batches > 0) {
@@ -136,7 +176,7 @@ void Launcher::read_back(Flight& flight) {
         flight.plan.batches * static_cast<std::size_t>(flight.plan.record_capacity) * record_words(parts_);
     flight.host_records = static_cast<float*>(
         device_.queue.enqueueMapBuffer(from.records.memory, CL_FALSE, CL_MAP_READ | CL_MAP_WRITE, 0,
-                                       words * sizeof(float), nullptr, &flight.read));
+                                       words * sizeof(float), nullptr, &flight.copies.emplace_back()));
   }
   if (settings::info_of(parts_.integrator).eye_paths)
     read(from.sums.memory, flight.host_sums, static_cast<std::size_t>(flight.launch.jobs));
@@ -144,14 +184,20 @@ void Launcher::read_back(Flight& flight) {
   device_.queue.flush();
 }
 
+void Launcher::wait(const Flight& flight) {
+  cl::Event::waitForEvents(flight.copies);
+  check(flight.kernel_done, "kernel");
+  for (const cl::Event& copy : flight.copies) check(copy, "reading a launch's results");
+}
+
 void Launcher::settle() {
   Flight& flight = flights_.front();
-  flight.read.wait();
+  wait(flight);
   while (planner_.overflowed(flight.plan, flight.host_record_counts)) {
     unmap(flight);
     start(flight);
     read_back(flight);
-    flight.read.wait();
+    wait(flight);
   }
 }
 
@@ -203,12 +249,10 @@ void Launcher::fold_batch(const Flight& flight, std::size_t batch, film::Film& f
 }
 
 void Launcher::collect(film::Film& film) {
-  Flight flight = std::move(flights_.front());
-  flights_.pop_front();
+  Flight& flight = flights_.front();
   if (flight.plan.batches > 0) film.use_splats();
   for (std::size_t batch = 0; batch < flight.plan.batches; ++batch) fold_batch(flight, batch, film);
   if (flight.plan.batches == 0) fold_sums(flight, 0, flight.host_sums.size(), film);
-  unmap(flight);
   counts_.paths += static_cast<std::uint64_t>(flight.launch.jobs) *
                    static_cast<std::uint64_t>(flight.launch.block_samples);
   for (std::size_t item = 0; item < flight.plan.items; ++item) {
@@ -216,7 +260,12 @@ void Launcher::collect(film::Film& film) {
     counts_.shadow_rays += flight.host_counters[item * counters_per_item + 1];
   }
   planner_.note_time(flight.launch.jobs * flight.launch.block_samples, seconds_of(flight.kernel_done));
-  spare_.push_back(std::move(flight.buffers));
+  try {
+    unmap(flight);
+    spare_.push_back(std::move(flight.buffers));
+  } catch (const cl::Error&) { // the film has the launch; buffers that are still mapped are not used again
+  }
+  flights_.pop_front();
 }
 
 } // namespace phlux::render

@@ -27,21 +27,30 @@ constexpr NamedPart named_parts[] = {
     {&Parts::ellipses, "ellipses", "HAS_ELLIPSES"},
     {&Parts::spheres, "spheres", "HAS_SPHERES"},
     {&Parts::smooth_normals, "smooth_normals", "HAS_SMOOTH_NORMALS"},
+    {&Parts::strict_normals, "strict_normals", "HAS_STRICT_NORMALS"},
     {&Parts::two_sided, "two_sided", "HAS_TWO_SIDED"},
     {&Parts::black, "black", "HAS_BLACK"},
+    {&Parts::checkerboards, "checkerboards", "HAS_CHECKERBOARDS"},
+    {&Parts::byte_textures, "byte_textures", "HAS_BYTE_TEXTURES"},
+    {&Parts::float_textures, "float_textures", "HAS_FLOAT_TEXTURES"},
     {&Parts::light_planar, "light_planar", "HAS_PLANAR_LIGHTS"},
     {&Parts::light_sphere, "light_sphere", "HAS_SPHERE_LIGHTS"},
     {&Parts::light_point, "light_point", "HAS_POINT_LIGHTS"},
     {&Parts::light_spot, "light_spot", "HAS_SPOT_LIGHTS"},
     {&Parts::light_directional, "light_directional", "HAS_DIRECTIONAL_LIGHTS"},
     {&Parts::light_constant, "light_constant", "HAS_CONSTANT_LIGHT"},
+    {&Parts::environment_map, "environment_map", "HAS_ENVIRONMENT_MAP"},
+    {&Parts::lens, "lens", "HAS_LENS"},
+    {&Parts::orthographic, "orthographic", "HAS_ORTHOGRAPHIC"},
+    {&Parts::tent_filter, "tent_filter", "HAS_TENT_FILTER"},
+    {&Parts::gaussian_filter, "gaussian_filter", "HAS_GAUSSIAN_FILTER"},
     {&Parts::light_choice, "light_choice", "HAS_LIGHT_CHOICE"},
     {&Parts::light_tree, "light_tree", "HAS_LIGHT_TREE"},
     {&Parts::ambient, "ambient", "HAS_AMBIENT"},
 };
 
 Connect possible_connect(const Settings& settings, const tables::LightTable& lights) {
-  const bool hittable = lights.has(LIGHT_PLANAR) || lights.has(LIGHT_SPHERE) || lights.has(LIGHT_CONSTANT);
+  const bool hittable = lights.has(LIGHT_PLANAR) || lights.has(LIGHT_SPHERE) || lights.has(LIGHT_SKY);
   if (settings.integrator == "path" && settings.connect == Connect::none && !lights.records.empty() &&
       !hittable)
     throw UsageError(
@@ -53,7 +62,7 @@ Connect possible_connect(const Settings& settings, const tables::LightTable& lig
 
 // Expected number of proposals of rejection sampling per sample, at grazing incidence, where it is largest.
 double proposals(const scene::Material& m) {
-  const double diffuse = glm::compMax(m.value("diffuse_reflectance"));
+  const double diffuse = m.is_textured() ? 0.0 : glm::compMax(m.value("diffuse_reflectance")); // some texel's
   const double specular = glm::compMax(m.value("specular_reflectance")), exponent = m.value("exponent").x;
   const double highest = diffuse + specular * (exponent / 2 + 1);
   return highest / (diffuse + specular * phong::lobe_reflectivity(exponent, 0.0));
@@ -84,6 +93,16 @@ int lanes_for(const device::DeviceInfo& device, const Settings& settings) {
   return 1;
 }
 
+double in_units(const char* setting, double radiance, double unit) {
+  constexpr double least = 1e-30, most = 1e30; // a float, and products with ordinary numbers
+  const double value = radiance / unit;
+  if (value >= least && value <= most) return value;
+  throw UsageError(
+      fmt::format("{} {:g}: the scene's lights are about {:g}, and single precision holds {:g} to {:g} "
+                  "beside them",
+                  settings::quoted(setting), radiance, unit, least * unit, most * unit));
+}
+
 // With fewer, descending the tree takes more time than the lower variance gains (bench/saved/REMEDIES.md).
 constexpr std::size_t fewest_lights_of_tree = 8;
 
@@ -100,9 +119,10 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
     throw UsageError("`contributions`: path tracing has only one technique: use `integrator` bidir or light");
   // Images of techniques need every connection.
   if (parts.integrator == Integrator::bidir && !parts.techniques) parts.connections = settings.connections;
-  if (settings.clamp) parts.clamp = *settings.clamp / lights.unit;
+  if (settings.clamp) parts.clamp = in_units("clamp", *settings.clamp, lights.unit);
   if (parts.clamp && parts.techniques)
     throw UsageError("`clamp`: contributions of techniques are not clamped: leave out `contributions`");
+  if (samples_point_sets(settings)) parts.sampler = settings.sampler;
   parts.ambient = settings.ambient.has_value();
   if (parts.ambient && parts.integrator != Integrator::path)
     throw UsageError("`ambient`: only paths from the eye can carry the ambient term: use `integrator` path");
@@ -118,11 +138,18 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
   parts.ellipses = geometry.has_ellipses;
   parts.spheres = geometry.sphere_count > 0;
   parts.smooth_normals = !geometry.vertex_normals.empty();
+  parts.strict_normals = parts.smooth_normals && scene.strict_normals;
   const std::vector<scene::Material> materials = tables::used_materials(scene, geometry);
   parts.models = lobes::models_of(materials);
   for (const scene::Material& m : materials) {
     parts.two_sided |= m.two_sided;
     parts.black |= !lobes::reflects(m);
+    for (const scene::TexturePointer& texture : m.textures) {
+      if (!texture) continue;
+      parts.checkerboards |= !texture->image;
+      parts.byte_textures |= texture->image && !texture->image->bytes.empty();
+      parts.float_textures |= texture->image && texture->image->bytes.empty();
+    }
     if (settings.strategy == "rejection" && m.model == lobes::shipped("phong")) refuse_endless_rejection(m);
   }
   for (const auto& model : parts.models)
@@ -136,7 +163,12 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
   parts.light_point = lights.has(LIGHT_POINT);
   parts.light_spot = lights.has(LIGHT_SPOT);
   parts.light_directional = lights.has(LIGHT_DIRECTIONAL);
-  parts.light_constant = lights.has(LIGHT_CONSTANT);
+  parts.lens = scene.camera.aperture_radius > 0;
+  parts.orthographic = scene.camera.orthographic;
+  parts.tent_filter = scene.camera.filter.kind == scene::Filter::Kind::tent;
+  parts.gaussian_filter = scene.camera.filter.kind == scene::Filter::Kind::gaussian;
+  parts.environment_map = scene.environment.has_value();
+  parts.light_constant = lights.has(LIGHT_SKY) && !parts.environment_map;
   const bool chooses = parts.connect != Connect::none || parts.integrator == Integrator::light;
   parts.light_choice = lights.records.size() > 1 && chooses;
   parts.light_tree = wants_light_tree(settings) && parts.connect != Connect::none &&
@@ -197,6 +229,9 @@ std::map<std::string, std::string> Parts::defines() const {
   macros["WEIGHTS"] = weights == Weights::balance ? "WEIGHTS_BALANCE"
                       : weights == Weights::power ? "WEIGHTS_POWER"
                                                   : "WEIGHTS_UNIFORM";
+  macros["SAMPLER"] = sampler == Sampler::independent ? "SAMPLER_INDEPENDENT"
+                      : sampler == Sampler::sobol     ? "SAMPLER_SOBOL"
+                                                      : "SAMPLER_LATTICE";
   macros["ROULETTE"] = roulette == Roulette::strategy       ? "ROULETTE_STRATEGY"
                        : roulette == Roulette::reflectivity ? "ROULETTE_REFLECTIVITY"
                        : roulette == Roulette::kd_ks        ? "ROULETTE_KD_KS"

@@ -24,17 +24,21 @@ struct Parts {
   bool hierarchy = false;
   bool double_precision = false; ///< kernels/lanes/lanes.h: Real is a double
   bool triangles = false, parallelograms = false, ellipses = false, spheres = false;
-  bool smooth_normals = false, two_sided = false, black = false;
+  bool smooth_normals = false, strict_normals = false, two_sided = false, black = false;
+  bool checkerboards = false, byte_textures = false, float_textures = false;
   std::vector<lobes::ModelPointer> models = {lobes::shipped("diffuse")}; ///< reflectance models
   bool light_planar = false, light_sphere = false, light_point = false, light_spot = false,
-       light_directional = false, light_constant = false;
-  bool ambient = false;      ///< a control variate
-  bool light_choice = false; ///< more than one light to choose from
-  bool light_tree = false;   ///< light samples choose by contribution
+       light_directional = false, light_constant = false, environment_map = false;
+  bool lens = false, orthographic = false;           ///< of the camera
+  bool tent_filter = false, gaussian_filter = false; ///< else the box
+  bool ambient = false;                              ///< a control variate
+  bool light_choice = false;                         ///< more than one light to choose from
+  bool light_tree = false;                           ///< light samples choose by contribution
   bool one_light = false, few_lights = false, few_materials = false,
        few_primitives = false; ///< optimizations
   Connect connect = Connect::mis;
   Weights weights = Weights::balance;
+  Sampler sampler = Sampler::independent;
   Roulette roulette = Roulette::strategy;
   int connections = 0;            ///< as in Settings; 0: no roulette of connections
   bool techniques = false;        ///< records every contribution with its technique
@@ -43,6 +47,7 @@ struct Parts {
 
   [[nodiscard]] bool has_model(const std::string& name) const;
   [[nodiscard]] bool has_tangents() const; ///< whether a model needs them
+  [[nodiscard]] bool has_textures() const { return checkerboards || byte_textures || float_textures; }
   /// The names of the parts that are on, such as "spheres" or "light_planar", in a fixed order.
   [[nodiscard]] std::vector<std::string> names() const;
   /// The names of all parts, whether on or off.
@@ -57,6 +62,10 @@ struct Parts {
   /// @throws UsageError when a user's strategy cannot be read
   [[nodiscard]] device::ProgramSource source(const std::string& root, const std::string& extra = "") const;
 };
+
+/// A setting's radiance in the unit of the devices' sums, as tables::LightTable defines it.
+/// @throws UsageError if single precision cannot hold it beside the scene's lights
+[[nodiscard]] double in_units(const char* setting, double radiance, double unit);
 
 /// WIDTH on a device. @throws UsageError for double precision with a WIDTH above 1, DeviceError for double
 /// precision on a device without doubles

@@ -1,139 +1,27 @@
 #include "render/render.h"
 
 #include <algorithm>
-#include <cmath>
 #include <deque>
-#include <exception>
 #include <limits>
-#include <map>
 #include <memory>
-#include <mutex>
-#include <thread>
 
 #include <fmt/format.h>
 
 #include "clock.h"
+#include "device/driver_cache.h"
 #include "device/program.h"
 #include "errors.h"
-#include "render/error_target.h"
+#include "render/dispatch.h"
 #include "render/launcher.h"
 #include "render/programs.h"
 
 namespace phlux::render {
 namespace {
 
-// Launches in flight on a device: one runs while the results of the previous one are added to the film.
-constexpr std::size_t launches_in_flight = 2;
-
 // One device, ready to render.
 struct Worker {
   Parts parts;
   std::unique_ptr<Launcher> launcher;
-};
-
-void add(const Counts& counts, Counts& to) {
-  to.paths += counts.paths;
-  to.rays += counts.rays;
-  to.shadow_rays += counts.shadow_rays;
-  to.nonfinite += counts.nonfinite;
-  if (!to.first_nonfinite) to.first_nonfinite = counts.first_nonfinite;
-}
-
-// The work that devices share. Taking a launch and adding its results to the film are serialized by a lock.
-class DispatchLoop {
-public:
-  DispatchLoop(const Settings& settings, film::Film& film, const Events& events, const RenderState& from)
-      : settings_(settings), film_(film), events_(events), begin_(Clock::now()),
-        seconds_before_(from.seconds_render), open_ended_(settings.time_limit || settings.target_error),
-        schedule_(static_cast<std::int64_t>(film.pixels().size()),
-                  open_ended_ ? std::nullopt : std::optional<std::int64_t>(settings.samples_per_pixel),
-                  from.position),
-        counts_(from), started_paths_(from.paths) {
-    if (settings.target_error) target_.emplace(*settings.target_error, film.pixels().size());
-    ended_ = from.paths > 0 && precise_enough();
-  }
-
-  // Runs one device until the work is done or ended; reports progress after each launch.
-  void run(Launcher& launcher) {
-    while (true) {
-      while (launcher.in_flight() < launches_in_flight && take(launcher)) {
-      }
-      if (launcher.in_flight() == 0) return;
-      launcher.settle();
-      const std::lock_guard lock(mutex_);
-      launcher.collect(film_);
-      add(launcher.take_counts(), counts_);
-      in_flight_[&launcher].pop_front();
-      if (!ended_) ended_ = precise_enough() || !report();
-    }
-  }
-
-  // Ends the render on every device.
-  void end() {
-    const std::lock_guard lock(mutex_);
-    ended_ = true;
-  }
-
-  [[nodiscard]] double seconds() const { return seconds_before_ + seconds_since(begin_); }
-
-  // The state that belongs to the film.
-  [[nodiscard]] RenderState state() const {
-    RenderState state{counts_, schedule_.position(), seconds()};
-    std::vector<Launch>& missing = state.position.missing;
-    for (const auto& [launcher, launches] : in_flight_)
-      missing.insert(missing.begin(), launches.begin(), launches.end());
-    return state;
-  }
-
-private:
-  bool take(Launcher& launcher) {
-    const std::lock_guard lock(mutex_);
-    if (ended_ || (settings_.time_limit && seconds() >= *settings_.time_limit)) return false;
-    if (target_ && launcher.in_flight() > 0 && paths_left() <= 0) return false;
-    auto launch = schedule_.next([&](std::int64_t left, int samples) {
-      if (target_) left = std::clamp<std::int64_t>(paths_left() / samples, 1, left);
-      return launcher.wanted_jobs(left, samples);
-    });
-    if (!launch) return false;
-    started_paths_ += static_cast<std::uint64_t>(launch->jobs * launch->block_samples);
-    in_flight_[&launcher].push_back(*launch);
-    launch->first_sample += settings_.first_sample;
-    launcher.enqueue(*launch);
-    return true;
-  }
-
-  bool report() const {
-    if (!events_.progress) return true;
-    Progress progress;
-    progress.samples_done = static_cast<double>(counts_.paths) / static_cast<double>(film_.pixels().size());
-    if (!open_ended_) progress.samples_total = settings_.samples_per_pixel;
-    progress.seconds = seconds();
-    progress.paths = counts_.paths;
-    progress.state = [this] { return state(); };
-    return events_.progress(progress);
-  }
-
-  bool precise_enough() { return target_ && target_->reached(film_, counts_.paths); }
-
-  // Until the requested error, as far as is known.
-  [[nodiscard]] std::int64_t paths_left() const {
-    return static_cast<std::int64_t>(
-        std::ceil(target_->wanted_paths() - static_cast<double>(started_paths_)));
-  }
-
-  const Settings& settings_;
-  film::Film& film_;
-  const Events& events_;
-  Clock::time_point begin_;
-  double seconds_before_;
-  bool open_ended_;
-  Schedule schedule_;
-  std::map<const Launcher*, std::deque<Launch>> in_flight_;
-  std::mutex mutex_;
-  Counts counts_;
-  std::uint64_t started_paths_;
-  std::optional<ErrorTarget> target_;
-  bool ended_ = false;
 };
 
 void check_samples(const Settings& settings) {
@@ -179,19 +67,6 @@ void warn(const scene::Scene& scene, const Settings& settings, const Events& eve
         fmt::format("`connect` none: no path can hit a point, spot or directional light: {} of the "
                     "scene's lights are dark",
                     lost));
-  const auto anisotropic = [&](const auto& shape) {
-    const scene::Material& m = scene.materials[static_cast<std::size_t>(shape.surface.material)];
-    return m.model == lobes::shipped("anisotropicphong") && m.value("exponent_u") != m.value("exponent_v");
-  };
-  if (std::any_of(scene.meshes.begin(), scene.meshes.end(), anisotropic))
-    events.warning(
-        "anisotropicphong on a mesh: texture coordinates are not read, and exponentU is along each "
-        "triangle's first edge: use rectangle, cube or disk, whose axes toWorld turns, or equal "
-        "exponents");
-  if (std::any_of(scene.spheres.begin(), scene.spheres.end(), anisotropic))
-    events.warning(
-        "anisotropicphong on a sphere: toWorld does not turn it, and exponentU is along the circles "
-        "about the world's z axis: use equal exponents where that matters");
   const auto is_delta = [](const scene::Material& m) { return m.model->has_delta; };
   if (settings.integrator == "light" && std::any_of(scene.materials.begin(), scene.materials.end(), is_delta))
     events.warning(
@@ -227,14 +102,29 @@ public:
     const device::BuiltProgram built = programs.program(worker.parts, events_.building_kernels);
     statistics.kernels_from_cache = built.from_cache;
     statistics.portable_lanes = device::portable_lanes(device);
-    worker.launcher = std::make_unique<Launcher>(device, built, *host_, worker.parts, settings_);
     const Clock::time_point warm_up_begin = Clock::now();
-    worker.launcher->warm_up();
+    worker.launcher = launcher(device, built, worker.parts);
+    device::record_driver_cache();
     statistics.seconds_build_kernels += built.seconds + seconds_since(warm_up_begin);
     return worker;
   }
 
 private:
+  // Tries a second time if the device fails.
+  [[nodiscard]] std::unique_ptr<Launcher> launcher(const device::Device& device,
+                                                   const device::BuiltProgram& built, const Parts& parts,
+                                                   bool again = true) const {
+    try {
+      auto made = std::make_unique<Launcher>(device, built, *host_, parts, settings_);
+      made->warm_up();
+      return made;
+    } catch (...) {
+      if (!again || !current_failure()) throw;
+    }
+    pause(settings_);
+    return launcher(device, built, parts, false);
+  }
+
   // Warnings that depend on the scene's tables.
   void warn(const Parts& parts) const {
     if (!host_->lights.shines())
@@ -269,27 +159,6 @@ void add_names(Statistics& statistics, const device::DeviceInfo& device) {
   statistics.driver += (statistics.driver.empty() ? "" : ", ") + device.driver;
 }
 
-// Runs the first device in the caller's thread and each other in a thread of its own. A failure ends the
-// render.
-void run_all(DispatchLoop& loop, std::vector<Worker>& workers) {
-  std::vector<std::exception_ptr> failures(workers.size());
-  const auto run = [&](std::size_t i) {
-    try {
-      loop.run(*workers[i].launcher);
-    } catch (...) {
-      failures[i] = std::current_exception();
-      loop.end();
-    }
-  };
-  {
-    std::vector<std::jthread> others;
-    for (std::size_t i = 1; i < workers.size(); ++i) others.emplace_back(run, i);
-    run(0);
-  }
-  for (const std::exception_ptr& failure : failures)
-    if (failure) std::rethrow_exception(failure);
-}
-
 // Calls `work`; an error of OpenCL becomes a DeviceError.
 template<class Work>
 auto reporting_device_errors(const Work& work) try {
@@ -309,8 +178,16 @@ struct Renderer::Ready {
                const Events& events) {
     WorkerFactory factory(scene, settings, events);
     for (Programs* programs : devices) {
-      workers.push_back(factory.make(*programs, statistics));
-      add_names(statistics, programs->device().info);
+      const device::DeviceInfo& device = programs->device().info;
+      try {
+        workers.push_back(factory.make(*programs, statistics));
+        add_names(statistics, device);
+      } catch (...) {
+        const std::optional<Failure> failure = current_failure();
+        if (!failure || (workers.empty() && programs == devices.back())) throw;
+        if (events.warning)
+          events.warning(fmt::format("{}: {}: it is left out", name_of(device), failure->text));
+      }
     }
     const Parts& parts = workers.front().parts;
     statistics.lanes = parts.lanes;
@@ -351,18 +228,42 @@ Statistics Renderer::render(const Settings& settings, film::Film& film, const Ev
     set_unit(film, ready_->unit);
     if (settings.clamp) film.set_clamp(*settings.clamp);
     if (settings.techniques) film.use_techniques();
-    for (const Worker& worker : ready_->workers) worker.launcher->begin(settings);
+    if (samples_point_sets(settings)) film.use_dependent_samples();
+    std::vector<Launcher*> launchers;
+    for (const Worker& worker : ready_->workers) launchers.push_back(worker.launcher.get());
     DispatchLoop loop(settings, film, events, from);
-    run_all(loop, ready_->workers);
+    loop.run(launchers);
     Statistics statistics = ready_->statistics;
     static_cast<RenderState&>(statistics) = loop.state();
+    if (!loop.failure().empty()) throw DevicesFailed(loop.failure(), statistics);
     return statistics;
   });
 }
 
 Statistics render(const scene::Scene& scene, const Settings& settings, film::Film& film, const Events& events,
                   const RenderState& from) {
-  return Renderer(scene, settings, events).render(settings, film, events, from);
+  std::optional<DevicesFailed> failure;
+  try {
+    return Renderer(scene, settings, events).render(settings, film, events, from);
+  } catch (const DevicesFailed& first) {
+    failure = first;
+  }
+  while (true) {
+    pause(settings);
+    device::reopen_devices();
+    std::optional<Renderer> renderer;
+    try {
+      renderer.emplace(scene, settings, Events()); // the first has warned of the scene
+    } catch (const std::exception&) {
+      throw DevicesFailed(*failure);
+    }
+    try {
+      return renderer->render(settings, film, events, failure->statistics);
+    } catch (const DevicesFailed& next) {
+      if (next.statistics.paths == failure->statistics.paths) throw;
+      failure = next;
+    }
+  }
 }
 
 } // namespace phlux::render

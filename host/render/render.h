@@ -4,7 +4,9 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 
+#include "errors.h"
 #include "film/film.h"
 #include "render/statistics.h"
 #include "scene/scene.h"
@@ -18,6 +20,7 @@ using settings::Integrator;
 using settings::LightSelection;
 using settings::Roulette;
 using settings::roulette_names;
+using settings::Sampler;
 using settings::Settings;
 using settings::strategy_names;
 using settings::Traversal;
@@ -30,6 +33,13 @@ struct Events {
   std::function<void(const std::string&)> warning; ///< for valid settings that may surprise with the scene
   /// Called between launches, about every 50 ms; false ends the render, and the film keeps its samples.
   std::function<bool(const Progress&)> progress;
+};
+
+/// All devices have failed. The film has the samples of `statistics`, from which the render resumes.
+struct DevicesFailed : DeviceError {
+  DevicesFailed(const std::string& line, Statistics so_far)
+      : DeviceError(line), statistics(std::move(so_far)) {}
+  Statistics statistics;
 };
 
 class Programs; // render/programs.h
@@ -53,7 +63,7 @@ public:
   /// constructor's. To resume an earlier render, `film` is the earlier one's and `from` its state; samples,
   /// seconds and counts then include the earlier ones. On one device the film is the same, bit for bit, as
   /// without the interruption. The set-up times in the result are those of the constructor.
-  /// @throws UsageError, SceneError for a film of another version, DeviceError
+  /// @throws UsageError, SceneError for a film of another version, DevicesFailed
   [[nodiscard]] Statistics render(const Settings& settings, film::Film& film, const Events& events,
                                   const RenderState& from = {});
 
@@ -62,7 +72,8 @@ private:
   std::unique_ptr<Ready> ready_;
 };
 
-/// Renderer::render() for one render. @throws as Renderer and its render()
+/// Renderer::render() for one render. If all devices fail, it continues with new contexts of them for as long
+/// as that helps. @throws as Renderer and its render()
 [[nodiscard]] Statistics render(const scene::Scene& scene, const Settings& settings, film::Film& film,
                                 const Events& events, const RenderState& from = {});
 

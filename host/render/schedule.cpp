@@ -11,17 +11,33 @@ namespace {
 // More samples than any render takes; fits the kernels' int.
 constexpr std::int64_t endless = std::numeric_limits<std::int32_t>::max() / 2;
 
+// Of eight sets in an octave of samples.
+constexpr int octave_bits = 3, most_point_bits = 6;
+
 } // namespace
 
-Schedule::Schedule(std::int64_t pixels, std::optional<std::int64_t> samples, const SchedulePosition& from)
-    : pixels_(pixels), end_(samples.value_or(endless)), short_blocks_first_(!samples),
+int point_bits(std::int64_t sample) {
+  const int octave = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(sample))) - 1;
+  return std::clamp(octave - octave_bits, 0, most_point_bits);
+}
+
+Schedule::Schedule(std::int64_t pixels, std::optional<std::int64_t> samples, const SchedulePosition& from,
+                   Blocks blocks)
+    : pixels_(pixels), end_(samples.value_or(endless)), blocks_(blocks), short_blocks_first_(!samples),
       missing_(from.missing.begin(), from.missing.end()), phase_end_(from.sample) {
   assert(from.end() <= end_ && from.pixel < pixels);
   if (from.pixel == 0) return;
-  const bool whole = from.block_samples == samples_per_block;
-  start_blocks(from.sample, whole ? end_ : from.end(), from.block_samples);
+  const Whole whole = whole_blocks(from.sample);
+  start_blocks(from.sample, from.block_samples == whole.length ? whole.end : from.end(), from.block_samples);
   phase_.first_job = from.pixel;
   phase_.jobs -= from.pixel;
+}
+
+Schedule::Whole Schedule::whole_blocks(std::int64_t first_sample) const {
+  if (blocks_ == Blocks::of_independent) return {samples_per_block, end_};
+  const int bits = point_bits(first_sample);
+  const std::int64_t octave_end = std::int64_t{2} << (bits + octave_bits);
+  return {std::int64_t{1} << bits, bits == most_point_bits ? end_ : std::min(end_, octave_end)};
 }
 
 void Schedule::start_blocks(std::int64_t first_sample, std::int64_t end_sample, int block_samples) {
@@ -31,13 +47,14 @@ void Schedule::start_blocks(std::int64_t first_sample, std::int64_t end_sample, 
 }
 
 void Schedule::start_phase(std::int64_t first_sample) {
-  const std::int64_t left = end_ - first_sample, beyond = first_sample % samples_per_block;
-  std::int64_t block = samples_per_block - beyond;
-  if (short_blocks_first_ && first_sample < samples_per_block &&
+  const Whole whole = whole_blocks(first_sample);
+  const std::int64_t left = end_ - first_sample;
+  std::int64_t block = whole.length - first_sample % whole.length;
+  if (blocks_ == Blocks::of_independent && short_blocks_first_ && first_sample < samples_per_block &&
       (first_sample == 0 || std::has_single_bit(static_cast<std::uint64_t>(first_sample))))
     block = std::max<std::int64_t>(first_sample, 1);
   block = std::min(block, left);
-  start_blocks(first_sample, block == samples_per_block ? end_ : first_sample + block,
+  start_blocks(first_sample, block == whole.length ? whole.end : first_sample + block,
                static_cast<int>(block));
 }
 
@@ -64,6 +81,10 @@ std::optional<Launch> Schedule::next(const Wanted& wanted) {
     start_phase(phase_end_);
   }
   return cut_from(phase_, wanted);
+}
+
+void Schedule::give_back(const std::deque<Launch>& launches) {
+  missing_.insert(missing_.begin(), launches.begin(), launches.end());
 }
 
 SchedulePosition Schedule::position() const {

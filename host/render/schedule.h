@@ -13,6 +13,20 @@ namespace phlux::render {
 /// sums' precision, enough that their transfer takes little time. The image depends on it, so that it is the
 /// same for every device, launch length and number of threads.
 inline constexpr int samples_per_block = 16;
+/// Of a point set, see point_bits().
+inline constexpr int most_block_samples = 64;
+
+/// How a pixel's samples form blocks. The length of blocks of independent samples does not matter. Samples of
+/// a point set depend on each other, and different sets do not: such a set is a block, and variances are
+/// estimated from the sums of blocks. Sets become longer with the number of samples, so that there are always
+/// enough of them.
+enum class Blocks { of_independent, of_point_sets };
+
+/// log2 of the length of the point set of a pixel's sample (from 0): the samples [2^k, 2^(k+1)) form eight
+/// sets, but sets have one sample up to sample 16, and at most 64. With 2^k samples, their number of equal
+/// sets that says as much of a variance, (sum of lengths)^2 / sum of squared lengths (Kish 1965), is at least
+/// 16.
+[[nodiscard]] int point_bits(std::int64_t sample);
 
 /// One launch: jobs [first_job, first_job + jobs), first_job < pixels. Job j is block j / pixels of pixel
 /// j % pixels; block b is the block_samples samples from first_sample + b * block_samples on.
@@ -36,17 +50,22 @@ struct SchedulePosition {
 
 /// The sequence of launches. With `samples` given, every pixel gets exactly that many, in blocks of
 /// samples_per_block and a last one of the rest. Otherwise it never ends, and the first blocks are short (1,
-/// 1, 2, 4, 8 samples), so that a render that is stopped early has samples in every pixel.
+/// 1, 2, 4, 8 samples), so that a render that is stopped early has samples in every pixel. Of point
+/// sets, the last may be incomplete.
 class Schedule {
 public:
   /// Continues `from` a position, whose end() is at most `samples`: first its missing launches, then the
   /// launches of an uninterrupted schedule. If the number of samples is no multiple of samples_per_block, the
   /// first blocks complete it to one.
-  Schedule(std::int64_t pixels, std::optional<std::int64_t> samples, const SchedulePosition& from = {});
+  Schedule(std::int64_t pixels, std::optional<std::int64_t> samples, const SchedulePosition& from = {},
+           Blocks blocks = Blocks::of_independent);
   /// The next launch; nothing when the work is done. `wanted` returns the number of jobs (>= 1) of a launch,
   /// given the number of similar jobs left and the samples of each.
   using Wanted = std::function<std::int64_t(std::int64_t left, int block_samples)>;
   [[nodiscard]] std::optional<Launch> next(const Wanted& wanted);
+  /// Takes back launches that were not finished: they come next.
+  void give_back(const std::deque<Launch>& launches);
+  [[nodiscard]] bool has_missing() const { return !missing_.empty(); }
   /// The launches so far; `missing` are those still to be repeated.
   [[nodiscard]] SchedulePosition position() const;
 
@@ -56,7 +75,14 @@ private:
   void start_blocks(std::int64_t first_sample, std::int64_t end_sample, int block_samples);
   [[nodiscard]] Launch cut_from(Launch& rest, const Wanted& wanted) const;
 
+  // The length of whole blocks from a sample on, and the sample up to which they have it.
+  struct Whole {
+    std::int64_t length, end;
+  };
+  [[nodiscard]] Whole whole_blocks(std::int64_t first_sample) const;
+
   std::int64_t pixels_, end_;
+  Blocks blocks_;
   bool short_blocks_first_;
   std::deque<Launch> missing_;
   Launch phase_; // the rest of it

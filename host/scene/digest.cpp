@@ -15,7 +15,9 @@ namespace {
 // bytes on every machine; lists begin with their length.
 class Digest {
 public:
-  Digest() : state_(XXH3_createState(), XXH3_freeState) { XXH3_128bits_reset(state_.get()); }
+  explicit Digest(bool with_uv) : with_uv_(with_uv), state_(XXH3_createState(), XXH3_freeState) {
+    XXH3_128bits_reset(state_.get());
+  }
 
   template<class... Values>
   void add(const Values&... values) {
@@ -49,9 +51,15 @@ private:
     XXH3_128bits_update(state_.get(), text.data(), text.size());
   }
   void add_one(const Vec3& v) { add(v.x, v.y, v.z); }
+  void add_one(const glm::vec2& v) { add(v.x, v.y); }
+  void add_one(const glm::dvec2& v) { add(v.x, v.y); }
   void add_one(const glm::vec3& v) { add(v.x, v.y, v.z); }
   void add_one(const std::array<std::uint32_t, 3>& corners) { add(corners[0], corners[1], corners[2]); }
 
+  template<class Value, std::size_t size>
+  void add_one(const std::array<Value, size>& values) {
+    for (const Value& value : values) add_one(value);
+  }
   template<class Value>
   void add_one(const std::vector<Value>& values) {
     add_word(static_cast<std::uint32_t>(values.size()));
@@ -65,6 +73,19 @@ private:
 
   void add_one(const Material& material) {
     add(material.model->name, material.model->text, material.values, material.two_sided);
+    for (std::size_t i = 0; i < material.textures.size(); ++i)
+      if (material.textures[i]) add(i, *material.textures[i]);
+  }
+  void add_one(const Texture& texture) {
+    const auto& [image, nearest, wrap_u, wrap_v, colors, to_uv, scale] = texture;
+    add(nearest, wrap_u, wrap_v, colors, to_uv, scale, image != nullptr);
+    if (image) add(*image);
+  }
+  void add_one(const TexelImage& image) {
+    const auto& [width, height, bytes, decoded, floats, smallest, largest] = image;
+    add(width, height, floats);
+    if (!bytes.empty()) add(decoded);
+    XXH3_128bits_update(state_.get(), bytes.data(), bytes.size());
   }
   void add_one(const Surface& surface) {
     const auto& [material, area_emitter] = surface;
@@ -75,16 +96,19 @@ private:
     add(radiance);
   }
   void add_one(const Patch& patch) {
-    const auto& [region, origin, edge_u, edge_v, surface] = patch;
+    const auto& [region, origin, edge_u, edge_v, surface, uv] = patch;
     add(region, origin, edge_u, edge_v, surface);
+    if (with_uv_) add(uv);
   }
   void add_one(const Sphere& sphere) {
-    const auto& [center, radius, front_is_inside, surface] = sphere;
+    const auto& [center, radius, front_is_inside, surface, axes] = sphere;
     add(center, radius, front_is_inside, surface);
+    if (with_uv_) add(axes);
   }
   void add_one(const Mesh& mesh) {
-    const auto& [positions, normals, triangles, surface] = mesh;
+    const auto& [positions, normals, triangles, surface, texture_coordinates] = mesh;
     add(positions, normals, triangles, surface);
+    if (with_uv_) add(texture_coordinates);
   }
   void add_one(const PointLight& light) {
     const auto& [position, intensity] = light;
@@ -98,12 +122,18 @@ private:
     const auto& [direction, irradiance] = light;
     add(direction, irradiance);
   }
+  void add_one(const EnvironmentMap& map) {
+    const auto& [width, height, texels, to_world, scale] = map;
+    add(width, height, texels, to_world[0], to_world[1], to_world[2], scale);
+  }
   void add_one(const Camera& camera) {
-    const auto& [position, left, up, forward, tan_half_fov_x, principal_x, principal_y, width, height] =
-        camera;
-    add(position, left, up, forward, tan_half_fov_x, principal_x, principal_y);
+    const auto& [orthographic, position, left, up, forward, tan_half_fov_x, principal_x, principal_y,
+                 aperture_radius, focus_distance, filter, width, height] = camera;
+    add(orthographic, position, left, up, forward, tan_half_fov_x, principal_x, principal_y, aperture_radius,
+        focus_distance, filter.kind, filter.size);
   }
 
+  bool with_uv_; ///< only then can an image depend on texture coordinates
   std::unique_ptr<XXH3_state_t, XXH_errorcode (*)(XXH3_state_t*)> state_;
 };
 
@@ -111,10 +141,11 @@ private:
 
 std::string digest(const Scene& scene) {
   const auto& [materials, area_emitters, patches, spheres, meshes, point_lights, spot_lights,
-               directional_lights, constant_radiance, camera, defaults] = scene;
-  Digest result;
+               directional_lights, constant_radiance, environment, strict_normals, camera, defaults, files] =
+      scene;
+  Digest result(needs_uv(scene));
   result.add(materials, area_emitters, patches, spheres, meshes, point_lights, spot_lights,
-             directional_lights, constant_radiance, camera);
+             directional_lights, constant_radiance, environment, strict_normals, camera);
   return result.text();
 }
 

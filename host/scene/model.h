@@ -1,15 +1,16 @@
 // Reflectance models, as their kernel files declare them (kernels/lobes/lobe.h), and materials.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include <glm/vec3.hpp>
 
-namespace phlux::scene {
+#include "scene/texture.h"
 
-using Rgb = glm::dvec3;
+namespace phlux::scene {
 
 struct Parameter {
   enum class Kind { colour, number };
@@ -29,18 +30,42 @@ struct Model {
   bool needs_tangents = false;
   bool reflectivity_is_estimate = false;
   bool has_survival = false; ///< defines its own survival probability for roulette
+  bool has_textured = false; ///< has derived members that depend on colours
 };
 
-/// A model and the values of its parameters; a number is repeated in every channel.
+/// A model and the values of its parameters; a number is repeated in every channel. The value of a colour
+/// from a texture is its largest, so that a bound on the material's reflectance bounds it at every point.
 struct Material {
   std::shared_ptr<const Model> model;
   std::vector<Rgb> values;
-  bool two_sided = false; ///< reflects on both sides; otherwise the back is black
+  bool two_sided = false;               ///< reflects on both sides; otherwise the back is black
+  std::vector<TexturePointer> textures; ///< by parameter, null for a constant; empty: all are constant
 
   /// @throws std::out_of_range for a parameter that the model does not have
   [[nodiscard]] const Rgb& value(const std::string& parameter) const { return values.at(index(parameter)); }
   [[nodiscard]] Rgb& value(const std::string& parameter) { return values.at(index(parameter)); }
-  bool operator==(const Material&) const = default;
+  /// The parameter's texture; null if it is constant.
+  [[nodiscard]] TexturePointer texture(std::size_t parameter) const {
+    return parameter < textures.size() ? textures[parameter] : nullptr;
+  }
+  void set_texture(std::size_t parameter, const TexturePointer& texture) {
+    textures.resize(values.size());
+    textures[parameter] = texture;
+    values[parameter] = texture->largest();
+  }
+  /// Takes the value and the texture of another material's parameter.
+  void take(const std::string& parameter, const Material& from, const std::string& its) {
+    value(parameter) = from.value(its);
+    if (const TexturePointer taken = from.texture(from.index(its))) set_texture(index(parameter), taken);
+  }
+  [[nodiscard]] bool is_textured() const { return !textures.empty(); }
+  bool operator==(const Material& other) const {
+    const auto equal = [](const TexturePointer& a, const TexturePointer& b) {
+      return a == b || (a && b && *a == *b);
+    };
+    return model == other.model && values == other.values && two_sided == other.two_sided &&
+           std::equal(textures.begin(), textures.end(), other.textures.begin(), other.textures.end(), equal);
+  }
 
 private:
   [[nodiscard]] std::size_t index(const std::string& parameter) const {

@@ -1,153 +1,17 @@
 #include "scene_file/document.h"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <set>
 
-#include <pugixml.hpp>
-
-#include "errors.h"
-#include "scene_file/parameters.h"
+#include "scene_file/document_reader.h"
 #include "scene_file/values.h"
 
 namespace phlux::scene_file {
 
 namespace {
 
-using Attributes = std::set<std::string>;
-
-constexpr int deepest = 32; ///< levels of nesting, to bound the recursion; a valid scene has at most 6
-
-const std::map<std::string, Attributes>& known_elements() {
-  static const Attributes object{"type", "id", "name"}, value{"name", "value"};
-  static const Attributes triple{"name", "x", "y", "z", "value"}, step{"x", "y", "z", "value"};
-  static const std::map<std::string, Attributes> elements{{"scene", {"version"}},
-                                                          {"default", value},
-                                                          {"ref", {"id", "name"}},
-                                                          {"sensor", object},
-                                                          {"film", object},
-                                                          {"rfilter", object},
-                                                          {"sampler", object},
-                                                          {"integrator", object},
-                                                          {"bsdf", object},
-                                                          {"shape", object},
-                                                          {"emitter", object},
-                                                          {"boolean", value},
-                                                          {"integer", value},
-                                                          {"float", value},
-                                                          {"string", value},
-                                                          {"point", triple},
-                                                          {"vector", triple},
-                                                          {"rgb", {"name", "value", "intent"}},
-                                                          {"srgb", value},
-                                                          {"spectrum", {"name", "value", "intent"}},
-                                                          {"transform", {"name"}},
-                                                          {"translate", step},
-                                                          {"scale", step},
-                                                          {"rotate", {"x", "y", "z", "value", "angle"}},
-                                                          {"lookat", {"origin", "target", "up"}},
-                                                          {"matrix", {"value"}}};
-  return elements;
-}
-
-const Attributes& containers() {
-  static const Attributes names{"scene",      "sensor", "film",  "rfilter", "sampler",
-                                "integrator", "bsdf",   "shape", "emitter", "transform"};
-  return names;
-}
-
-std::string supported_elements() {
-  std::vector<std::string> names;
-  for (const auto& [name, attributes] : known_elements()) names.push_back(name);
-  return "supported are " + join(names);
-}
-
-class Reader {
-public:
-  Reader(const std::filesystem::path& file, const std::map<std::string, std::string>& definitions)
-      : file_(std::make_shared<const std::string>(file.string())), parameters_(definitions) {
-    std::error_code ignored;
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream || std::filesystem::is_directory(file, ignored))
-      fail({file_, 0}, "cannot be read", "an existing Mitsuba scene file is needed");
-    text_.assign(std::istreambuf_iterator<char>(stream), {});
-    for (std::size_t i = 0; i < text_.size(); ++i)
-      if (text_[i] == '\n') line_ends_.push_back(i);
-  }
-
-  Element scene() {
-    pugi::xml_document xml;
-    const auto result = xml.load_buffer(text_.data(), text_.size(), pugi::parse_default, pugi::encoding_utf8);
-    if (!result)
-      fail(at(result.offset), std::string("malformed XML (") + result.description() + ")", "well-formed XML");
-    const pugi::xml_node root = xml.document_element();
-    if (std::string(root.name()) != "scene" || root.next_sibling())
-      fail(at(std::max<std::ptrdiff_t>(root.offset_debug(), 0)),
-           "the file's only outermost element must be <scene>", "<scene version=\"0.6.0\">...</scene>");
-    for (const auto& found : root.select_nodes(".//default")) set_default(found.node());
-    Element element = convert(root);
-    parameters_.check_all_used({file_, 0});
-    return element;
-  }
-
-private:
-  [[nodiscard]] Location at(std::ptrdiff_t offset) const {
-    const auto line =
-        std::ranges::lower_bound(line_ends_, static_cast<std::size_t>(offset)) - line_ends_.begin();
-    return {file_, static_cast<int>(line) + 1};
-  }
-
-  Element without_children(const pugi::xml_node& node) {
-    Element element;
-    element.tag = node.name();
-    if (element.tag == "lookAt") element.tag = "lookat";
-    element.where = at(node.offset_debug());
-    const auto known = known_elements().find(element.tag);
-    if (known == known_elements().end())
-      fail(element.where, "element <" + element.tag + "> is not supported", supported_elements());
-    for (const auto attribute : node.attributes())
-      add_attribute(element, known->second, attribute.name(), attribute.value());
-    return element;
-  }
-
-  Element convert(const pugi::xml_node& node, int depth = 0) {
-    Element element = without_children(node);
-    if (depth > deepest)
-      fail(element.where, "elements are nested too deeply", "at most " + std::to_string(deepest) + " levels");
-    for (const auto child : node.children()) {
-      if (child.type() == pugi::node_pcdata || child.type() == pugi::node_cdata)
-        fail(at(child.offset_debug()), "text inside <" + element.tag + ">",
-             "only elements and comments may stand there");
-      if (child.type() != pugi::node_element) continue;
-      if (!containers().contains(element.tag))
-        fail(at(child.offset_debug()), "element inside <" + element.tag + ">", "it contains nothing");
-      if (std::string_view(child.name()) != "default") element.children.push_back(convert(child, depth + 1));
-    }
-    return element;
-  }
-
-  void add_attribute(Element& element, const Attributes& known, const std::string& name,
-                     const std::string& value) {
-    if (!known.contains(name))
-      fail(element.where, "attribute '" + name + "' of <" + element.tag + "> is not supported",
-           "supported are " + join({known.begin(), known.end()}));
-    if (!element.attributes.emplace(name, parameters_.substitute(value, element.where)).second)
-      fail(element.where, "attribute '" + name + "' is given twice", "give it once");
-  }
-
-  void set_default(const pugi::xml_node& node) {
-    const Element element = without_children(node);
-    if (element["name"].empty() || !element.has("value"))
-      fail(element.where, "<default> without a name or a value", "<default name=\"spp\" value=\"64\"/>");
-    parameters_.set_default(element["name"], element["value"]);
-  }
-
-  std::shared_ptr<const std::string> file_;
-  Parameters parameters_;
-  std::string text_;
-  std::vector<std::size_t> line_ends_;
-};
+/// Levels of nesting by references, to bound the recursion; a valid scene has at most 6.
+constexpr std::size_t deepest = 32;
 
 int major_version(const Element& scene) {
   const std::string& version = scene["version"];
@@ -156,16 +20,16 @@ int major_version(const Element& scene) {
   const std::string rest = dot == std::string::npos ? "" : version.substr(dot + 1);
   const auto minor = parse_integer(rest.substr(0, rest.find('.')));
   const bool known =
-      major && (*major == 2 || *major == 3 || (*major == 0 && minor && (*minor == 5 || *minor == 6)));
+      major && (*major == 2 || *major == 3 || (*major == 0 && minor && *minor >= 4 && *minor <= 6));
   if (!known)
     fail(scene.where,
          version.empty() ? "the scene states no version" : "scene version '" + version + "' is not supported",
-         "versions 0.5, 0.6, 2.x and 3.x are read");
+         "versions 0.4, 0.5, 0.6, 2.x and 3.x are read");
   return *major;
 }
 
 void collect_ids(const Element& element, std::map<std::string, const Element*>& objects) {
-  if (element.tag != "ref" && element.has("id")) {
+  if (element.tag != "ref" && element.tag != "alias" && element.has("id")) {
     const auto [first, inserted] = objects.emplace(element["id"], &element);
     if (!inserted)
       fail(element.where, "id '" + element["id"] + "' is used twice",
@@ -175,13 +39,42 @@ void collect_ids(const Element& element, std::map<std::string, const Element*>& 
   for (const auto& child : element.children) collect_ids(child, objects);
 }
 
-void check_references(const Document& document, const Element& element, std::vector<const Element*>& above,
+[[noreturn]] void fail_unknown(const Document& document, const Element& reference) {
+  constexpr std::size_t most = 16;
+  std::vector<std::string> ids;
+  for (const auto& [id, object] : document.objects) ids.push_back(id);
+  if (ids.size() > most) {
+    const std::string others = "and " + std::to_string(ids.size() - most) + " others";
+    ids.resize(most);
+    ids.push_back(others);
+  }
+  fail(reference.where, "reference to '" + reference["id"] + "', which is not in the file",
+       ids.empty() ? "no object has an id" : "the ids are " + join(ids));
+}
+
+/// <alias id="ID" as="NAME"/> gives an object a second id.
+void add_aliases(Document& document) {
+  for (const auto& child : document.scene.children) {
+    if (child.tag != "alias") continue;
+    const auto object = document.objects.find(child["id"]);
+    if (object == document.objects.end()) fail_unknown(document, child);
+    document.objects.emplace(child["as"], object->second);
+  }
+}
+
+void check_references(Document& document, const Element& element, std::vector<const Element*>& above,
                       std::set<const Element*>& checked) {
   if (element.tag == "ref") {
     const Element& target = document.resolve(element);
+    if (&target == &element) document.problems->attempt([&] { fail_unknown(document, element); });
+    if (&target == &element) return;
+    document.referred_to.insert(&target);
     if (std::ranges::find(above, &target) != above.end())
       fail(element.where, "reference to '" + element["id"] + "' is circular",
            "an object may not contain itself");
+    if (above.size() > deepest)
+      fail(element.where, "references are nested too deeply",
+           "at most " + std::to_string(deepest) + " levels");
     check_references(document, target, above, checked);
     return;
   }
@@ -208,15 +101,22 @@ std::string Element::name() const {
 }
 
 const Element& Document::resolve(const Element& element) const {
-  if (element.tag != "ref") return element;
-  const auto found = objects.find(element["id"]);
-  if (found == objects.end()) {
-    std::vector<std::string> ids;
-    for (const auto& [id, object] : objects) ids.push_back(id);
-    fail(element.where, "reference to '" + element["id"] + "', which is not in the file",
-         ids.empty() ? "no object has an id" : "the ids are " + join(ids));
-  }
-  return *found->second;
+  const auto found = element.tag == "ref" ? objects.find(element["id"]) : objects.end();
+  return found == objects.end() ? element : *found->second;
+}
+
+std::filesystem::path Document::find(const std::string& name) const {
+  std::string portable = name; // scenes that were written on Windows
+  std::ranges::replace(portable, '\\', '/');
+  std::error_code ignored;
+  for (const auto& folder : folders)
+    for (const auto& spelling : {name, portable})
+      if (std::filesystem::exists(folder / spelling, ignored)) return files.emplace_back(folder / spelling);
+  return files.emplace_back(folders.front() / name);
+}
+
+void Document::note_once(const Location& where, const std::string& message) const {
+  if (noted_->insert(message).second) note(where, message);
 }
 
 std::string Document::spelling(const std::string& snake_case) const {
@@ -226,9 +126,12 @@ std::string Document::spelling(const std::string& snake_case) const {
 void read_document(const std::filesystem::path& file, const std::map<std::string, std::string>& definitions,
                    Document& document) {
   document.file = file;
-  document.scene = Reader(file, definitions).scene();
+  document.files = {file};
+  document.folders = {file.parent_path()};
+  document.scene = read_elements(document, definitions);
   document.major_version = major_version(document.scene);
   collect_ids(document.scene, document.objects);
+  add_aliases(document);
   std::vector<const Element*> above;
   std::set<const Element*> checked;
   check_references(document, document.scene, above, checked);

@@ -1,9 +1,11 @@
 #include "scene_file/emitters.h"
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/gtx/component_wise.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "scene_file/environment_map.h"
 #include "scene_file/properties.h"
 #include "scene_file/transform.h"
 
@@ -16,6 +18,8 @@ using scene::Vec3;
 
 constexpr double default_cutoff_degrees = 20.0;
 constexpr double default_beam_share = 0.75; ///< of the cutoff angle
+/// Directions in single precision are off by up to 1e-5 degrees: by 1% of the narrowest cone.
+constexpr double least_cutoff_degrees = 1e-3;
 
 Rgb emission(Properties& properties, const std::string& name) {
   const Rgb color = properties.color(name, Rgb(1.0));
@@ -60,8 +64,9 @@ void read_spot(Properties& properties, scene::Scene& scene) {
   light.intensity = emission(properties, "intensity");
   const double cutoff = properties.real("cutoff_angle", default_cutoff_degrees);
   const double beam = properties.real("beam_width", default_beam_share * cutoff);
-  if (!(cutoff > 0.0 && cutoff <= 180.0))
-    properties.fail_at("cutoff_angle", std::to_string(cutoff) + " degrees", "above 0 and at most 180");
+  if (!(cutoff >= least_cutoff_degrees && cutoff <= 180.0))
+    properties.fail_at("cutoff_angle", fmt::format("{:g} degrees", cutoff),
+                       fmt::format("from {:g} to 180", least_cutoff_degrees));
   if (!(beam >= 0.0 && beam <= cutoff))
     properties.fail_at("beam_width", std::to_string(beam) + " degrees",
                        "0 or more, and at most the cutoff angle");
@@ -80,12 +85,23 @@ void read_directional(Properties& properties, scene::Scene& scene) {
   if (emits(properties, light.irradiance)) scene.directional_lights.push_back(light);
 }
 
+/// As in Mitsuba, a scene has at most one.
+void check_only_sky(const Properties& properties, const scene::Scene& scene) {
+  if (scene.constant_radiance || scene.environment)
+    fail(properties.element().where, "a second constant or envmap emitter", "give one, with their sum");
+}
+
 void read_constant(Properties& properties, scene::Scene& scene) {
   const Rgb radiance = emission(properties, "radiance");
   properties.pass_over({"to_world"});
-  if (scene.constant_radiance)
-    fail(properties.element().where, "a second constant emitter", "give one, with their sum");
+  check_only_sky(properties, scene);
   if (emits(properties, radiance)) scene.constant_radiance = radiance;
+}
+
+void read_envmap(Properties& properties, scene::Scene& scene) {
+  check_only_sky(properties, scene);
+  scene::EnvironmentMap map = read_environment_map(properties);
+  if (emits(properties, map.scale)) scene.environment = std::move(map);
 }
 
 } // namespace
@@ -102,11 +118,16 @@ void read_emitter(const Element& emitter, const Document& document, scene::Scene
     read_directional(properties, scene);
   else if (type == "constant")
     read_constant(properties, scene);
+  else if (type == "envmap")
+    read_envmap(properties, scene);
+  else if (type == "sky" || type == "sun" || type == "sunsky")
+    fail(emitter.where, emitter.name() + " is not supported",
+         "render it alone in Mitsuba by a spherical sensor, and give the image to an envmap");
   else if (type == "area")
     fail(emitter.where, emitter.name() + " outside a shape", "it must stand inside the <shape> that emits");
   else
     fail(emitter.where, emitter.name() + " is not supported",
-         "supported are area, point, spot, directional, constant");
+         "supported are area, point, spot, directional, constant, envmap");
   properties.finish();
 }
 

@@ -2,7 +2,9 @@
 
 #include "scene_file/document.h"
 #include "scene_file/emitters.h"
+#include "scene_file/integrator.h"
 #include "scene_file/materials.h"
+#include "scene_file/mesh_files.h"
 #include "scene_file/properties.h"
 #include "scene_file/sensor.h"
 #include "scene_file/shapes.h"
@@ -16,8 +18,21 @@ void warn_of_darkness(const Document& document, const scene::Scene& scene) {
   if (scene.patches.empty() && scene.spheres.empty() && scene.meshes.empty())
     warn(file, "empty scene: it has no shapes");
   if (scene.area_emitters.empty() && scene.point_lights.empty() && scene.spot_lights.empty() &&
-      scene.directional_lights.empty() && !scene.constant_radiance)
+      scene.directional_lights.empty() && !scene.constant_radiance && !scene.environment)
     warn(file, "no light: nothing in the scene emits, and the image will be black");
+}
+
+const Element& sensor_of(Properties& scene) {
+  if (const Element* sensor = scene.object("sensor")) return *sensor;
+  fail(scene.element().where, "the scene has no camera",
+       "<sensor type=\"perspective\">...</sensor> is needed");
+}
+
+/// Whether the object has an id that no <ref> names; says so.
+bool is_unused(const Element& object, const Document& document) {
+  const bool unused = object.has("id") && !document.referred_to.contains(&object);
+  if (unused) note(object.where, object.name() + " is used nowhere and is passed over");
+  return unused;
 }
 
 } // namespace
@@ -29,21 +44,33 @@ scene::Scene load(const std::filesystem::path& file, const std::map<std::string,
   Properties properties(document.scene, document);
   scene::Scene scene;
 
-  const Element* sensor = properties.object("sensor");
-  if (!sensor)
-    fail(document.scene.where, "the scene has no camera",
-         "<sensor type=\"perspective\">...</sensor> is needed");
-  read_sensor(*sensor, document, size, scene);
-  if (const Element* integrator = properties.object("integrator"))
-    read_integrator(*integrator, document, scene.defaults);
-
+  Problems& problems = *document.problems;
+  problems.attempt([&] { read_sensor(sensor_of(properties), document, size, scene); });
+  problems.attempt([&] {
+    if (const Element* integrator = properties.object("integrator"))
+      read_integrator(*integrator, document, scene);
+  });
   const bool scale = properties.boolean("ensure_energy_conservation", false);
-  const MaterialRules rules{library, scale ? ExcessEnergy::scale : ExcessEnergy::error};
+  TextureReader textures;
+  const MaterialRules rules{library, textures, scale ? ExcessEnergy::scale : ExcessEnergy::error};
+  for (const Element* texture : properties.objects("texture"))
+    if (!is_unused(*texture, document))
+      problems.attempt([&] { static_cast<void>(textures.read(*texture, document)); });
   for (const Element* bsdf : properties.objects("bsdf")) // to check also those that no shape refers to
-    static_cast<void>(read_material(*bsdf, document, rules));
-  for (const Element* emitter : properties.objects("emitter")) read_emitter(*emitter, document, scene);
-  for (const Element* shape : properties.objects("shape")) read_shape(*shape, document, rules, scene);
+    if (!is_unused(*bsdf, document))
+      problems.attempt([&] { static_cast<void>(read_material(*bsdf, document, rules)); });
+  for (const Element* emitter : properties.objects("emitter"))
+    if (emitter->type() != "area" || !document.referred_to.contains(emitter))
+      problems.attempt([&] { read_emitter(*emitter, document, scene); });
+  MeshFiles meshes;
+  std::map<const Element*, int> materials;
+  for (const Element* shape : properties.objects("shape"))
+    problems.attempt([&] { read_shape(*shape, document, {rules, scene, meshes, materials}); });
   properties.finish();
+  problems.throw_if_any();
+  scene.files = document.files;
+  meshes.load(scene, problems); // which adds their own files
+  problems.throw_if_any();
   warn_of_darkness(document, scene);
   return scene;
 }

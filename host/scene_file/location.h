@@ -4,6 +4,8 @@
 #include <memory>
 #include <string>
 
+#include "errors.h"
+
 namespace phlux::scene_file {
 
 struct Location {
@@ -12,7 +14,14 @@ struct Location {
   [[nodiscard]] std::string text() const; ///< FILE:LINE
 };
 
-/// @throws SceneError "FILE:LINE: wrong: right"
+/// An error at a position: "FILE:LINE: wrong: right".
+struct LocatedError : SceneError {
+  LocatedError(Location where, const std::string& wrong, const std::string& right);
+  Location where;
+  std::string wrong, right;
+};
+
+/// @throws LocatedError
 [[noreturn]] void fail(const Location& where, const std::string& wrong, const std::string& right);
 
 /// Logs something that may surprise, though the scene is valid.

@@ -42,15 +42,41 @@ bool may_be_scaled(const Parameter& parameter, ExcessEnergy excess) {
          excess == ExcessEnergy::scale;
 }
 
-Rgb read_parameter(Properties& properties, const Parameter& parameter, const std::string& name,
-                   ExcessEnergy excess) {
-  const Rgb value = parameter.kind == Parameter::Kind::colour
-                        ? properties.color(name, Rgb(parameter.default_value))
-                        : Rgb(properties.real(name, parameter.default_value));
-  const bool too_high = glm::compMax(value) > parameter.highest && !may_be_scaled(parameter, excess);
-  if (glm::compMin(value) < parameter.lowest || too_high)
-    properties.fail_at(name, text(value) + " is out of range", range_of(parameter));
-  return value;
+void check_range(Properties& properties, const Parameter& parameter, const std::string& name,
+                 const Rgb& smallest, const Rgb& largest, ExcessEnergy excess) {
+  const bool too_low = glm::compMin(smallest) < parameter.lowest;
+  const bool too_high = glm::compMax(largest) > parameter.highest && !may_be_scaled(parameter, excess);
+  if (too_low || too_high)
+    properties.fail_at(name, text(too_low ? smallest : largest) + " is out of range", range_of(parameter));
+}
+
+/// Appends the value of a parameter that the file calls `name`, and its texture.
+void read_parameter(Properties& properties, const Parameter& parameter, const std::string& name,
+                    MaterialRules rules, Material& material) {
+  const bool colour = parameter.kind == Parameter::Kind::colour;
+  if (const Element* element = colour ? properties.texture(name) : nullptr) {
+    const scene::TexturePointer texture = rules.textures.read(*element, properties.document());
+    material.values.emplace_back();
+    material.set_texture(material.values.size() - 1, texture);
+    check_range(properties, parameter, name, texture->smallest(), texture->largest(), rules.excess);
+    return;
+  }
+  const Rgb value = colour ? properties.color(name, Rgb(parameter.default_value))
+                           : Rgb(properties.real(name, parameter.default_value));
+  check_range(properties, parameter, name, value, value, rules.excess);
+  material.values.push_back(value);
+}
+
+/// Multiplies a colour of the material, constant or from a texture.
+void scale(Material& material, std::size_t parameter, double factor) {
+  const scene::TexturePointer texture = material.texture(parameter);
+  if (!texture) {
+    material.values[parameter] *= factor;
+    return;
+  }
+  scene::Texture scaled = *texture;
+  scaled.scale *= factor;
+  material.set_texture(parameter, std::make_shared<const scene::Texture>(scaled));
 }
 
 /// If the largest reflectance exceeds 1, scales the colours by .99 / it, as Mitsuba does, or fails.
@@ -68,8 +94,7 @@ void conserve_energy(Properties& properties, Material& material, ExcessEnergy ex
     fail(where, wrong,
          colours + " must be at most 1 in every channel (ensureEnergyConservation=true scales them down)");
   for (std::size_t i = 0; i < material.values.size(); ++i)
-    if (material.model->parameters[i].kind == Parameter::Kind::colour)
-      material.values[i] *= kept_energy / most;
+    if (material.model->parameters[i].kind == Parameter::Kind::colour) scale(material, i, kept_energy / most);
   warn(where, wrong + "; its reflectances are scaled by " + std::to_string(kept_energy / most));
 }
 
@@ -83,7 +108,7 @@ void require_no_metal(Properties& properties) {
                        R"(<string name="material" value="none"/>, a mirror of specularReflectance)");
 }
 
-Material read_model(Properties& properties, const lobes::ModelPointer& model, ExcessEnergy excess) {
+Material read_model(Properties& properties, const lobes::ModelPointer& model, MaterialRules rules) {
   Material material;
   material.model = model;
   if (model->name == "conductor") require_no_metal(properties);
@@ -92,9 +117,10 @@ Material read_model(Properties& properties, const lobes::ModelPointer& model, Ex
     const bool long_name =
         model->name == "diffuse" && properties.has("diffuse_reflectance") && !properties.has("reflectance");
     const std::string name = long_name ? "diffuse_reflectance" : parameter.name;
-    material.values.push_back(read_parameter(properties, parameter, name, excess));
+    read_parameter(properties, parameter, name, rules, material);
   }
-  conserve_energy(properties, material, excess);
+  if (material.is_textured()) material.textures.resize(material.values.size());
+  conserve_energy(properties, material, rules.excess);
   return material;
 }
 
@@ -122,7 +148,7 @@ scene::Material read_material(const Element& bsdf, const Document& document, Mat
     rules.excess =
         properties.boolean("ensure_energy_conservation", false) ? ExcessEnergy::scale : ExcessEnergy::error;
   const Material material =
-      model ? read_model(properties, model, rules.excess) : read_two_sided(properties, document, rules);
+      model ? read_model(properties, model, rules) : read_two_sided(properties, document, rules);
   properties.finish();
   return lobes::simplest(material);
 }

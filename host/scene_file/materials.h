@@ -6,6 +6,7 @@
 #include "lobes/models.h"
 #include "scene/scene.h"
 #include "scene_file/document.h"
+#include "scene_file/textures.h"
 
 namespace phlux::scene_file {
 
@@ -14,6 +15,7 @@ enum class ExcessEnergy { error, scale };
 
 struct MaterialRules {
   const lobes::Library& library; ///< the available models
+  TextureReader& textures;
   ExcessEnergy excess = ExcessEnergy::error;
 };
 

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
+
+#include "input_file.h"
 
 namespace phlux::scene_file {
 
@@ -51,8 +52,6 @@ void transform(Mesh& mesh, const MeshRequest& request, const Location& file) {
     const double length = glm::length(world);
     n = length > 0.0 ? glm::vec3(world / length) : glm::vec3(0.0f);
   }
-  if (glm::determinant(linear) < 0.0)
-    for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
 }
 
 /// Reverses triangles whose front is not on the side of their vertices' normals.
@@ -102,31 +101,32 @@ void flip(Mesh& mesh) {
 } // namespace
 
 std::string read_bytes(const MeshRequest& request) {
-  std::error_code error;
-  const auto size = std::filesystem::file_size(request.file, error); // fails unless it is a regular file
-  std::ifstream stream(request.file, std::ios::binary);
-  std::string bytes;
-  if (!error && stream) {
-    bytes.resize(size);
-    stream.read(bytes.data(), static_cast<std::streamsize>(size));
-  }
-  if (error || !stream)
+  std::optional<std::string> bytes = bytes_of(request.file);
+  if (!bytes)
     fail(request.named_at, "mesh file '" + request.file.string() + "' cannot be read",
          "an existing file, named relative to the scene's folder");
-  return bytes;
+  if (is_utf16(*bytes))
+    fail(request.named_at, "mesh file '" + request.file.string() + "' is in UTF-16", "UTF-8");
+  remove_byte_order_mark(*bytes);
+  return std::move(*bytes);
 }
 
-scene::Mesh finish_mesh(scene::Mesh mesh, const MeshRequest& request, std::size_t dropped) {
+scene::Mesh finish_mesh(MeshPart part, const MeshRequest& request) {
   const Location file{std::make_shared<const std::string>(request.file.string()), 0};
-  if (mesh.triangles.empty() && dropped == 0) fail(file, "the mesh has no triangles", "at least one face");
-  if (request.face_normals) mesh.normals.clear();
+  const bool no_normals = request.face_normals || part.face_normals;
+  Mesh& mesh = part.mesh;
+  if (mesh.triangles.empty() && part.incomplete == 0)
+    fail(file, "the mesh has no triangles", "at least one face");
+  if (no_normals) mesh.normals.clear();
   transform(mesh, request, file);
-  dropped += std::erase_if(mesh.triangles, [&mesh](const Triangle& t) { return !has_area(mesh, t); });
-  if (dropped > 0) warn(file, std::to_string(dropped) + " zero-area triangles are dropped");
+  const auto flat = std::erase_if(mesh.triangles, [&mesh](const Triangle& t) { return !has_area(mesh, t); });
+  if (part.incomplete > 0)
+    warn(file, std::to_string(part.incomplete) + " faces with fewer than three corners are dropped");
+  if (flat > 0) warn(file, std::to_string(flat) + " zero-area triangles are dropped");
   if (!mesh.normals.empty()) orient_by_normals(mesh);
-  if (!request.face_normals) compute_missing_normals(mesh);
+  if (!no_normals) compute_missing_normals(mesh);
   if (request.flip_normals) flip(mesh);
-  return mesh;
+  return std::move(mesh);
 }
 
 } // namespace phlux::scene_file

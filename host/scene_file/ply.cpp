@@ -3,7 +3,6 @@
 // files.
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -32,6 +31,14 @@ public:
 
   double next(PlyType type) { return ascii() ? next_word() : next_binary(type); }
 
+  /// The number of entries of a list.
+  std::uint64_t next_count(PlyType type) {
+    const double count = next(type);
+    if (!(count >= 0.0 && count <= std::numeric_limits<std::uint32_t>::max() && count == std::floor(count)))
+      fail(where_, "a list of " + std::to_string(count) + " entries", "a whole number of 0 or more");
+    return static_cast<std::uint64_t>(count);
+  }
+
   void skip_blanks() {
     for (; at_ != end_ && (*at_ == ' ' || *at_ == '\t' || *at_ == '\r' || *at_ == '\n'); ++at_)
       if (*at_ == '\n') ++where_.line;
@@ -45,17 +52,13 @@ private:
   double next_word() {
     skip_blanks();
     if (at_ == end_) truncated();
-    double value = 0.0;
-    const auto [stopped, error] = std::from_chars(at_, end_, value);
-    const bool ended =
-        stopped == end_ || *stopped == ' ' || *stopped == '\t' || *stopped == '\r' || *stopped == '\n';
-    if (error != std::errc{} || !ended) {
-      const auto word_end =
-          std::find_if(at_, end_, [](char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r'; });
-      fail(where_, quoted({at_, word_end}) + " is not a number", "a finite number");
-    }
-    at_ = stopped;
-    return value;
+    const auto word_end =
+        std::find_if(at_, end_, [](char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r'; });
+    const std::string_view word(at_, word_end);
+    const auto value = parse_number(word);
+    if (!value) fail(where_, quoted(word) + " is not a number", "a finite number");
+    at_ = word_end;
+    return *value;
   }
 
   double next_binary(PlyType type) {
@@ -100,11 +103,12 @@ private:
 
 class PlyReader {
 public:
-  PlyReader(std::string_view bytes, const PlyHeader& header, const Location& where)
-      : header_(header), where_(where), numbers_(bytes, header, where) {}
+  PlyReader(std::string_view bytes, const PlyHeader& header, const Location& where,
+            const MeshRequest& request)
+      : header_(header), where_(where), request_(request), numbers_(bytes, header, where) {}
 
-  /// In object space. `dropped` counts faces with fewer than three corners.
-  scene::Mesh mesh(std::size_t& dropped) {
+  /// In object space. `incomplete` counts faces with fewer than three corners, which are left out.
+  scene::Mesh mesh(std::size_t& incomplete) {
     vertices_ = element("vertex").rows;
     static_cast<void>(element("face"));
     if (vertices_ >= std::numeric_limits<std::uint32_t>::max())
@@ -121,7 +125,7 @@ public:
     if (numbers_.ascii()) numbers_.skip_blanks();
     if (numbers_.bytes_left() > 0)
       fail(numbers_.where(), "data after the last row", "as many rows as the PLY header announces");
-    dropped = dropped_;
+    incomplete = incomplete_;
     return std::move(mesh_);
   }
 
@@ -143,8 +147,8 @@ private:
   }
 
   void skip_property(const PlyProperty& property) {
-    const double entries = property.count_type ? numbers_.next(*property.count_type) : 1.0;
-    for (double i = 0; i < entries; ++i) numbers_.next(property.type);
+    const std::uint64_t entries = property.count_type ? numbers_.next_count(*property.count_type) : 1;
+    for (std::uint64_t i = 0; i < entries; ++i) numbers_.next(property.type);
   }
 
   void skip(const PlyElement& element) {
@@ -153,13 +157,20 @@ private:
       for (const auto& property : element.properties) skip_property(property);
   }
 
+  static constexpr std::size_t row_numbers = 9; ///< x, y, z, nx, ny, nz, u, v and an ignored one
+
+  static std::size_t slot_of(const std::string& name) {
+    static constexpr std::array<std::string_view, 8> names{"x", "y", "z", "nx", "ny", "nz", "u", "v"};
+    if (name == "s" || name == "texture_u") return 6;
+    if (name == "t" || name == "texture_v") return 7;
+    return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
+  }
+
   void read_vertices(const PlyElement& element) {
-    static constexpr std::array<std::string_view, 6> names{"x", "y", "z", "nx", "ny", "nz"};
     std::vector<std::size_t> slots; // per property, index into `row`; the last one for ignored numbers
-    std::array<bool, names.size() + 1> given{};
+    std::array<bool, row_numbers> given{};
     for (const auto& property : element.properties) {
-      const auto slot = static_cast<std::size_t>(std::ranges::find(names, property.name) - names.begin());
-      slots.push_back(property.count_type ? names.size() : slot);
+      slots.push_back(property.count_type ? row_numbers - 1 : slot_of(property.name));
       given[slots.back()] = true;
     }
     if (!given[0] || !given[1] || !given[2])
@@ -167,7 +178,8 @@ private:
     const bool normals = given[3] && given[4] && given[5];
     mesh_.positions.reserve(element.rows);
     if (normals) mesh_.normals.reserve(element.rows);
-    std::array<double, names.size() + 1> row{};
+    with_uv_ = request_.texture_coordinates && given[6] && given[7];
+    std::array<double, row_numbers> row{};
     for (std::uint64_t i = 0; i < element.rows; ++i) {
       for (std::size_t p = 0; p < slots.size(); ++p) {
         const auto& property = element.properties[p];
@@ -180,13 +192,20 @@ private:
     }
   }
 
-  void add_vertex(const std::array<double, 7>& row, bool normals) {
+  void add_vertex(const std::array<double, row_numbers>& row, bool normals) {
     const auto index = mesh_.positions.size();
     for (std::size_t k = 0; k < 3; ++k)
       if (!(std::abs(row[k]) <= std::numeric_limits<float>::max()))
         fail(numbers_.where(), "vertex " + std::to_string(index) + " is not finite",
              "coordinates within single precision");
     mesh_.positions.emplace_back(row[0], row[1], row[2]);
+    if (with_uv_) {
+      const glm::vec2 uv(row[6], request_.flip_tex_coords ? 1 - row[7] : row[7]);
+      if (!std::isfinite(uv.x + uv.y))
+        fail(numbers_.where(), "texture coordinate " + std::to_string(index) + " is not finite",
+             "finite numbers");
+      mesh_.texture_coordinates.push_back(uv);
+    }
     if (!normals) return;
     const glm::vec3 normal(row[3], row[4], row[5]);
     if (!std::isfinite(normal.x + normal.y + normal.z))
@@ -213,9 +232,9 @@ private:
 
   /// A fan of triangles around the first corner, correct for convex polygons.
   void read_face(std::uint64_t row, const PlyProperty& property) {
-    const double corners = numbers_.next(*property.count_type);
+    const std::uint64_t corners = numbers_.next_count(*property.count_type);
     std::uint32_t first = 0, previous = 0;
-    for (double k = 0; k < corners; ++k) {
+    for (std::uint64_t k = 0; k < corners; ++k) {
       const double value = numbers_.next(property.type);
       if (!(value >= 0.0 && value < static_cast<double>(vertices_) && value == std::floor(value)))
         fail(numbers_.where(), "face " + std::to_string(row) + " has a vertex index out of range",
@@ -225,27 +244,30 @@ private:
       if (k >= 2) mesh_.triangles.push_back({first, previous, index});
       previous = index;
     }
-    if (corners < 3) ++dropped_;
+    if (corners < 3) ++incomplete_;
   }
 
   const PlyHeader& header_;
   const Location& where_;
+  const MeshRequest& request_;
+  bool with_uv_ = false;
   PlyNumbers numbers_;
   std::uint64_t vertices_ = 0;
-  std::size_t dropped_ = 0;
+  std::size_t incomplete_ = 0;
   scene::Mesh mesh_;
 };
 
 } // namespace
 
-scene::Mesh load_ply(const MeshRequest& request) {
+MeshFile load_ply(const MeshRequest& request) {
   const Location where{std::make_shared<const std::string>(request.file.string()), 0};
-  std::string bytes = read_bytes(request);
+  const std::string bytes = read_bytes(request);
   const PlyHeader header = read_ply_header(bytes, where);
-  std::size_t dropped = 0;
-  scene::Mesh mesh = PlyReader(bytes, header, where).mesh(dropped);
-  std::string().swap(bytes); // releases the memory
-  return finish_mesh(std::move(mesh), request, dropped);
+  MeshPart part;
+  part.mesh = PlyReader(bytes, header, where, request).mesh(part.incomplete);
+  MeshFile file;
+  file.parts.push_back(std::move(part));
+  return file;
 }
 
 } // namespace phlux::scene_file

@@ -10,9 +10,10 @@ namespace phlux::scene_file {
 
 namespace {
 
-bool is_property(const Element& element) {
-  static const std::set<std::string> tags{"boolean", "integer", "float", "string",   "point",
-                                          "vector",  "rgb",     "srgb",  "spectrum", "transform"};
+bool is_value(const Element& element) {
+  static const std::set<std::string> tags{"boolean",  "integer",   "float",     "string",
+                                          "point",    "vector",    "rgb",       "srgb",
+                                          "spectrum", "blackbody", "transform", "xyz"};
   return tags.contains(element.tag);
 }
 
@@ -28,13 +29,18 @@ Properties::Properties(const Element& object, const Document& document)
     : object_(object), document_(document) {
   for (const auto& child : object.children) {
     if (!is_property(child)) continue;
+    const Element& property = document.resolve(child);
     if (child["name"].empty())
       fail(child.where, "<" + child.tag + "> without a name", "name=\"...\" says which property it is");
-    const auto [first, inserted] = properties_.emplace(to_snake_case(child["name"]), &child);
+    const auto [first, inserted] = properties_.emplace(to_snake_case(child["name"]), &property);
     if (!inserted)
       fail(child.where, "'" + child["name"] + "' is given twice",
            "the first is on line " + std::to_string(first->second->where.line) + "; give it once");
   }
+}
+
+bool Properties::is_property(const Element& child) const {
+  return is_value(child) || (object_.tag != "scene" && document_.resolve(child).tag == "texture");
 }
 
 const Element* Properties::find(const std::string& name, std::initializer_list<const char*> tags) {
@@ -77,7 +83,9 @@ int Properties::integer(const std::string& name, int otherwise) {
 bool Properties::boolean(const std::string& name, bool otherwise) {
   const Element* property = find(name, {"boolean"});
   if (!property) return otherwise;
-  const std::string& value = value_of(*property);
+  // Mitsuba 2 and 3 ignore case, as Python writes True; 0.x does not.
+  const std::string value =
+      document_.major_version == 0 ? value_of(*property) : to_lower(value_of(*property));
   if (value != "true" && value != "false") fail_at(name, "'" + value + "' is not a boolean", "true or false");
   return value == "true";
 }
@@ -94,8 +102,14 @@ std::optional<scene::Vec3> Properties::vector(const std::string& name) {
 }
 
 scene::Rgb Properties::color(const std::string& name, const scene::Rgb& otherwise) {
-  const Element* property = find(name, {"rgb", "srgb", "spectrum", "float"});
-  return property ? read_color(*property) : otherwise;
+  const Element* property = find(name, {"rgb", "srgb", "spectrum", "float", "blackbody", "xyz"});
+  return property ? read_color(*property, document_, object_.tag == "emitter") : otherwise;
+}
+
+const Element* Properties::texture(const std::string& name) {
+  asked_.insert(name);
+  const auto found = properties_.find(name);
+  return found != properties_.end() && found->second->tag == "texture" ? found->second : nullptr;
 }
 
 glm::dmat4 Properties::transform(const std::string& name) {
@@ -103,12 +117,18 @@ glm::dmat4 Properties::transform(const std::string& name) {
   return property ? read_transform(*property) : glm::dmat4(1.0);
 }
 
-std::vector<const Element*> Properties::objects(const std::string& tag) {
+std::vector<std::pair<std::string, const Element*>> Properties::named_objects(const std::string& tag) {
   asked_objects_.insert(tag);
-  std::vector<const Element*> found;
+  std::vector<std::pair<std::string, const Element*>> found;
   for (const auto& child : object_.children)
     if (!is_property(child) && document_.resolve(child).tag == tag)
-      found.push_back(&document_.resolve(child));
+      found.emplace_back(child["name"], &document_.resolve(child));
+  return found;
+}
+
+std::vector<const Element*> Properties::objects(const std::string& tag) {
+  std::vector<const Element*> found;
+  for (const auto& [name, object] : named_objects(tag)) found.push_back(object);
   return found;
 }
 
@@ -141,18 +161,28 @@ void Properties::require(const std::string& name, bool value) {
 }
 
 void Properties::finish() {
-  for (const auto& child : object_.children) {
-    if (is_property(child) && !asked_.contains(to_snake_case(child["name"]))) {
-      std::vector<std::string> names;
-      for (const auto& name : asked_) names.push_back(spelling(name));
-      fail(child.where, "'" + child["name"] + "' is not a property of " + object_.name(),
-           names.empty() ? "it has none" : "supported are " + join(names));
-    }
-    if (!is_property(child) && !asked_objects_.contains(document_.resolve(child).tag))
-      fail(child.where, child.name() + " inside " + object_.name() + " is not supported",
-           asked_objects_.empty() ? "it contains no other object"
-                                  : "it may contain " + join({asked_objects_.begin(), asked_objects_.end()}));
+  for (const auto& child : object_.children)
+    document_.problems->attempt([&] { is_property(child) ? check_known(child) : check_allowed(child); });
+}
+
+void Properties::check_known(const Element& property) const {
+  if (asked_.contains(to_snake_case(property["name"]))) return;
+  std::vector<std::string> names;
+  for (const auto& name : asked_) names.push_back(spelling(name));
+  fail(property.where, "'" + property["name"] + "' is not a property of " + object_.name(),
+       names.empty() ? "it has none" : "supported are " + join(names));
+}
+
+void Properties::check_allowed(const Element& nested) const {
+  const Element& object = document_.resolve(nested);
+  if (asked_objects_.contains(object.tag) || object.tag == "ref" || object.tag == "alias") return;
+  if (object_.tag == "scene" && object.has("id")) { // the reader of what refers to it has checked it
+    if (!document_.referred_to.contains(&object)) note(object.where, object.name() + " is used nowhere");
+    return;
   }
+  fail(nested.where, object.name() + " inside " + object_.name() + " is not supported",
+       asked_objects_.empty() ? "it contains no other object"
+                              : "it may contain " + join({asked_objects_.begin(), asked_objects_.end()}));
 }
 
 const Location& Properties::where(const std::string& name) const {

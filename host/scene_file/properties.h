@@ -1,5 +1,5 @@
 // The named values of one object of the scene file. Names that the reader has not queried are not supported:
-// finish() reports them as errors, so that a misspelt name is not silently ignored.
+// finish() reports all of them, so that a misspelt name is not silently ignored.
 #pragma once
 
 #include <functional>
@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <glm/mat4x4.hpp>
@@ -31,11 +32,15 @@ public:
   [[nodiscard]] std::string string(const std::string& name, const std::string& otherwise);
   [[nodiscard]] std::optional<scene::Vec3> vector(const std::string& name);
   [[nodiscard]] scene::Rgb color(const std::string& name, const scene::Rgb& otherwise);
+  /// The <texture> of this name, nested or by <ref>; null if there is none, or a property instead.
+  [[nodiscard]] const Element* texture(const std::string& name);
   /// Affine and invertible; the identity if it is absent.
   [[nodiscard]] glm::dmat4 transform(const std::string& name);
 
   /// The objects <tag> nested in this one, directly or by <ref>.
   [[nodiscard]] std::vector<const Element*> objects(const std::string& tag);
+  /// The same with the names that they have in this object, which may be empty.
+  [[nodiscard]] std::vector<std::pair<std::string, const Element*>> named_objects(const std::string& tag);
   /// The only such object, or null. @throws SceneError if there are several
   [[nodiscard]] const Element* object(const std::string& tag);
 
@@ -45,7 +50,7 @@ public:
   void pass_over_rest();
   /// Checks a boolean that is supported only with this value.
   void require(const std::string& name, bool value);
-  /// @throws SceneError for the first property or nested object that was not queried
+  /// Adds every property and nested object that was not queried to the document's problems.
   void finish();
 
   /// @throws SceneError at the property's line, or at the object's if it is absent
@@ -57,11 +62,15 @@ public:
   [[nodiscard]] std::string spelling(const std::string& name) const { return document_.spelling(name); }
 
 private:
+  void check_known(const Element& property) const;
+  void check_allowed(const Element& nested) const;
+  /// Whether a child is a property: by its tag, or as a texture, which only a scene has by itself.
+  [[nodiscard]] bool is_property(const Element& child) const;
   const Element* find(const std::string& name, std::initializer_list<const char*> tags);
 
   const Element& object_;
   const Document& document_;
-  std::map<std::string, const Element*> properties_; ///< by snake_case name
+  std::map<std::string, const Element*> properties_; ///< by snake_case name; references are resolved
   std::set<std::string> asked_, asked_objects_;
 };
 

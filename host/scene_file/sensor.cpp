@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <string>
@@ -13,8 +14,6 @@
 #include "scene_file/properties.h"
 #include "scene_file/transform.h"
 #include "scene_file/values.h"
-#include "settings/integrators.h"
-#include "settings/values.h"
 
 namespace phlux::scene_file {
 
@@ -23,6 +22,7 @@ namespace {
 using scene::Vec3;
 
 constexpr int largest_size = 32768;                       ///< pixels along one side of the image
+constexpr int largest_filter = 1000;                      ///< pixels
 const double film_35mm_diagonal = std::hypot(36.0, 24.0); ///< mm, to which Mitsuba's focal lengths refer
 
 int positive(Properties& properties, const std::string& name, int otherwise, int most) {
@@ -32,18 +32,46 @@ int positive(Properties& properties, const std::string& name, int otherwise, int
   return value;
 }
 
-void read_filter(const Element& filter, const Document& document) {
-  static const std::set<std::string> filters{"box", "tent", "gaussian", "mitchell", "catmullrom", "lanczos"};
-  if (!filters.contains(filter.type()))
-    fail(filter.where, filter.name() + " is not supported",
-         "box, or another of Mitsuba's, for which box is used");
-  if (filter.type() != "box") warn(filter.where, filter.name() + " is not supported; box is used");
-  Properties(filter, document).pass_over_rest();
+double positive_size(Properties& properties, const std::string& name, double otherwise) {
+  const double size = properties.real(name, otherwise);
+  if (!(size > 0.0 && size <= largest_filter))
+    properties.fail_at(name, std::to_string(size) + " pixels",
+                       "more than 0 and at most " + std::to_string(largest_filter));
+  return size;
+}
+
+/// The filters with negative lobes cannot be sampled. The box is the nearest to them that can: the variance
+/// of mitchell is 1/9 of a pixel squared, that of the others about 0, that of the box 1/12, of the default
+/// gaussian 1/4.
+scene::Filter read_filter(const Element& element, const Document& document) {
+  static const std::set<std::string> negative{"mitchell", "catmullrom", "lanczos"};
+  Properties properties(element, document);
+  scene::Filter filter;
+  if (element.type() == "gaussian") {
+    filter = {scene::Filter::Kind::gaussian, positive_size(properties, "stddev", 0.5)};
+  } else if (element.type() == "tent") {
+    filter = {scene::Filter::Kind::tent, positive_size(properties, "radius", 1.0)};
+  } else if (element.type() == "box") {
+    if (properties.real("radius", filter.size) != filter.size)
+      properties.fail_at("radius", "the box filter is one pixel wide",
+                         "leave it out, or use tent or gaussian");
+  } else if (negative.contains(element.type())) {
+    warn(element.where, element.name() + " has negative lobes, which cannot be sampled; box is used");
+    properties.pass_over_rest();
+  } else {
+    fail(element.where, element.name() + " is not supported", "supported are box, tent and gaussian");
+  }
+  properties.finish();
+  return filter;
 }
 
 void read_film(const Element& film, const Document& document, scene::Camera& camera) {
   Properties properties(film, document);
-  if (film.type() != "hdrfilm") fail(film.where, film.name() + " is not supported", "supported is hdrfilm");
+  static const std::set<std::string> films{"hdrfilm", "ldrfilm", "mfilm", "tiledhdrfilm", "specfilm"};
+  if (!films.contains(film.type()))
+    fail(film.where, film.name() + " is not supported",
+         "supported is hdrfilm; others of Mitsuba's become it");
+  if (film.type() != "hdrfilm") note(film.where, film.name() + " is read as hdrfilm: linear radiance in EXR");
   camera.width = positive(properties, "width", camera.width, largest_size);
   camera.height = positive(properties, "height", camera.height, largest_size);
   for (const auto& [name, whole] :
@@ -52,24 +80,18 @@ void read_film(const Element& film, const Document& document, scene::Camera& cam
     if (properties.integer(name, whole) != whole)
       properties.fail_at(name, "crop windows are not supported",
                          "leave the crop out to render the whole film");
-  properties.pass_over({"banner", "file_format", "pixel_format", "component_format", "channel_names",
-                        "attach_log", "high_quality_edges", "sample_border", "compensate"});
-  if (const Element* filter = properties.object("rfilter")) read_filter(*filter, document);
+  if (const Element* filter = properties.object("rfilter")) camera.filter = read_filter(*filter, document);
+  properties.pass_over_rest();
   properties.finish();
 }
 
 void read_sampler(const Element& sampler, const Document& document, scene::RenderDefaults& defaults) {
-  static const std::set<std::string> samplers{"independent", "stratified", "multijitter", "orthogonal",
-                                              "ldsampler",   "halton",     "hammersley",  "sobol"};
-  if (!samplers.contains(sampler.type()))
-    fail(sampler.where, sampler.name() + " is not supported",
-         "independent, or another of Mitsuba's, for which it is used");
   if (sampler.type() != "independent")
     warn(sampler.where, sampler.name() + " is not supported; independent is used");
   Properties properties(sampler, document);
   defaults.samples_per_pixel =
       positive(properties, "sample_count", defaults.samples_per_pixel, std::numeric_limits<int>::max());
-  properties.pass_over({"seed", "dimension", "scramble", "jitter"});
+  properties.pass_over_rest();
   properties.finish();
 }
 
@@ -103,15 +125,43 @@ double tan_half_fov_x(Properties& properties, double aspect) {
 
 void place(Properties& properties, scene::Camera& camera) {
   const glm::dmat4 to_world = properties.transform("to_world");
-  if (!is_rigid(to_world))
+  if (!camera.orthographic && !is_rigid(to_world))
     properties.fail_at("to_world", "it scales or shears",
                        "translations, rotations, lookat and mirroring alone");
+  const Vec3 left(to_world[0]), up(to_world[1]);
   camera.position = Vec3(to_world[3]);
   camera.forward = glm::normalize(Vec3(to_world[2]));
-  camera.left =
-      glm::normalize(Vec3(to_world[0]) - camera.forward * glm::dot(camera.forward, Vec3(to_world[0])));
-  const Vec3 up = glm::cross(camera.forward, camera.left);
-  camera.up = glm::dot(up, Vec3(to_world[1])) < 0.0 ? -up : up; // to_world may mirror
+  camera.left = glm::normalize(left - camera.forward * glm::dot(camera.forward, left));
+  camera.up = glm::cross(camera.forward, camera.left);
+  if (glm::dot(camera.up, up) < 0.0) camera.up = -camera.up; // to_world may mirror
+  if (!camera.orthographic) return;
+  // The film's width is that of [-1, 1] in the camera's frame.
+  camera.tan_half_fov_x = glm::length(left);
+  const double error = 1e-4 * camera.tan_half_fov_x;
+  if (glm::length(left - camera.left * camera.tan_half_fov_x) > error ||
+      glm::length(up - camera.up * camera.tan_half_fov_x) > error)
+    properties.fail_at("to_world", "it shears, or scales x and y differently",
+                       "the same scale for both, across the direction of view");
+}
+
+void read_lens(Properties& properties, scene::Camera& camera) {
+  camera.aperture_radius = properties.real("aperture_radius", -1.0);
+  if (camera.aperture_radius < 0.0)
+    properties.fail_at("aperture_radius",
+                       properties.has("aperture_radius") ? "it is negative" : "it is missing",
+                       "the radius of the lens, 0 or more");
+  // Mitsuba's default is the far clipping distance.
+  const bool given = properties.has("focus_distance");
+  camera.focus_distance = given ? properties.real("focus_distance", 0.0) : properties.real("far_clip", 1e4);
+  if (given) properties.pass_over({"far_clip"});
+  if (camera.focus_distance <= 0.0)
+    properties.fail_at("focus_distance", "it is not positive", "the distance of the plane that is in focus");
+}
+
+void read_field_of_view(Properties& properties, scene::Camera& camera) {
+  camera.tan_half_fov_x = tan_half_fov_x(properties, static_cast<double>(camera.width) / camera.height);
+  camera.principal_x = properties.real("principal_point_offset_x", 0.0);
+  camera.principal_y = properties.real("principal_point_offset_y", 0.0);
 }
 
 } // namespace
@@ -119,45 +169,26 @@ void place(Properties& properties, scene::Camera& camera) {
 void read_sensor(const Element& sensor, const Document& document,
                  const std::optional<std::array<int, 2>>& size, scene::Scene& scene) {
   Properties properties(sensor, document);
-  if (sensor.type() != "perspective")
-    fail(sensor.where, sensor.name() + " is not supported", "supported is perspective");
+  if (sensor.type() != "perspective" && sensor.type() != "thinlens" && sensor.type() != "orthographic")
+    fail(sensor.where, sensor.name() + " is not supported",
+         "supported are perspective, thinlens and orthographic");
   scene::Camera& camera = scene.camera;
-  if (const Element* film = properties.object("film")) read_film(*film, document, camera);
+  camera.orthographic = sensor.type() == "orthographic";
+  if (const Element* film = properties.object("film"))
+    document.problems->attempt([&] { read_film(*film, document, camera); });
   if (size) {
     camera.width = (*size)[0];
     camera.height = (*size)[1];
   }
-  if (const Element* sampler = properties.object("sampler")) read_sampler(*sampler, document, scene.defaults);
+  if (const Element* sampler = properties.object("sampler"))
+    document.problems->attempt([&] { read_sampler(*sampler, document, scene.defaults); });
   place(properties, camera);
-  camera.tan_half_fov_x = tan_half_fov_x(properties, static_cast<double>(camera.width) / camera.height);
-  camera.principal_x = properties.real("principal_point_offset_x", 0.0);
-  camera.principal_y = properties.real("principal_point_offset_y", 0.0);
-  properties.pass_over({"near_clip", "far_clip", "shutter_open", "shutter_close", "focus_distance"});
-  properties.finish();
-}
-
-void read_integrator(const Element& integrator, const Document& document, scene::RenderDefaults& defaults) {
-  Properties properties(integrator, document);
-  const auto known =
-      std::ranges::find(settings::integrators, integrator.type(), &settings::IntegratorInfo::mitsuba_name);
-  if (known == settings::integrators.end()) {
-    std::vector<std::string> names;
-    for (const settings::IntegratorInfo& info : settings::integrators) names.emplace_back(info.mitsuba_name);
-    fail(integrator.where, integrator.name() + " is not supported",
-         "supported are " + settings::joined(names));
-  }
-  defaults.integrator = known->name;
-  for (const auto& [name, depth] :
-       {std::pair{"max_depth", &defaults.max_depth}, std::pair{"rr_depth", &defaults.rr_depth}}) {
-    *depth = properties.integer(name, *depth);
-    if (*depth < 1 && *depth != -1)
-      properties.fail_at(name, std::to_string(*depth) + " is out of range", "1 or more, or -1 for no bound");
-  }
-  properties.require("hide_emitters", false);
-  properties.require("strict_normals", false);
-  properties.pass_over(
-      {"light_image", "sample_direct", "granularity", "brute_force", "samples_per_pass", "timeout"});
-  properties.require("show_weighted", false);
+  if (!camera.orthographic) read_field_of_view(properties, camera);
+  if (sensor.type() == "thinlens")
+    read_lens(properties, camera);
+  else
+    properties.pass_over({"far_clip", "focus_distance"});
+  properties.pass_over({"near_clip", "shutter_open", "shutter_close"});
   properties.finish();
 }
 

@@ -1,4 +1,4 @@
-// <sensor type="perspective"> with its film and sampler, and <integrator>.
+// <sensor type="perspective"> with its film and sampler.
 #pragma once
 
 #include <array>
@@ -12,8 +12,5 @@ namespace phlux::scene_file {
 /// Camera, image size (`size` in place of the film's) and samples per pixel. @throws SceneError
 void read_sensor(const Element& sensor, const Document& document,
                  const std::optional<std::array<int, 2>>& size, scene::Scene& scene);
-
-/// The scene's integrator, max_depth and rr_depth. @throws SceneError
-void read_integrator(const Element& integrator, const Document& document, scene::RenderDefaults& defaults);
 
 } // namespace phlux::scene_file

@@ -2,7 +2,10 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
+#include <string>
+#include <type_traits>
 
 namespace phlux::scene_file {
 
@@ -24,7 +27,11 @@ std::optional<Number> parse_whole(std::string_view text) {
   Number value{};
   const char* end = text.data() + text.size();
   const auto [stopped, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc{} || stopped != end) return std::nullopt;
+  if (stopped != end) return std::nullopt;
+  if constexpr (std::is_same_v<Number, double>)
+    if (error == std::errc::result_out_of_range)
+      return std::strtod(std::string(text).c_str(), nullptr); // 0 for 1e-400, infinity for 1e400
+  if (error != std::errc{}) return std::nullopt;
   return value;
 }
 
@@ -40,8 +47,12 @@ char upper(char c) {
 
 } // namespace
 
+std::optional<double> parse_number(std::string_view text) {
+  return parse_whole<double>(text);
+}
+
 std::optional<double> parse_real(std::string_view text) {
-  const auto value = parse_whole<double>(text);
+  const auto value = parse_number(text);
   if (!value || !(std::abs(*value) <= std::numeric_limits<float>::max())) return std::nullopt;
   return value;
 }

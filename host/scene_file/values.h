@@ -8,6 +8,8 @@
 
 namespace phlux::scene_file {
 
+/// A number, rounded to double; also inf and nan. Only blanks are allowed around it.
+[[nodiscard]] std::optional<double> parse_number(std::string_view text);
 /// A finite number in the range of single precision, |x| <= FLT_MAX. Only blanks are allowed around it.
 [[nodiscard]] std::optional<double> parse_real(std::string_view text);
 [[nodiscard]] std::optional<int> parse_integer(std::string_view text);

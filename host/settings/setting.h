@@ -95,10 +95,12 @@ struct Depth : Number { ///< 1 or more, or -1 for unbounded
     return depth(name, text);
   }
 };
-struct Positive : Number { ///< finite, above 0
+struct Within : Number { ///< from `least` to `most`
+  double least, most;
+  Within(double from, double to) : least(from), most(to) {}
   template<class T>
   [[nodiscard]] T read(const std::string& name, const std::string& text) const {
-    return positive_number(name, text);
+    return number_within(name, text, least, most);
   }
 };
 

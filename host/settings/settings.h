@@ -19,7 +19,8 @@ namespace phlux::settings {
 
 enum class Connect { none, light, mis };        ///< direct light from hits, light samples, or both with MIS
 enum class Weights { balance, power, uniform }; ///< weights of bidirectional techniques (Veach 1997)
-enum class LightSelection { power, contribution }; ///< probabilities of lights for light samples
+enum class LightSelection { power, contribution };  ///< probabilities of lights for light samples
+enum class Sampler { independent, sobol, lattice }; ///< how the samples of a pixel are related
 /// Probability to survive Russian roulette: the sampling strategy's or model's own, the reflectivity of the
 /// vertex, kd + ks, in proportion to the throughput (survivors have throughput 1), or to more of it.
 enum class Roulette { strategy, reflectivity, kd_ks, throughput, efficiency };
@@ -34,6 +35,7 @@ struct Settings {
   int connections = 2;     ///< bidir: mean number of connections made per path length, by roulette; 0: all
   bool techniques = false; ///< light, bidir: the film also records each technique's contributions
   Roulette roulette = Roulette::strategy; ///< survival probability of Russian roulette
+  Sampler sampler = Sampler::independent; ///< path, bidir
   std::optional<double> ambient;          ///< path: radiance of a control variate (CW 197, 2.2, reference 15)
   std::optional<double> clamp;        ///< largest contribution of a path to a pixel, a radiance; causes bias
   int samples_per_pixel = 4;          ///< ignored with a time limit or target error
@@ -48,6 +50,7 @@ struct Settings {
   Traversal traversal = Traversal::automatic;
   std::filesystem::path kernel_dir; ///< empty: the embedded kernels
   double launch_seconds = 0.05;     ///< target duration of a launch
+  double pause_seconds = 1.0;       ///< until a device that failed is tried again
 };
 
 /// Whether eye subpaths take light samples, if there are lights.
@@ -60,6 +63,11 @@ struct Settings {
   return samples_lights(settings) && settings.light_selection == LightSelection::contribution;
 }
 
+/// Whether the samples of a pixel are points of sets.
+[[nodiscard]] inline bool samples_point_sets(const Settings& settings) {
+  return settings.sampler != Sampler::independent && integrator_named(settings.integrator).eye_paths;
+}
+
 /// Names of the values of Connect and Weights, in their order.
 [[nodiscard]] inline const std::vector<std::string>& connect_names() {
   static const std::vector<std::string> names = {"none", "light", "mis"};
@@ -67,6 +75,12 @@ struct Settings {
 }
 [[nodiscard]] inline const std::vector<std::string>& weights_names() {
   static const std::vector<std::string> names = {"balance", "power", "uniform"};
+  return names;
+}
+
+/// Names of the values of Sampler, in their order.
+[[nodiscard]] inline const std::vector<std::string>& sampler_names() {
+  static const std::vector<std::string> names = {"independent", "sobol", "lattice"};
   return names;
 }
 
@@ -114,14 +128,19 @@ struct Settings {
                       ": `contributions` shows every connection: leave out one of the two")
           .only_where(bidirectional,
                       " is for bidir alone: {} connects no vertices: leave it out or use `integrator` bidir"),
+      Setting("sampler", A::estimate, &Settings::sampler, OneOf{sampler_names()}, "NAME",
+              "path and bidir, random numbers of a pixel's samples: independent, or points of sets that fill "
+              "the space of paths more evenly: sobol (scrambled Sobol points) or lattice (shifted lattices)")
+          .only_where([](const Settings& s) { return integrator_named(s.integrator).eye_paths; },
+                      " is for path and bidir: light paths are independent: leave it out"),
       Setting("contributions", A::film, &Settings::techniques, Switch{"DIR"}, "", ""),
       Setting(
-          "ambient", A::estimate, &Settings::ambient, Positive{}, "L",
+          "ambient", A::estimate, &Settings::ambient, Within{1e-30, 1e30}, "L",
           "path only: estimate of the mean incident radiance, for a control variate: the closer, the less "
           "noise; without bias for any L; default: no control variate")
           .only_where(from_eye_alone,
                       ": only paths from the eye can carry the ambient term: use `integrator` path"),
-      Setting("clamp", A::expectation, &Settings::clamp, Positive{}, "X",
+      Setting("clamp", A::expectation, &Settings::clamp, Within{1e-30, 1e30}, "X",
               "clamps each path's contribution to a pixel to the radiance X: less noise, but a bias, which "
               "the log and the files state; default: no clamping"),
       Setting("max-depth", A::expectation, &Settings::max_depth, Depth{}, "N",
@@ -140,10 +159,10 @@ struct Settings {
       Setting("spp", A::amount, &Settings::samples_per_pixel, Whole{1, most_samples}, "N",
               "samples per pixel (light: light paths per pixel of the image)")
           .or_scene(&Settings::samples_per_pixel, &scene::RenderDefaults::samples_per_pixel),
-      Setting("time", A::amount, &Settings::time_limit, Positive{}, "SECONDS",
+      Setting("time", A::amount, &Settings::time_limit, Within{1e-6, 1e9}, "SECONDS",
               "render for this time instead"),
       Setting(
-          "error", A::amount, &Settings::target_error, Positive{}, "E",
+          "error", A::amount, &Settings::target_error, Within{1e-30, 1e30}, "E",
           "render until the mean relative standard error of pixels that are not black is E, such as 0.01, "
           "instead; with `time`: until the first of the two"),
       Setting("seed", A::samples, &Settings::seed, Whole{0, std::numeric_limits<std::uint64_t>::max()}, "N",

@@ -1,12 +1,9 @@
 #include "settings/strategies.h"
 
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-
 #include <fmt/format.h>
 
 #include "errors.h"
+#include "input_file.h"
 #include "settings/values.h"
 
 namespace phlux::settings {
@@ -21,11 +18,11 @@ std::string strategy(const std::string& name, const std::string& text) {
 }
 
 std::string read_strategy(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream || !std::filesystem::is_regular_file(file))
+  const auto text = bytes_of(file);
+  if (!text)
     throw UsageError(fmt::format("{} {}: cannot be read: must be an existing file, or one of {}",
                                  quoted("strategy"), file, joined(strategy_names())));
-  return {std::istreambuf_iterator<char>(stream), {}};
+  return *text;
 }
 
 } // namespace phlux::settings

@@ -61,12 +61,6 @@ int depth(const std::string& name, const std::string& text) {
   return *number;
 }
 
-double positive_number(const std::string& name, const std::string& text) {
-  const std::optional<double> number = parse<double>(text);
-  if (!number || !std::isfinite(*number) || *number <= 0.0) wrong(name, text, "must be a number above 0");
-  return *number;
-}
-
 double number_within(const std::string& name, const std::string& text, double least, double most) {
   const std::optional<double> number = parse<double>(text);
   if (!number || !(*number >= least && *number <= most))
@@ -75,7 +69,6 @@ double number_within(const std::string& name, const std::string& text, double le
 }
 
 std::array<int, 2> size(const std::string& name, const std::string& text) {
-  constexpr std::int64_t most_pixels = std::int64_t{1} << 28;
   const std::size_t x = text.find_first_of("xX");
   if (x != std::string::npos) {
     const std::optional<int> width = parse<int>(text.substr(0, x)), height = parse<int>(text.substr(x + 1));

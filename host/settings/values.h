@@ -14,12 +14,11 @@ namespace phlux::settings {
                                          std::uint64_t least, std::uint64_t most);
 /// 1 or more, or -1 for unbounded.
 [[nodiscard]] int depth(const std::string& name, const std::string& text);
-/// A finite number above 0.
-[[nodiscard]] double positive_number(const std::string& name, const std::string& text);
 /// A number from `least` to `most`.
 [[nodiscard]] double number_within(const std::string& name, const std::string& text, double least,
                                    double most);
-/// WIDTHxHEIGHT in pixels; at most 2^28 pixels (15 GB of memory).
+inline constexpr std::int64_t most_pixels = std::int64_t{1} << 28; ///< of an image
+/// WIDTHxHEIGHT in pixels; at most most_pixels.
 [[nodiscard]] std::array<int, 2> size(const std::string& name, const std::string& text);
 /// NAME=VALUE; the value may be empty.
 [[nodiscard]] std::pair<std::string, std::string> definition(const std::string& name,

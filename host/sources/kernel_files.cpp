@@ -1,13 +1,12 @@
 #include "sources/kernel_files.h"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "errors.h"
+#include "input_file.h"
 #include "sources/embedded.h"
 
 namespace phlux::sources {
@@ -23,10 +22,9 @@ std::string KernelFiles::read(const std::string& name) const {
     return std::string(file->text);
   }
   const auto path = folder_ / name;
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(path))
-    throw DeviceError(fmt::format("{}: no such kernel file", path.string()));
-  return {std::istreambuf_iterator<char>(stream), {}};
+  const auto text = bytes_of(path);
+  if (!text) throw DeviceError(fmt::format("{}: no such kernel file", path.string()));
+  return *text;
 }
 
 } // namespace phlux::sources

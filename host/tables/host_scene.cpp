@@ -37,6 +37,10 @@ CameraRecord camera_record(const scene::Camera& camera, const scene::Vec3& origi
   record.principal_x = static_cast<float>(camera.principal_x);
   record.principal_y = static_cast<float>(camera.principal_y);
   record.film_area = static_cast<float>(4 * glm::length(left) * glm::length(up));
+  record.lens[0] = static_cast<float>(camera.aperture_radius / glm::length(left));
+  record.lens[1] = static_cast<float>(camera.aperture_radius / glm::length(up));
+  record.inv_focus_distance = static_cast<float>(1 / camera.focus_distance);
+  record.filter_size = static_cast<float>(camera.filter.size);
   record.width = camera.width;
   record.height = camera.height;
   return record;
@@ -59,6 +63,7 @@ HostScene prepare(const scene::Scene& scene, settings::Traversal traversal, int 
   host.lights = light_table(scene, host.geometry, tree_of_lights);
   host.materials =
       lobes::material_table(scene.materials, lobes::models_of(used_materials(scene, host.geometry)));
+  host.textures = texture_table(host.materials.textures);
   host.camera = camera_record(scene.camera, host.geometry.origin);
   return host;
 }

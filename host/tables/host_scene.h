@@ -6,6 +6,7 @@
 #include "scene/scene.h"
 #include "settings/settings.h"
 #include "tables/light_table.h"
+#include "tables/texture_table.h"
 
 namespace phlux::tables {
 
@@ -14,6 +15,7 @@ struct HostScene {
   accel::Geometry geometry;
   LightTable lights;
   lobes::MaterialTable materials;
+  TextureTable textures;
   CameraRecord camera{};
 };
 

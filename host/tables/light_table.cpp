@@ -5,6 +5,7 @@
 #include <map>
 #include <numbers>
 
+#include "tables/alias_table.h"
 #include "tables/light_tree.h"
 
 namespace phlux::tables {
@@ -107,14 +108,15 @@ void add_points(Collector& to, const scene::Scene& scene, const Vec3& origin) {
     LightRecord record = record_of(LIGHT_SPOT, light.intensity);
     set(record.position, light.position - origin);
     set(record.direction, light.direction);
-    // A beam as wide as the cone falls off within a small angle, to avoid a division by 0.
-    const double transition = std::max(light.cutoff_angle - light.beam_width, 1e-6);
+    // A beam as wide as the cone falls off within a small part of it, to avoid a division by 0.
+    const double transition = std::max(light.cutoff_angle - light.beam_width, 1e-6 * light.cutoff_angle);
     record.cutoff = static_cast<float>(light.cutoff_angle);
     record.inv_transition = static_cast<float>(1 / transition);
     // 1 / (2 pi (1 - cos(cutoff))), without cancellation: the kernel samples the whole cone uniformly.
     const double half_sine = std::sin(light.cutoff_angle / 2);
     record.emission_density = static_cast<float>(1 / (4 * pi * half_sine * half_sine));
-    const double full = 2 * pi * (1 - (std::cos(light.beam_width) + std::cos(light.cutoff_angle)) / 2);
+    const double half_beam_sine = std::sin(light.beam_width / 2);
+    const double full = 2 * pi * (half_beam_sine * half_beam_sine + half_sine * half_sine);
     to.add(record, full * mean(light.intensity));
     const Vec3 at = light.position - origin;
     to.place({0, at, at, light.direction, light.cutoff_angle, mean(light.intensity)});
@@ -130,38 +132,29 @@ void add_distant(Collector& to, const scene::Scene& scene, double radius) {
     record.emission_density = static_cast<float>(1 / disk);
     to.add(record, disk * mean(light.irradiance));
   }
-  if (scene.constant_radiance) {
-    to.table.constant = static_cast<int>(to.table.records.size());
-    LightRecord record = record_of(LIGHT_CONSTANT, *scene.constant_radiance);
+  if (scene.environment) {
+    to.table.sky = static_cast<int>(to.table.records.size());
+    to.table.environment = environment_table(*scene.environment);
+    LightRecord record = record_of(LIGHT_SKY, to.table.environment.largest);
+    record.area = static_cast<float>(disk);
+    record.emission_density = static_cast<float>(1 / disk);
+    to.add(record, disk * to.table.environment.integral);
+  } else if (scene.constant_radiance) {
+    to.table.sky = static_cast<int>(to.table.records.size());
+    LightRecord record = record_of(LIGHT_SKY, *scene.constant_radiance);
     record.area = static_cast<float>(disk);
     record.emission_density = static_cast<float>(1 / (4 * pi * disk));
     to.add(record, 4 * pi * disk * mean(*scene.constant_radiance));
   }
 }
 
-// Vose's construction of Walker's alias table.
-void make_alias_table(std::vector<LightRecord>& records, const std::vector<double>& chances) {
-  const auto count = records.size();
-  std::vector<double> scaled(count);
-  std::vector<std::size_t> small, large;
-  for (std::size_t i = 0; i < count; ++i) {
+void set_probabilities(std::vector<LightRecord>& records, const std::vector<double>& chances) {
+  const AliasTable table = alias_table(chances);
+  for (std::size_t i = 0; i < records.size(); ++i) {
     records[i].probability = static_cast<float>(chances[i]);
     records[i].emission_density *= records[i].probability;
-    scaled[i] = chances[i] * static_cast<double>(count);
-    (scaled[i] < 1 ? small : large).push_back(i);
-    records[i].alias_threshold = 1;
-    records[i].alias = static_cast<int>(i);
-  }
-  while (!small.empty() && !large.empty()) {
-    const std::size_t less = small.back(), more = large.back();
-    small.pop_back();
-    records[less].alias_threshold = static_cast<float>(scaled[less]);
-    records[less].alias = static_cast<int>(more);
-    scaled[more] -= 1 - scaled[less];
-    if (scaled[more] < 1) {
-      large.pop_back();
-      small.push_back(more);
-    }
+    records[i].alias_threshold = static_cast<float>(table.keep[i]);
+    records[i].alias = table.alias[i];
   }
 }
 
@@ -183,6 +176,7 @@ void use_unit(LightTable& table, double unit) {
   table.unit = unit;
   for (LightRecord& record : table.records)
     for (float& power : record.radiance) power = static_cast<float>(power / unit);
+  table.environment.use_unit(unit);
 }
 
 } // namespace
@@ -201,7 +195,7 @@ LightTable light_table(const scene::Scene& scene, accel::Geometry& geometry, boo
   add_points(collector, scene, geometry.origin);
   add_distant(collector, scene, geometry.radius);
   const std::vector<double> chances = probabilities(collector);
-  if (!chances.empty()) make_alias_table(collector.table.records, chances);
+  if (!chances.empty()) set_probabilities(collector.table.records, chances);
   if (with_tree) collector.table.nodes = light_tree(collector.placed, collector.table.records);
   for (const LightBounds& light : collector.placed)
     collector.table.tree_probability += chances[static_cast<std::size_t>(light.light)];

@@ -6,6 +6,7 @@
 #include "accel/geometry.h"
 #include "scene/scene.h"
 #include "scene/scene_data.h"
+#include "tables/environment_table.h"
 
 namespace phlux::tables {
 
@@ -13,7 +14,8 @@ struct LightTable {
   std::vector<LightRecord> records;
   std::vector<LightNodeRecord> nodes; ///< the tree of the lights with bounds; empty for fewer than two
   double tree_probability = 0.0;      ///< of choosing one of those lights
-  int constant = -1;                  ///< index of the constant light, -1: none
+  int sky = -1;                       ///< index of the constant light or the environment map, -1: none
+  EnvironmentTable environment;       ///< of the map
   double unit = 1.0;                  ///< the radiance that is 1 in the records, a power of two
   [[nodiscard]] bool has(LightKinds kind) const;
   [[nodiscard]] bool shines() const; ///< whether a light has power

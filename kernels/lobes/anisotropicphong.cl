@@ -16,7 +16,14 @@
 #define ANISOTROPICPHONG_NEEDS_TANGENTS 1
 #define ANISOTROPICPHONG_REFLECTIVITY_IS_ESTIMATE 1
 #define ANISOTROPICPHONG_SURVIVAL anisotropicphong_survival
+#define ANISOTROPICPHONG_TEXTURED anisotropicphong_textured
 LOBE_STRUCT(Anisotropicphong, ANISOTROPICPHONG)
+
+static inline Anisotropicphong anisotropicphong_textured(Anisotropicphong m) {
+  m.diffuse_max = vec_max(m.diffuse_reflectance);
+  m.specular_max = vec_max(m.specular_reflectance);
+  return m;
+}
 
 static inline Real fifth_power(Real x) {
   const Real x2 = x * x;

@@ -24,7 +24,8 @@
 //
 // Optional: NAME_DERIVED(NUMBER, INDEX), members that the host computes for a model that ships; NAME_HAS_DELTA 1 where
 // samples may be delta events; NAME_NEEDS_TANGENTS 1 where f_r depends on the longitude: x of the frame is then along the
-// surface's first tangent; NAME_REFLECTIVITY_IS_ESTIMATE 1 where NAME_reflectivity is no exact integral: roulette is
+// surface's first tangent; NAME_TEXTURED(m), the model with those derived members that depend on colours computed anew,
+// where a colour comes from a texture; NAME_REFLECTIVITY_IS_ESTIMATE 1 where NAME_reflectivity is no exact integral: roulette is
 // unbiased with any value above 0, and the nearer it is, the lower the variance;
 // NAME_SURVIVAL(m, fixed, random), the probability that a path survives roulette, where it is not the largest channel
 // of the reflectivity.

@@ -7,6 +7,7 @@
 
 #include "lobes/models.cl"
 #include "scene/scene.cl"
+#include "scene/textures.cl"
 
 // ROULETTE is one of these: what the probability to survive is in proportion to.
 #define ROULETTE_STRATEGY 0     // NAME_SURVIVAL of lobe.h: the reflectivity, unless the strategy knows only an estimate
@@ -39,28 +40,41 @@ static inline Mask has_model(Material m, int number) {
 
 #define WORD_OF(record, member)                                                                                        \
   (MATERIAL_HEADER + (int)((const __global float*)&(record)->member - (const __global float*)(record)))
+
+// The colour whose record begins at `word`: from its texture in the lanes of m that have one, elsewhere `recorded`.
+static inline Vec3 textured_colour(const Scene* scene, Int material, int word, TextureCoordinates at, Mask m,
+                                   Vec3 recorded) {
+  const Int number = gather_int(scene->texture_numbers + word, material * MATERIAL_WORDS) - 1;
+  const Mask textured = m & (number >= 0);
+  if (!any_lane(textured)) return recorded;
+  return vec_select(textured, texture_colour(scene, number, at, textured), recorded);
+}
+
 #define LOAD_COLOUR(name, otherwise, lowest, highest, meaning)                                                         \
   m.name = vec3(material_real(scene, index, WORD_OF(record, name[0])),                                                 \
                 material_real(scene, index, WORD_OF(record, name[1])),                                                 \
-                material_real(scene, index, WORD_OF(record, name[2])));
+                material_real(scene, index, WORD_OF(record, name[2])));                                                \
+  if (HAS_TEXTURES) m.name = textured_colour(scene, index, WORD_OF(record, name[0]), at, of_model, m.name);
 #define LOAD_NUMBER(name, otherwise, lowest, highest, meaning) LOAD_DERIVED(name)
 #define LOAD_DERIVED(name) m.name = material_real(scene, index, WORD_OF(record, name));
 // An index into a table must be valid in the lanes of other models too.
 #define LOAD_INDEX(name) m.name = of_model ? material_int(scene, index, WORD_OF(record, name)) : (Int)(0);
 #define LOAD_MODEL(number, model, Model, MODEL)                                                                        \
-  static inline Model load_##model(const Scene* scene, Int index, Mask of_model) {                                     \
+  static inline Model load_##model(const Scene* scene, Int index, TextureCoordinates at, Mask of_model) {              \
     const __global Model##Record* record = (const __global Model##Record*)(scene->materials + MATERIAL_HEADER);        \
     Model m;                                                                                                           \
     MODEL##_PARAMETERS(LOAD_COLOUR, LOAD_NUMBER) /**/                                                                  \
         MODEL##_DERIVED(LOAD_DERIVED, LOAD_INDEX) m.tables = scene->lobe_tables;                                       \
+    if (HAS_TEXTURES) m = MODEL##_TEXTURED(m);                                                                         \
     return m;                                                                                                          \
   }
 MODELS(LOAD_MODEL)
 
-static inline Material material_at(const Scene* scene, Int index) {
+// Material `index`, and its colours at these texture coordinates.
+static inline Material material_at(const Scene* scene, Int index, TextureCoordinates at) {
   Material m;
   m.model_number = MODEL_COUNT > 1 ? material_int(scene, index, MATERIAL_MODEL) : (Int)(0);
-#define LOAD_MATERIAL(number, model, Model, MODEL) m.model = load_##model(scene, index, has_model(m, number));
+#define LOAD_MATERIAL(number, model, Model, MODEL) m.model = load_##model(scene, index, at, has_model(m, number));
   MODELS(LOAD_MATERIAL)
   return m;
 }

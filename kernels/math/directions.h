@@ -17,6 +17,9 @@ static inline Vec3 hemisphere_direction(Real u1, Real u2) {
   return polar_direction(sqrt((1.0f - u1) * (1.0f + u1)), u1, u2);
 }
 
+// An offset with density 1 - |offset| over (-1, 1).
+static inline Real tent_offset(Real u) { return u < 0.5f ? sqrt(2.0f * u) - 1.0f : 1.0f - sqrt(2.0f - 2.0f * u); }
+
 // Over the whole sphere: density 1 / (4 pi).
 static inline Vec3 sphere_direction(Real u1, Real u2) {
   return polar_direction(2.0f * sqrt(u1 * (1.0f - u1)), 1.0f - 2.0f * u1, u2);

@@ -4,16 +4,20 @@
 #ifndef PHLUX_RANDOM_H
 #define PHLUX_RANDOM_H
 
-#include "lanes/lanes.h"
+#include "math/point_sets.h"
 
 // The paper's safety margin is 10 rounds; 7 is the fewest that passes BigCrush (its table 2).
 #ifndef PHILOX_ROUNDS
 #define PHILOX_ROUNDS 7
 #endif
 
-typedef struct {
-  Uint x, y, z, w;
-} RandomWords;
+// How the samples of a pixel are related: not at all, or as points of sets.
+#define SAMPLER_INDEPENDENT 0
+#define SAMPLER_SOBOL 1
+#define SAMPLER_LATTICE 2
+#ifndef SAMPLER
+#define SAMPLER SAMPLER_INDEPENDENT
+#endif
 
 static inline RandomWords philox(RandomWords counter, uint2 key) {
   RandomWords c = counter;
@@ -33,21 +37,37 @@ static inline RandomWords philox(RandomWords counter, uint2 key) {
   return c;
 }
 
+// The point sets of a launch: a pixel's samples from `first` on form sets of 2^bits samples.
+typedef struct {
+  uint first, bits;
+} PointSets;
+
 // A path's place in the sequence: the pixel (or light path) and the sample.
 typedef struct {
   Uint pixel, sample;
   uint2 seed;
+  PointSets sets; // without meaning for independent samples
 } RandomSequence;
 
-// Four random words for one purpose on one path. `dimension` numbers the purpose (say, 2 bounce + 1), `draw` the
-// repetition of a sampler that draws until it accepts.
-static inline RandomWords random_words(RandomSequence sequence, Uint dimension, uint draw) {
+// Four independent random words, see random_words.
+static inline RandomWords independent_words(RandomSequence sequence, Uint sample, Uint dimension, uint draw) {
   RandomWords counter;
   counter.x = sequence.pixel;
-  counter.y = sequence.sample;
+  counter.y = sample;
   counter.z = dimension;
   counter.w = (Uint)(draw);
   return philox(counter, sequence.seed);
+}
+
+// Four random words for one purpose on one path. `dimension` numbers the purpose (say, 2 bounce + 1), `draw` the
+// repetition of a sampler that draws until it accepts. With a sampler of point sets, the words of draw 0 are a point of
+// the sample's set. Sets are padded: each set and dimension is randomized by itself.
+static inline RandomWords random_words(RandomSequence sequence, Uint dimension, uint draw) {
+  if (SAMPLER == SAMPLER_INDEPENDENT || draw > 0 || sequence.sets.bits == 0)
+    return independent_words(sequence, sequence.sample, dimension, draw);
+  const Uint number = (sequence.sample - sequence.sets.first) & ((1u << sequence.sets.bits) - 1u);
+  const RandomWords random = independent_words(sequence, sequence.sample - number, dimension, 0);
+  return SAMPLER == SAMPLER_SOBOL ? sobol_point(number, random) : lattice_point(number, sequence.sets.bits, random);
 }
 
 // Random numbers for one sampling decision: the words of its first draw, and the place of further draws.

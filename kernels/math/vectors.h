@@ -3,6 +3,7 @@
 #define PHLUX_VECTORS_H
 
 #include "lanes/lanes.h"
+#include "math/constants.h"
 
 typedef struct {
   Real x, y, z;
@@ -33,6 +34,13 @@ static inline Vec3 vec_select(Mask m, Vec3 yes, Vec3 no) {
 }
 static inline Vec3 pack_vec(Mask m, Vec3 v) { return vec3(pack_lanes(m, v.x), pack_lanes(m, v.y), pack_lanes(m, v.z)); }
 static inline Vec3 vec_normalize(Vec3 a) { return vec_scale((Real)(1.0f) / sqrt(vec_dot(a, a)), a); }
+// The angle between two unit vectors in radians, from half their chord: the cosine of a small angle has lost its digits.
+static inline Real vec_angle(Vec3 a, Vec3 b) {
+  const Mask acute = vec_dot(a, b) >= 0.0f;
+  const Vec3 chord = vec_select(acute, vec_sub(a, b), vec_add(a, b));
+  const Real angle = 2.0f * asin(0.5f * sqrt(vec_dot(chord, chord)));
+  return acute ? angle : PI - angle;
+}
 static inline Real vec_max(Vec3 a) { return larger(a.x, larger(a.y, a.z)); }
 static inline Real vec_sum(Vec3 a) { return a.x + a.y + a.z; }
 static inline Real vec_mean(Vec3 a) { return (a.x + a.y + a.z) * (REAL(1.0) / 3.0f); }

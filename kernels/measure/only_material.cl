@@ -8,7 +8,9 @@ static inline Material only_material(const __global float* materials, const __gl
   Scene scene;
   scene.materials = materials;
   scene.lobe_tables = lobe_tables;
-  return material_at(&scene, (Int)(0));
+  TextureCoordinates nowhere;
+  nowhere.u = nowhere.v = (Real)(0.0f);
+  return material_at(&scene, (Int)(0), nowhere);
 }
 
 #endif

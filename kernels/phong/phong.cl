@@ -29,7 +29,14 @@
 #define PHONG_DERIVED(NUMBER, INDEX)                                                                                   \
   NUMBER(diffuse_max) NUMBER(specular_max) NUMBER(table_scale) NUMBER(grazing_reflectivity) INDEX(table_row)
 #define PHONG_SURVIVAL phong_survival
+#define PHONG_TEXTURED phong_textured
 LOBE_STRUCT(Phong, PHONG)
+
+static inline Phong phong_textured(Phong m) {
+  m.diffuse_max = vec_max(m.diffuse_reflectance);
+  m.specular_max = vec_max(m.specular_reflectance);
+  return m;
+}
 
 // Intervals of a row of the reflectivity table; a row has one value more. The host that fills the table defines it.
 #ifndef PHONG_TABLE_INTERVALS

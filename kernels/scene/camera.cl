@@ -1,56 +1,189 @@
-// The pinhole camera.
+// The camera: a pinhole, a thin lens (HAS_LENS) or parallel rays (HAS_ORTHOGRAPHIC), and the film's reconstruction filter.
+//
+// Eye subpaths sample the filter: the radiance of a pixel is the mean over offsets from its centre with the filter's
+// density. A splat adds to one pixel near its place on the film, with such a probability and weight that the mean is the
+// same (filter_splat). A point of the lens is sampled uniformly in both cases; its density cancels in all weights.
 #ifndef PHLUX_CAMERA_CL
 #define PHLUX_CAMERA_CL
 
+#include "math/constants.h"
+#include "math/directions.h"
+#include "math/random.h"
 #include "scene/intersect.cl"
 #include "scene/scene.cl"
 
-// The ray through a point of a pixel, (u, v) in [0, 1]^2 from its upper left corner. Pixels count row by row.
-static inline Ray camera_ray(const Scene* scene, Uint pixel, Real u, Real v) {
+#define HAS_FILTER (HAS_TENT_FILTER | HAS_GAUSSIAN_FILTER)
+
+// What is random about the camera.
+typedef struct {
+  Real x, y;           // a point of a pixel, from its upper left corner, in pixels; beyond [0, 1] by filters wider than it
+  Real lens_x, lens_y; // a point of the lens, in lengths of the record's left and up
+} CameraSample;
+
+// Further functions of the camera need only a sample if this is 1.
+#define HAS_CAMERA_SAMPLE (HAS_LENS | HAS_FILTER)
+
+// Uniform in the pixel and on the lens, or by the filter.
+static inline CameraSample camera_sample(const Scene* scene, RandomWords words) {
+  CameraSample s;
+  s.x = uniform_real(words.x);
+  s.y = uniform_real(words.y);
+  s.lens_x = s.lens_y = (Real)(0.0f);
+  const __global CameraRecord* camera = scene->camera;
+  if (HAS_TENT_FILTER) {
+    s.x = 0.5f + camera->filter_size * tent_offset(s.x);
+    s.y = 0.5f + camera->filter_size * tent_offset(s.y);
+  }
+  if (HAS_GAUSSIAN_FILTER) { // Box and Muller (1958)
+    Real cosine, sine;
+    cos_sin_turns(s.y, &cosine, &sine);
+    const Real radius = camera->filter_size * sqrt(-2.0f * log(s.x));
+    s.x = 0.5f + radius * cosine;
+    s.y = 0.5f + radius * sine;
+  }
+  if (HAS_LENS) {
+    Real cosine, sine;
+    cos_sin_turns(uniform_real(words.w), &cosine, &sine);
+    const Real radius = sqrt(uniform_real(words.z));
+    s.lens_x = camera->lens[0] * radius * cosine;
+    s.lens_y = camera->lens[1] * radius * sine;
+  }
+  return s;
+}
+
+static inline Vec3 lens_position(const Scene* scene, CameraSample sample) {
+  const __global CameraRecord* camera = scene->camera;
+  const Vec3 centre = broadcast_vec(camera->position);
+  if (!HAS_LENS) return centre;
+  return vec_along(vec_along(centre, sample.lens_x, broadcast_vec(camera->left)), sample.lens_y,
+                   broadcast_vec(camera->up));
+}
+
+// The ray through a sampled point of a pixel. Pixels count row by row.
+static inline Ray camera_ray(const Scene* scene, Uint pixel, CameraSample sample) {
   const __global CameraRecord* camera = scene->camera;
   const float width = (float)camera->width, height = (float)camera->height;
-  // A quotient of floats, off by one at most for a film of less than 2^22 rows, and put right.
-  Int row = to_int(uint_to_real(pixel) / width);
-  Int column = uint_to_int(pixel) - row * camera->width;
-  row = column < 0 ? row - 1 : (column >= camera->width ? row + 1 : row);
-  column = uint_to_int(pixel) - row * camera->width;
-  const Real x = (to_real(column) + u) / width + camera->principal_x;
-  const Real y = (to_real(row) + v) / height + camera->principal_y;
+  const Int row = row_of(uint_to_int(pixel), camera->width);
+  const Int column = uint_to_int(pixel) - row * camera->width;
+  const Real x = (to_real(column) + sample.x) / width + camera->principal_x;
+  const Real y = (to_real(row) + sample.y) / height + camera->principal_y;
+  Real leftwards = 1.0f - 2.0f * x, upwards = 1.0f - 2.0f * y;
+  if (HAS_LENS) { // towards the point in focus
+    leftwards -= sample.lens_x * camera->inv_focus_distance;
+    upwards -= sample.lens_y * camera->inv_focus_distance;
+  }
+  const Vec3 start = broadcast_vec(HAS_ORTHOGRAPHIC ? camera->position : camera->forward);
+  const Vec3 across =
+      vec_along(vec_along(start, leftwards, broadcast_vec(camera->left)), upwards, broadcast_vec(camera->up));
   Ray ray;
-  ray.origin = broadcast_vec(camera->position);
-  ray.direction =
-      vec_normalize(vec_along(vec_along(broadcast_vec(camera->forward), 1.0f - 2.0f * x, broadcast_vec(camera->left)),
-                              1.0f - 2.0f * y, broadcast_vec(camera->up)));
+  ray.origin = HAS_ORTHOGRAPHIC ? across : lens_position(scene, sample);
+  ray.direction = HAS_ORTHOGRAPHIC ? broadcast_vec(camera->forward) : vec_normalize(across);
   return ray;
 }
 
-// The density of camera_ray over the whole film, per solid angle at the eye: 1 / (film area x cos^3).
+// The density of camera_ray over the whole film, per solid angle at the eye: 1 / (film area x cos^3), `cosine` being of
+// the angle to the camera's axis. Of parallel rays: per area across them.
 static inline Real film_density(const Scene* scene, Real cosine) {
+  if (HAS_ORTHOGRAPHIC) return (Real)(1.0f / scene->camera->film_area);
   return 1.0f / (scene->camera->film_area * cosine * cosine * cosine);
 }
 
-// How the camera sees the direction `from_eye` (unit).
+// How the camera sees a direction or a point.
 typedef struct {
   Mask seen;    // in front of the camera and on the film
-  Int pixel;    // which pixel it is in
+  Int pixel;    // which pixel it adds to
   Real density; // film_density there
+  Real share;   // of the filter, by which what it adds is multiplied
 } FilmPoint;
 
-static inline FilmPoint camera_sees(const Scene* scene, Vec3 from_eye) {
+// The filter's density at a distance from its centre, in pixels, over the probability that camera_sample offsets by so
+// much or up to half a pixel less or more; for one axis.
+static inline Real filter_ratio(const Scene* scene, Real distance) {
+  const float size = scene->camera->filter_size;
+  const Real near = distance - 0.5f, far = distance + 0.5f;
+  if (HAS_TENT_FILTER) { // beyond x: (1 - x / size)^2 / 2 for x > 0
+    const Real inside = larger(1.0f - fabs(near) / size, (Real)(0.0f));
+    const Real outside = larger(1.0f - far / size, (Real)(0.0f));
+    const Real beyond_near = near < 0.0f ? 1.0f - 0.5f * inside * inside : 0.5f * inside * inside;
+    const Real height = larger(1.0f - distance / size, (Real)(0.0f)) / size;
+    return height > 0.0f ? height / (beyond_near - 0.5f * outside * outside) : (Real)(0.0f);
+  }
+  const Real unit = (Real)(0.70710678f / size);
+  const Real height = 0.39894228f / size * exp(-0.5f * distance * distance / (size * size));
+  return height > 0.0f ? 2.0f * height / (erfc(near * unit) - erfc(far * unit)) : (Real)(0.0f);
+}
+
+// Moves a place on the film, in pixels, by an offset that the filter samples. Returns the weight of the pixel that it is
+// then in: the filter's density at that pixel's centre over the pixel's probability.
+static inline Real filter_splat(const Scene* scene, CameraSample sample, Real* x, Real* y) {
+  const Real from_x = *x, from_y = *y;
+  *x += sample.x - 0.5f;
+  *y += sample.y - 0.5f;
+  return filter_ratio(scene, fabs(floor(*x) + 0.5f - from_x)) * filter_ratio(scene, fabs(floor(*y) + 0.5f - from_y));
+}
+
+// The pixel of the point (x, y) of the film, [0, 1]^2, y downwards.
+static inline FilmPoint film_point(const Scene* scene, Real x, Real y, CameraSample sample, Mask in_front,
+                                   Real density) {
   const __global CameraRecord* camera = scene->camera;
   const float width = (float)camera->width, height = (float)camera->height;
-  const Vec3 left = broadcast_vec(camera->left), up = broadcast_vec(camera->up);
-  const Real cosine = vec_dot(from_eye, broadcast_vec(camera->forward));
-  const Real x = 0.5f - 0.5f * vec_dot(from_eye, left) / (cosine * vec_dot(left, left)) - camera->principal_x;
-  const Real y = 0.5f - 0.5f * vec_dot(from_eye, up) / (cosine * vec_dot(up, up)) - camera->principal_y;
-  // Floor, not a cast: a cast would draw in light from beyond the left and upper borders.
-  const Real column = floor(x * width), row = floor(y * height);
+  Real across = x * width, down = y * height;
   FilmPoint point;
-  point.seen = (cosine > 0.0f) & (column >= 0.0f) & (column < width) & (row >= 0.0f) & (row < height);
+  point.share = HAS_FILTER ? filter_splat(scene, sample, &across, &down) : (Real)(1.0f);
+  // Floor, not a cast: a cast would draw in light from beyond the left and upper borders.
+  const Real column = floor(across), row = floor(down);
+  point.seen = in_front & (column >= 0.0f) & (column < width) & (row >= 0.0f) & (row < height);
   const Int first = (Int)(0);
   point.pixel = (point.seen ? to_int(row) : first) * camera->width + (point.seen ? to_int(column) : first);
-  point.density = film_density(scene, cosine);
+  point.density = density;
   return point;
+}
+
+// How a pinhole or a point of the lens sees the direction `from_eye` (unit).
+static inline FilmPoint camera_sees(const Scene* scene, Vec3 from_eye, CameraSample sample) {
+  const __global CameraRecord* camera = scene->camera;
+  const Vec3 left = broadcast_vec(camera->left), up = broadcast_vec(camera->up);
+  const Real cosine = vec_dot(from_eye, broadcast_vec(camera->forward));
+  Real x = 0.5f - 0.5f * vec_dot(from_eye, left) / (cosine * vec_dot(left, left)) - camera->principal_x;
+  Real y = 0.5f - 0.5f * vec_dot(from_eye, up) / (cosine * vec_dot(up, up)) - camera->principal_y;
+  if (HAS_LENS) {
+    x -= 0.5f * camera->inv_focus_distance * sample.lens_x;
+    y -= 0.5f * camera->inv_focus_distance * sample.lens_y;
+  }
+  return film_point(scene, x, y, sample, cosine > 0.0f, film_density(scene, cosine));
+}
+
+// How the camera sees a position: from where, in which direction, and where on the film.
+typedef struct {
+  Vec3 eye, from_camera;
+  Real distance2; // by which the film's density per solid angle becomes one per area; of parallel rays 1
+  FilmPoint film;
+} View;
+
+static inline View parallel_view(const Scene* scene, Vec3 position, CameraSample sample) {
+  const __global CameraRecord* camera = scene->camera;
+  const Vec3 left = broadcast_vec(camera->left), up = broadcast_vec(camera->up);
+  const Vec3 to_position = vec_sub(position, broadcast_vec(camera->position));
+  View view;
+  view.from_camera = broadcast_vec(camera->forward);
+  const Real depth = vec_dot(to_position, view.from_camera);
+  view.eye = vec_along(position, -depth, view.from_camera);
+  view.distance2 = (Real)(1.0f);
+  const Real x = 0.5f - 0.5f * vec_dot(to_position, left) / vec_dot(left, left) - camera->principal_x;
+  const Real y = 0.5f - 0.5f * vec_dot(to_position, up) / vec_dot(up, up) - camera->principal_y;
+  view.film = film_point(scene, x, y, sample, depth > 0.0f, film_density(scene, (Real)(1.0f)));
+  return view;
+}
+
+static inline View view_of(const Scene* scene, Vec3 position, CameraSample sample) {
+  if (HAS_ORTHOGRAPHIC) return parallel_view(scene, position, sample);
+  View view;
+  view.eye = lens_position(scene, sample);
+  const Vec3 to_position = vec_sub(position, view.eye);
+  view.distance2 = vec_dot(to_position, to_position);
+  view.from_camera = vec_scale(1.0f / sqrt(view.distance2), to_position);
+  view.film = camera_sees(scene, view.from_camera, sample);
+  return view;
 }
 
 static inline FilmPoint select_film(Mask m, FilmPoint yes, FilmPoint no) {
@@ -58,6 +191,7 @@ static inline FilmPoint select_film(Mask m, FilmPoint yes, FilmPoint no) {
   point.seen = (m & yes.seen) | ((!m) & no.seen);
   point.pixel = m ? yes.pixel : no.pixel;
   point.density = m ? yes.density : no.density;
+  point.share = m ? yes.share : no.share;
   return point;
 }
 

@@ -1,6 +1,6 @@
 // Emission: the first edge of a light path. Its density, the choice of the light included, is the light's
 // emission_density (per projected solid angle where the light has a surface), so that the edge carries the emitted
-// radiance over that density.
+// radiance over that density. An environment map's density of the direction comes on top.
 #ifndef PHLUX_EMISSION_CL
 #define PHLUX_EMISSION_CL
 
@@ -9,11 +9,12 @@
 typedef struct {
   Ray ray;       // from the light
   Vec3 radiance; // emitted along it: radiance, intensity or irradiance
-  Real density;  // emission_density
+  Real density;
   SurfacePosition origin; // of lights with a surface
   Int light;
   Mask surface; // the light has one
-  Mask sky;     // the light is constant: a point at infinity
+  Mask sky;     // the light is a point at infinity of the sky
+  Real sky_density; // of the direction to it, per solid angle
 } Emission;
 
 // Emits from a point of a surface in the direction `upward` of its frame.
@@ -49,6 +50,7 @@ static inline Emission emission_sample(const Scene* scene, RandomWords choice, R
   e.surface = e.sky = NO_LANES;
   e.origin.position = e.origin.normal = e.ray.origin = e.ray.direction = vec_all((Real)(0.0f));
   e.origin.error = (Real)(0.0f);
+  e.sky_density = (Real)(0.25f * INV_PI);
   const Int kind = light_kind(scene, e.light);
   const Real u1 = uniform_real(choice.z), u2 = uniform_real(choice.w);
   const Real v1 = uniform_real(aim.x), v2 = uniform_real(aim.y);
@@ -70,11 +72,11 @@ static inline Emission emission_sample(const Scene* scene, RandomWords choice, R
     if (HAS_SPOT_LIGHTS) {
       const Mask spot = LIGHT_IS(kind, LIGHT_SPOT);
       const Real cap = (0.5f * INV_PI) * light_probability(scene, e.light) / e.density; // 1 - cos(cutoff)
-      const Real drop = v1 * cap;
+      const Real drop = v1 * cap; // 2 sin^2 of half the angle to the axis
       const Real sine = sqrt(drop * (2.0f - drop));
       const Frame about_axis = frame_about(LIGHT_VEC3(scene, e.light, direction));
       direction = vec_select(spot, from_frame(about_axis, polar_direction(sine, 1.0f - drop, v2)), direction);
-      const Real falloff = spot ? spot_falloff(scene, e.light, 1.0f - drop) : (Real)(1.0f);
+      const Real falloff = spot ? spot_falloff(scene, e.light, 2.0f * asin(sqrt(0.5f * drop))) : (Real)(1.0f);
       e.radiance = vec_scale(falloff, e.radiance);
     }
     e.ray.origin = vec_select(m, LIGHT_VEC3(scene, e.light, position), e.ray.origin);
@@ -82,9 +84,22 @@ static inline Emission emission_sample(const Scene* scene, RandomWords choice, R
   }
   if (HAS_DIRECTIONAL_LIGHTS)
     emit_from_infinity(scene, &e, LIGHT_VEC3(scene, e.light, direction), u1, u2, LIGHT_IS(kind, LIGHT_DIRECTIONAL));
-  if (HAS_CONSTANT_LIGHT) {
-    e.sky = LIGHT_IS(kind, LIGHT_CONSTANT);
-    emit_from_infinity(scene, &e, sphere_direction(v1, v2), u1, u2, e.sky);
+  if (HAS_SKY) {
+    e.sky = is_sky(kind);
+    Vec3 direction;
+    if (HAS_ENVIRONMENT_MAP) {
+      const Vec3 to_sky = sample_environment(scene, aim);
+      const Environment sky = environment_towards(scene, to_sky);
+      direction = vec_scale((Real)(-1.0f), to_sky);
+      e.sky_density = sky.density;
+      e.density = emission_density(scene, e.light, sky.density);
+      // Black where the density is 0 by rounding: a weight of 0 / 0 would not be finite.
+      const Vec3 radiance = vec_select(sky.density > 0.0f, sky.radiance, vec_all((Real)(0.0f)));
+      e.radiance = vec_select(e.sky, radiance, e.radiance);
+    } else {
+      direction = sphere_direction(v1, v2);
+    }
+    emit_from_infinity(scene, &e, direction, u1, u2, e.sky);
   }
   return e;
 }

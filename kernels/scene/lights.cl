@@ -6,6 +6,7 @@
 
 #include "math/constants.h"
 #include "math/directions.h"
+#include "scene/environment.cl"
 #include "scene/light_tree.cl"
 #include "math/random.h"
 #include "scene/surface.cl"
@@ -33,6 +34,9 @@ static inline Mask is_hittable(Int kind) {
 }
 static inline Mask is_pointlike(Int kind) { return LIGHT_IS(kind, LIGHT_POINT) | LIGHT_IS(kind, LIGHT_SPOT); }
 
+// Lanes whose light is the sky.
+static inline Mask is_sky(Int kind) { return LIGHT_IS(kind, LIGHT_SKY); }
+
 // The probability of choose_light.
 static inline Real light_probability(const Scene* scene, Int light) {
   return HAS_LIGHT_CHOICE ? LIGHT_REAL(scene, light, probability) : (Real)(1.0f);
@@ -55,6 +59,16 @@ static inline Int choose_light_for(const Scene* scene, Vec3 lit, Vec3 normal, Ui
   if (!HAS_LIGHT_TREE) return light;
   const Mask by_tree = uniform_real(further_word(word, other_word, (Uint)(1u))) >= POWER_SHARE;
   return choose_from_tree(scene, lit, normal, word, other_word, by_tree & (LIGHT_INT(scene, light, node) >= 0), light);
+}
+
+// The normal with which a light is chosen for a point: the one that decides which lights can shine on it.
+static inline Vec3 lit_normal(SurfacePoint point) { return SIDES_BY_SHADING ? point.frame.z : point.normal; }
+
+// The density of emission (emission.cl); of an environment map, in a direction that it samples with density `sky`.
+static inline Real emission_density(const Scene* scene, Int light, Real sky) {
+  const Real density = LIGHT_REAL(scene, light, emission_density);
+  if (!HAS_ENVIRONMENT_MAP) return density;
+  return is_sky(light_kind(scene, light)) ? density * sky : density;
 }
 
 // ---- Points of lights
@@ -112,9 +126,8 @@ static inline SurfacePosition sphere_light_point(SphereShape sphere, Vec3 unit, 
   return point;
 }
 
-// The fraction of its intensity that a spot light sends at an angle of this cosine to its axis.
-static inline Real spot_falloff(const Scene* scene, Int light, Real cosine) {
-  const Real angle = acos(clamp(cosine, (Real)(-1.0f), (Real)(1.0f)));
+// The fraction of its intensity that a spot light sends at this angle to its axis.
+static inline Real spot_falloff(const Scene* scene, Int light, Real angle) {
   return clamp((LIGHT_REAL(scene, light, cutoff) - angle) * LIGHT_REAL(scene, light, inv_transition), (Real)(0.0f),
                (Real)(1.0f));
 }
@@ -211,8 +224,8 @@ static inline void sample_point_light(const Scene* scene, LightSample* s, Surfac
   const Ray ray = ray_to_point(lit, LIGHT_VEC3(scene, s->light, position), &distance);
   const Real density = distance * distance * s->choice;
   if (HAS_SPOT_LIGHTS) {
-    const Real cosine = -vec_dot(LIGHT_VEC3(scene, s->light, direction), ray.direction);
-    const Real falloff = kind == LIGHT_SPOT ? spot_falloff(scene, s->light, cosine) : (Real)(1.0f);
+    const Real angle = vec_angle(LIGHT_VEC3(scene, s->light, direction), vec_scale((Real)(-1.0f), ray.direction));
+    const Real falloff = kind == LIGHT_SPOT ? spot_falloff(scene, s->light, angle) : (Real)(1.0f);
     s->radiance = vec_select(m, vec_scale(falloff, s->radiance), s->radiance);
   }
   s->ray.origin = vec_select(m, ray.origin, s->ray.origin);
@@ -231,12 +244,30 @@ static inline void aim_to_infinity(LightSample* s, SurfacePosition lit, Vec3 dir
   s->valid = s->valid | m;
 }
 
-// Chooses a light for each point and a direction towards it. All lanes.
-static inline LightSample light_sample(const Scene* scene, SurfacePoint point, RandomWords words) {
+// A direction to the sky: by the cosine to the shading normal if it is constant, else by the map.
+static inline void sample_sky(const Scene* scene, LightSample* s, SurfacePoint point, Mask m, Real u1, Real u2,
+                              RandomDraws random) {
   const SurfacePosition lit = surface_position(point);
+  if (HAS_ENVIRONMENT_MAP) {
+    if (!any_lane(m)) return;
+    const Vec3 direction = sample_environment(scene, draw_again(random, 1));
+    const Environment sky = environment_towards(scene, direction);
+    aim_to_infinity(s, lit, direction, s->choice * sky.density, m & (sky.density > 0.0f));
+    s->radiance = vec_select(m, sky.radiance, s->radiance);
+  } else {
+    const Vec3 upward = cosine_direction(u1, u2);
+    aim_to_infinity(s, lit, from_frame(point.frame, upward), s->choice * upward.z * INV_PI, m);
+  }
+  s->hittable = s->hittable | m;
+}
+
+// Chooses a light for each point and a direction towards it. All lanes.
+static inline LightSample light_sample(const Scene* scene, SurfacePoint point, RandomDraws random) {
+  const SurfacePosition lit = surface_position(point);
+  const RandomWords words = random.words;
   LightSample s;
-  s.light = choose_light_for(scene, lit.position, lit.normal, words.x, words.y);
-  s.choice = probability_for(scene, lit.position, lit.normal, s.light, ALL_LANES);
+  s.light = choose_light_for(scene, lit.position, lit_normal(point), words.x, words.y);
+  s.choice = probability_for(scene, lit.position, lit_normal(point), s.light, ALL_LANES);
   s.ray.origin = lit.position;
   s.ray.direction = lit.normal;
   s.distance = (Real)(0.0f);
@@ -253,12 +284,7 @@ static inline LightSample light_sample(const Scene* scene, SurfacePoint point, R
     const Vec3 to_light = vec_scale((Real)(-1.0f), LIGHT_VEC3(scene, s.light, direction));
     aim_to_infinity(&s, lit, to_light, s.choice, LIGHT_IS(kind, LIGHT_DIRECTIONAL));
   }
-  if (HAS_CONSTANT_LIGHT) {
-    const Mask m = LIGHT_IS(kind, LIGHT_CONSTANT);
-    const Vec3 upward = cosine_direction(u1, u2);
-    aim_to_infinity(&s, lit, from_frame(point.frame, upward), s.choice * upward.z * INV_PI, m);
-    s.hittable = s.hittable | m;
-  }
+  if (HAS_SKY) sample_sky(scene, &s, point, is_sky(kind), u1, u2, random);
   return s;
 }
 

@@ -8,12 +8,20 @@
 #define HAS_PLANARS (HAS_TRIANGLES | HAS_PARALLELOGRAMS | HAS_ELLIPSES)
 #define HAS_MIXED_REGIONS (HAS_TRIANGLES + HAS_PARALLELOGRAMS + HAS_ELLIPSES > 1)
 
+// Mitsuba's strictNormals is false: an interpolated normal alone decides on which side of a surface a direction lies.
+#define SIDES_BY_SHADING (HAS_SMOOTH_NORMALS & !HAS_STRICT_NORMALS)
+// Directions that count may lie on either side of the geometric normal.
+#define HAS_SIGNED_COSINES SIDES_BY_SHADING
+
+#define HAS_BITMAPS (HAS_BYTE_TEXTURES | HAS_FLOAT_TEXTURES)
+#define HAS_TEXTURES (HAS_CHECKERBOARDS | HAS_BITMAPS)
+
 #define HAS_AREA_LIGHTS (HAS_PLANAR_LIGHTS | HAS_SPHERE_LIGHTS)
-#define HAS_HITTABLE_LIGHTS (HAS_AREA_LIGHTS | HAS_CONSTANT_LIGHT) // a ray can find them
+#define HAS_SKY (HAS_CONSTANT_LIGHT | HAS_ENVIRONMENT_MAP)
+#define HAS_HITTABLE_LIGHTS (HAS_AREA_LIGHTS | HAS_SKY) // a ray can find them
 #define HAS_POINTLIKE_LIGHTS (HAS_POINT_LIGHTS | HAS_SPOT_LIGHTS)
 #define LIGHT_KINDS                                                                                                    \
-  (HAS_PLANAR_LIGHTS + HAS_SPHERE_LIGHTS + HAS_POINT_LIGHTS + HAS_SPOT_LIGHTS + HAS_DIRECTIONAL_LIGHTS +               \
-   HAS_CONSTANT_LIGHT)
+  (HAS_PLANAR_LIGHTS + HAS_SPHERE_LIGHTS + HAS_POINT_LIGHTS + HAS_SPOT_LIGHTS + HAS_DIRECTIONAL_LIGHTS + HAS_SKY)
 
 // A table with few entries is kept in registers where the device can permute them (lanes/memory.h).
 #define MATERIALS_IN_REGISTERS (LANES_PERMUTE & FEW_MATERIALS)

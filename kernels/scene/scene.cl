@@ -20,9 +20,15 @@ typedef struct {
   int root;
   const __global LightNodeRecord* light_nodes;
   float light_tree_probability; // with which choose_light gives one of the tree's lights
+  const __global EnvironmentRecord* environment;
+  const __global EnvironmentTexel* environment_texels; // row by row
   const __global float* lobe_tables; // of the reflectance models
   const __global int* corners;          // three per flat primitive: indices into vertex_normals, -1: flat
   const __global float* vertex_normals; // three floats each
+  const __global int* texture_numbers;    // like `materials`: 1 + a colour's texture at its first word, else 0
+  const __global TextureRecord* textures;
+  const __global float* texels; // values of bytes, and texels
+  const __global float* uv_maps; // UV_FLOATS per primitive
   // Copies of tables with few entries, member by member.
   float material_members[MATERIAL_WORDS][LANES];
   float light_members[sizeof(LightRecord) / 4][LANES];
@@ -45,6 +51,14 @@ typedef struct {
                          : GATHER_INT((scene)->lights, index, member))
 #define LIGHT_VEC3(scene, index, member)                                                                               \
   vec3(LIGHT_REAL(scene, index, member[0]), LIGHT_REAL(scene, index, member[1]), LIGHT_REAL(scene, index, member[2]))
+
+// The row of entry `index` of a table that is stored row by row. The quotient of floats is off by one at most for fewer
+// than 2^22 rows, and put right.
+static inline Int row_of(Int index, int width) {
+  const Int row = to_int(to_real(index) / (float)width);
+  const Int column = index - row * width;
+  return column < 0 ? row - 1 : (column >= width ? row + 1 : row);
+}
 
 // Word `word` of a material's record, in every lane.
 static inline Real material_real(const Scene* scene, Int index, int word) {
@@ -73,8 +87,11 @@ static inline void keep_small_tables(Scene* scene) {
       const __global float *materials, const __global LightRecord *lights, int light_count,                   \
       const __global Scalar *planars, int triangle_end, int parallelogram_end, int ellipse_end,                        \
       const __global Scalar *spheres, int first_sphere, int sphere_count, const __global float *nodes, int root,       \
-      const __global LightNodeRecord *light_nodes, float light_tree_probability, const __global float *lobe_tables,   \
-      const __global int *corners, const __global float *vertex_normals
+      const __global LightNodeRecord *light_nodes, float light_tree_probability,                                       \
+      const __global EnvironmentRecord *environment, const __global EnvironmentTexel *environment_texels,              \
+      const __global float *lobe_tables, const __global int *corners, const __global float *vertex_normals,            \
+      const __global int *texture_numbers, const __global TextureRecord *textures, const __global float *texels,       \
+      const __global float *uv_maps
 #define SCENE_FROM_PARAMETERS                                                                                          \
   Scene scene;                                                                                                         \
   scene.camera = camera;                                                                                               \
@@ -93,9 +110,15 @@ static inline void keep_small_tables(Scene* scene) {
   scene.root = root;                                                                                                   \
   scene.light_nodes = light_nodes;                                                                                     \
   scene.light_tree_probability = light_tree_probability;                                                               \
+  scene.environment = environment;                                                                                     \
+  scene.environment_texels = environment_texels;                                                                       \
   scene.lobe_tables = lobe_tables;                                                                                   \
   scene.corners = corners;                                                                                             \
   scene.vertex_normals = vertex_normals;                                                                               \
+  scene.texture_numbers = texture_numbers;                                                                             \
+  scene.textures = textures;                                                                                           \
+  scene.texels = texels;                                                                                               \
+  scene.uv_maps = uv_maps;                                                                                             \
   keep_small_tables(&scene);
 
 #endif

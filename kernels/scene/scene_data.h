@@ -39,7 +39,27 @@ typedef struct {
 // MATERIAL_WORDS, the length of the longest record of the scene.
 enum MaterialHeader { MATERIAL_MODEL = 0, MATERIAL_FLAGS = 1, MATERIAL_HEADER = 2 };
 // Sides that reflect anything; neither if the material is black.
-enum MaterialFlags { MATERIAL_FRONT = 1, MATERIAL_BACK = 2 };
+enum MaterialFlags { MATERIAL_FRONT = 1, MATERIAL_BACK = 2, MATERIAL_TEXTURED = 4 };
+
+// A texture: a colour at (u, v) = to_uv (1, its surface's u and v).
+enum TextureKinds { TEXTURE_CHECKERBOARD = 0, TEXTURE_BYTES = 1, TEXTURE_FLOATS = 2 };
+enum TextureWraps { WRAP_REPEAT = 0, WRAP_MIRROR = 1, WRAP_CLAMP = 2 };
+typedef struct {
+  int kind;        // enum TextureKinds
+  float to_uv[6];  // u and v of the lookup: each the factors of the surface's u and v, and a summand
+  float colors[6]; // checkerboard: its two colours; bitmap: colors[0] is a factor of every texel
+  // Bitmaps: row 0 is at v = 0.
+  int width, height;
+  int wrap_u, wrap_v; // enum TextureWraps
+  int nearest;        // 1: no interpolation
+  int first_word;     // in the table of texels. Bytes: one word per texel, red in its lowest byte; floats: three
+  int decoding;       // bytes: the word where the linear values of the 256 bytes begin
+} TextureRecord;
+
+// What a primitive's texture coordinates and tangents follow from. Flat, with a and b along edge_u and edge_v:
+// origin + a per_u + b per_v (of ellipses its polar coordinates, radius and turns), and d position / d u (not of ellipses).
+// Spheres: the directions of the object's x, y and z axes.
+enum UvValues { UV_ORIGIN = 0, UV_PER_U = 2, UV_PER_V = 4, UV_TANGENT = 6, UV_AXES = 0, UV_FLOATS = 9 };
 
 enum LightKinds {
   LIGHT_PLANAR = 0,
@@ -47,7 +67,7 @@ enum LightKinds {
   LIGHT_POINT = 2,
   LIGHT_SPOT = 3,
   LIGHT_DIRECTIONAL = 4,
-  LIGHT_CONSTANT = 5
+  LIGHT_SKY = 5 // constant, or the environment map
 };
 
 // One light: an emitting primitive, or a light without a surface. Selected with the alias method (Walker 1974; Vose
@@ -55,14 +75,15 @@ enum LightKinds {
 typedef struct {
   int kind;       // enum LightKinds
   int primitive;  // planar, sphere: index of the primitive
-  float radiance[3]; // of area and constant lights; intensity of point and spot, irradiance of directional lights
-  float area;     // planar, sphere: m^2; directional, constant: of the disk across the scene
+  float radiance[3]; // of area lights and a constant sky, the largest of an environment map; intensity of point and
+                     // spot, irradiance of directional lights
+  float area;     // planar, sphere: m^2; directional, sky: of the disk across the scene
   float position[3];
   float direction[3];
   float cutoff, inv_transition; // spot: cutoff and 1 / (cutoff - beam width) in radians
   float probability;            // of being selected
   // Of a light path's first edge, the selection included: per area and projected solid angle (planar, sphere), per
-  // solid angle (point, spot), per area (directional), per both (constant).
+  // solid angle (point, spot), per area (directional, environment map), per both (constant sky).
   float emission_density;
   float alias_threshold;
   int alias;
@@ -79,13 +100,34 @@ typedef struct {
   int child; // the first of two; a leaf: ~light
 } LightNodeRecord;
 
-// The pinhole: the direction through film position (x, y) in [0, 1]^2, y downwards, is
-// forward + (1 - 2 (x + principal_x)) left + (1 - 2 (y + principal_y)) up, not normalised.
+// An environment map in its own frame (as Mitsuba's): the texel in column (phi / (2 pi)) width and row (theta / pi) height
+// lies towards sin(theta) sin(phi) x + cos(theta) y - sin(theta) cos(phi) z.
+typedef struct {
+  float x[3], y[3], z[3]; // its axes in the world, orthonormal
+  float density;          // per solid angle and sum of the channels, of a sampled direction
+  float cap;              // 1 - cos(theta) at the centre of the first row
+  float cap_share;        // of the samples of a texel at a pole, those that are beyond its centre
+  int width, height;
+} EnvironmentRecord;
+
+// A texel, and the cell of the alias method with its index: texel i with probability threshold / 2^32, else `alias`.
+typedef struct {
+  float radiance[3];
+  unsigned int threshold;
+  int alias;
+} EnvironmentTexel;
+
+// The camera. The direction through film position (x, y) in [0, 1]^2, y downwards, is
+// forward + (1 - 2 (x + principal_x)) left + (1 - 2 (y + principal_y)) up, not normalised; HAS_ORTHOGRAPHIC: rays along
+// forward start at position + (1 - 2 (x + principal_x)) left + (1 - 2 (y + principal_y)) up.
 typedef struct {
   float position[3];
-  float forward[3], left[3], up[3]; // left and up carry the tangents of half the fields of view
+  float forward[3], left[3], up[3]; // left and up carry the tangents of half the fields of view, or half the film
   float principal_x, principal_y;
   float film_area; // of the whole film on the plane at distance 1
+  float lens[2];   // HAS_LENS: its radius in lengths of left and up
+  float inv_focus_distance;
+  float filter_size; // pixels: radius of the tent, standard deviation of the Gaussian
   int width, height;
 } CameraRecord;
 
@@ -98,9 +140,14 @@ enum SumWords { SUM_RADIANCE = 0, SUM_SQUARES = 3, SUM_NONFINITE = 6, SUM_CLAMPE
 // weight.
 enum RecordWords { RECORD_PIXEL = 0, RECORD_PATH, RECORD_VALUE, RECORD_WEIGHT = 5, RECORD_TECHNIQUE };
 
-// Words of a stored vertex (transport/vertex_store.cl): of a scene without interpolated normals and tangents, and what
-// each of these adds.
-enum VertexWords { VERTEX_WORDS_PLAIN = 16, VERTEX_WORDS_OF_NORMAL = 3, VERTEX_WORDS_OF_TANGENT = 3 };
+// Words of a stored vertex (transport/vertex_store.cl): of a scene without interpolated normals, tangents and textures,
+// and what each of these adds.
+enum VertexWords {
+  VERTEX_WORDS_PLAIN = 16,
+  VERTEX_WORDS_OF_NORMAL = 3,
+  VERTEX_WORDS_OF_TANGENT = 3,
+  VERTEX_WORDS_OF_UV = 2
+};
 
 // What a batch of bidirectional paths needs for each path besides vertices: where the two subpaths' are, and radiance.
 enum { SCRATCH_WORDS_PER_PATH = 8 };

@@ -6,14 +6,17 @@
 #include "scene/intersect.cl"
 #include "scene/scene.cl"
 #include "scene/traverse.cl"
+#include "scene/uv.cl"
 
 typedef struct {
   Vec3 position; // on the primitive, to a few ulp
   Vec3 normal;   // geometric, unit, on the side that the ray came from
-  Frame frame;   // shading frame on that side; its z is the interpolated normal where the mesh has normals
+  Frame frame;   // shading frame on the side that the ray came from by its z: the interpolated normal where the mesh has normals
   Real error;    // bounds the rounding error of `position` and of a ray's intersection near it
   Mask front;    // that side is the front
+  Mask shaded_front; // the ray came from the front by the shading normal
   Int material, light;
+  TextureCoordinates uv; // HAS_TEXTURES, where the material has some
 } SurfacePoint;
 
 // The rounding error of a position, and of the intersection test that could find the same surface again, is a few half
@@ -68,6 +71,7 @@ static inline Vec3 interpolated_normal(const Scene* scene, Int primitive, Real u
 // What a primitive says of the point `seen` on it; normals are on its front.
 typedef struct {
   Vec3 position, normal, shading_normal, tangent;
+  Vec3 place; // flat: along edge_u and edge_v from the origin; sphere: the direction from the centre
   Real error;
 } PrimitivePoint;
 
@@ -78,13 +82,14 @@ static inline PrimitivePoint planar_point(const Scene* scene, Int primitive, Vec
   const Vec3 from_origin = vec_sub(seen, gather_planar(scene, words, PLANAR_ORIGIN));
   p.position = vec_along(seen, -vec_dot(p.normal, from_origin), p.normal);
   p.error = ERROR_UNITS * (vec_largest(p.position) + vec_largest(from_origin));
-  p.shading_normal = p.normal;
-  if (HAS_SMOOTH_NORMALS) {
-    const Real u = vec_dot(p.normal, vec_cross(from_origin, gather_planar(scene, words, PLANAR_EDGE_V)));
-    const Real v = vec_dot(p.normal, vec_cross(from_origin, gather_planar(scene, words, PLANAR_MINUS_U)));
-    p.shading_normal = interpolated_normal(scene, primitive, u, v, p.normal);
+  p.shading_normal = p.place = p.normal;
+  if (HAS_SMOOTH_NORMALS | HAS_TEXTURES) {
+    p.place.x = vec_dot(p.normal, vec_cross(from_origin, gather_planar(scene, words, PLANAR_EDGE_V)));
+    p.place.y = vec_dot(p.normal, vec_cross(from_origin, gather_planar(scene, words, PLANAR_MINUS_U)));
   }
-  p.tangent = HAS_TANGENTS ? vec_scale((Real)(-1.0f), gather_planar(scene, words, PLANAR_MINUS_U)) : p.normal;
+  if (HAS_SMOOTH_NORMALS)
+    p.shading_normal = interpolated_normal(scene, primitive, p.place.x, p.place.y, p.normal);
+  p.tangent = HAS_TANGENTS ? flat_tangent(scene, primitive, from_origin) : p.normal;
   return p;
 }
 
@@ -97,7 +102,8 @@ static inline PrimitivePoint sphere_point(const Scene* scene, Int primitive, Vec
   p.shading_normal = p.normal;
   p.position = vec_along(sphere.center, sphere.radius, unit);
   p.error = ERROR_UNITS * (vec_largest(sphere.center) + sphere.radius);
-  p.tangent = vec3(-unit.y, unit.x, (Real)(0.0f)); // d position / d phi about the z axis
+  p.place = unit;
+  p.tangent = HAS_TANGENTS ? sphere_tangent(scene, primitive, unit) : unit;
   return p;
 }
 
@@ -112,8 +118,24 @@ static inline PrimitivePoint primitive_point(const Scene* scene, Int primitive, 
   p.normal = vec_select(is_sphere, round.normal, flat.normal);
   p.shading_normal = vec_select(is_sphere, round.shading_normal, flat.shading_normal);
   p.tangent = vec_select(is_sphere, round.tangent, flat.tangent);
+  p.place = vec_select(is_sphere, round.place, flat.place);
   p.error = is_sphere ? round.error : flat.error;
   return p;
+}
+
+// Texture coordinates of a point whose place on its primitive is known, in the lanes of m.
+static inline TextureCoordinates texture_coordinates(const Scene* scene, Int primitive, Vec3 place, Mask m) {
+  TextureCoordinates at;
+  at.u = at.v = (Real)(0.0f);
+  if (!any_lane(m)) return at;
+  const Mask round = m & (primitive >= scene->first_sphere);
+  if (HAS_PLANARS) at = flat_uv(scene, primitive, place.x, place.y);
+  if (HAS_SPHERES && any_lane(round)) {
+    const TextureCoordinates on_sphere = sphere_uv(scene, primitive, place);
+    at.u = round ? on_sphere.u : at.u;
+    at.v = round ? on_sphere.v : at.v;
+  }
+  return at;
 }
 
 // The point that `hit` found along `ray`; lanes without a hit hold a valid but meaningless point.
@@ -125,10 +147,16 @@ static inline SurfacePoint surface_point(const Scene* scene, Ray ray, Hit hit) {
   s.error = p.error;
   s.front = vec_dot(p.normal, ray.direction) < 0.0f;
   s.normal = vec_select(s.front, p.normal, vec_scale((Real)(-1.0f), p.normal));
-  const Vec3 shading = vec_select(s.front, p.shading_normal, vec_scale((Real)(-1.0f), p.shading_normal));
+  s.shaded_front = SIDES_BY_SHADING ? (Mask)(vec_dot(p.shading_normal, ray.direction) < 0.0f) : s.front;
+  const Vec3 shading = vec_select(s.shaded_front, p.shading_normal, vec_scale((Real)(-1.0f), p.shading_normal));
   s.frame = HAS_TANGENTS ? frame_along(shading, p.tangent) : frame_about(shading);
   s.material = PRIMITIVE_INT(scene, primitive, material);
   s.light = PRIMITIVE_INT(scene, primitive, light);
+  s.uv.u = s.uv.v = (Real)(0.0f);
+  if (HAS_TEXTURES) {
+    const Mask textured = (material_int(scene, s.material, MATERIAL_FLAGS) & MATERIAL_TEXTURED) != 0;
+    s.uv = texture_coordinates(scene, primitive, p.place, textured);
+  }
   return s;
 }
 
@@ -162,11 +190,13 @@ static inline Ray ray_to_point(SurfacePosition from, Vec3 to, Real* distance) {
   return ray;
 }
 
-// The same to a point of a surface whose normal faces the start: it ends short by what the surface's crossing may be
-// wrong as seen from there.
+// The same to a point of a surface, whose normal faces the start unless HAS_SIGNED_COSINES: it ends short by what the
+// surface's crossing may be wrong as seen from there.
 static inline Ray ray_between(SurfacePosition from, SurfacePosition to, Real* distance) {
   const Real reach = vec_largest(vec_sub(to.position, from.position));
-  return ray_to_point(from, vec_along(to.position, to.error + ERROR_UNITS * reach, to.normal), distance);
+  Real short_by = to.error + ERROR_UNITS * reach;
+  if (HAS_SIGNED_COSINES) short_by = times_sign(short_by, vec_dot(to.normal, vec_sub(from.position, to.position)));
+  return ray_to_point(from, vec_along(to.position, short_by, to.normal), distance);
 }
 
 #endif

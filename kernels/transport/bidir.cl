@@ -26,7 +26,7 @@ static inline Contribution found_by(const Subpath* s, FoundLight light, int ligh
 // vertices.
 static inline int trace_eye_subpaths(WorkItem* work, Batch batch) {
   const Scene* scene = work->scene;
-  Subpath s = no_subpath(work->seed), next = no_subpath(work->seed);
+  Subpath s = no_subpath(work->seed, work->sets), next = s;
   WaitingSubpaths waiting;
   waiting.count = 0;
   StoredSubpath stored = nothing_stored();
@@ -48,15 +48,15 @@ static inline int trace_eye_subpaths(WorkItem* work, Batch batch) {
     const Arrival arrival = next_vertex(scene, &s, work->limits, tracing);
     work->rays += (uint)count_lanes(tracing);
     const Mask leaves_scene = tracing & !arrival.hits;
-    if (HAS_CONSTANT_LIGHT && any_lane(leaves_scene)) {
+    if (HAS_SKY && any_lane(leaves_scene)) {
       const FoundLight sky = hit_sky(scene, &s, work->sky_light, leaves_scene);
       add_contribution(&work->output, found_by(&s, sky, 0), sky.found);
     }
     const FoundLight hit = hit_light(scene, &s, arrival.vertex.point, arrival.distance, arrival.hits);
     if (any_lane(hit.found)) add_contribution(&work->output, found_by(&s, hit, 0), hit.found);
 
-    s.mis = mis_arrived(s.mis, arrival.distance * arrival.distance,
-                        -vec_dot(arrival.vertex.point.normal, s.ray.direction));
+    const Real length = edge_length(&s, arrival.distance);
+    s.mis = mis_arrived(s.mis, length * length, -vec_dot(arrival.vertex.point.normal, s.ray.direction));
     store_vertices(&work->eye, row, &s, arrival.vertex, &stored, starting, arrival.scattered);
     LightSample light;
     const FoundLight sampled = sample_light(scene, &s, arrival.vertex, &light, arrival.scattered);
@@ -106,6 +106,7 @@ static inline Mask take_pairs(const WorkItem* work, Batch* batch, Pair* pair, Ma
     if (!any_lane(starting)) break;
     RandomSequence sequence;
     sequence.seed = work->seed;
+    sequence.sets = work->sets;
     find_path(work->list, batch, pair->path, &sequence);
     pair->pixel = starting ? sequence.pixel : pair->pixel;
     if (CONNECTIONS > 0) {
@@ -158,8 +159,8 @@ static inline void connect(WorkItem* work, const Pair* pair, StoredVertex eye, S
       vec_mul(vec_mul(eye.throughput, at_eye.value), vec_mul(light.throughput, at_light.value));
   const Real geometry = to_light.z * adjoint_cosine(light.vertex, to_eye, light_cosine) / distance2;
   const Vec3 value = vec_scale(geometry / connection_probability(pair), reflected);
-  const Real light_side = connection_side(light.mis, at_eye.density, at_light.reverse, distance2, light_cosine);
-  const Real eye_side = connection_side(eye.mis, at_light.density, at_eye.reverse, distance2, eye_cosine);
+  const Real light_side = connection_side(light.mis, at_eye.density, at_light.reverse, distance2, size_of_cosine(light_cosine));
+  const Real eye_side = connection_side(eye.mis, at_light.density, at_eye.reverse, distance2, size_of_cosine(eye_cosine));
   add_if_unoccluded(work->scene, &work->queue, &work->output, ray, distance,
               to_own_pixel(pair->path, pair->pixel, value, weight_of_connection(light_side, eye_side),
                            TECHNIQUE(pair->light_index + 2, pair->eye_index + 2)),
@@ -202,7 +203,7 @@ static inline void divide_scratch(WorkItem* work, __global Scalar* scratch, int 
 }
 
 __kernel void trace_bidir(SCENE_PARAMETERS, int pixel_count, int first_pixel, int job_count, int first_sample,
-                          int block_samples, uint2 seed, int max_edges, int roulette_edges, __global uint* counters,
+                          int block_samples, uint2 seed, uint2 point_sets, int max_edges, int roulette_edges, __global uint* counters,
                           int batch_jobs, int record_words, int record_capacity, __global float* records,
                           __global int* record_counts, int sky_light, int rows, __global Scalar* scratch,
                           __global float* sums) {
@@ -210,11 +211,13 @@ __kernel void trace_bidir(SCENE_PARAMETERS, int pixel_count, int first_pixel, in
   WorkItem work;
   const JobList list = {pixel_count, first_pixel, job_count, first_sample, block_samples};
   const PathLimits limits = {max_edges, roulette_edges};
+  const PointSets sets = {point_sets.x, point_sets.y};
   work.scene = &scene;
   work.list = list;
   work.limits = limits;
   work.sky_light = sky_light;
   work.seed = seed;
+  work.sets = sets;
   work.rays = 0;
   empty_shadow_queue(&work.queue);
   divide_scratch(&work, scratch, rows, batch_jobs * block_samples);

@@ -9,8 +9,8 @@
 
 // Starts a subpath at the camera for its pixel and sample, in every lane.
 static inline void start_at_camera(const Scene* scene, Subpath* s) {
-  const RandomWords words = random_words(s->sequence, (Uint)(0), 0);
-  s->ray = camera_ray(scene, s->sequence.pixel, uniform_real(words.x), uniform_real(words.y));
+  const CameraSample sample = camera_sample(scene, random_words(s->sequence, (Uint)(0), 0));
+  s->ray = camera_ray(scene, s->sequence.pixel, sample);
   s->throughput = vec_all((Real)(1.0f));
   s->begin = (Real)(1.0f);
   s->edges = (Int)(0);
@@ -25,6 +25,13 @@ typedef struct {
   Real weight;
   Mask found;
 } FoundLight;
+
+// The length of an eye subpath's edge by which its density per solid angle becomes one per area: 1 for an edge from an
+// orthographic camera, whose density is per area across its parallel rays.
+static inline Real edge_length(const Subpath* s, Real distance) {
+  if (!HAS_ORTHOGRAPHIC) return distance;
+  return s->edges == 1 ? (Real)(1.0f) : distance;
+}
 
 // Lanes where a light sample at the vertex before could have found what the ray hits: there is such a vertex, and its
 // event was no delta event.
@@ -62,18 +69,27 @@ static inline FoundLight hit_light(const Scene* scene, const Subpath* s, Surface
   const Real choice = probability_for(scene, s->ray.origin, s->normal, light, emits & light_sample_possible(s));
   const Real light_sample = light_density(scene, s->ray.origin, light, choice, distance, cosine);
   found.value = vec_mul(s->throughput, LIGHT_VEC3(scene, light, radiance));
-  found.weight = weight_of_hit_light(s, light_sample, PI * emission * distance * distance / cosine, emission);
+  const Real length = edge_length(s, distance);
+  found.weight = weight_of_hit_light(s, light_sample, PI * emission * length * length / cosine, emission);
   found.found = hits_count(s, emits);
   return found;
 }
 
-// The constant light, for the subpaths of m whose rays left the scene.
+// The sky, for the subpaths of m whose rays left the scene.
 static inline FoundLight hit_sky(const Scene* scene, const Subpath* s, int sky_light, Mask m) {
   FoundLight found;
   const __global LightRecord* sky = scene->lights + sky_light;
-  found.value = vec_mul(s->throughput, broadcast_vec(sky->radiance));
-  found.weight = weight_of_hit_light(s, sky->probability * s->cosine_density,
-                                     (Real)(0.25f * INV_PI * sky->probability), (Real)(sky->emission_density));
+  Vec3 radiance = broadcast_vec(sky->radiance);
+  Real sampled = s->cosine_density, emitted = (Real)(0.25f * INV_PI), emission = (Real)(sky->emission_density);
+  if (HAS_ENVIRONMENT_MAP) {
+    const Environment here = environment_towards(scene, s->ray.direction);
+    radiance = here.radiance;
+    sampled = emitted = here.density;
+    emission *= here.density;
+  }
+  if (HAS_ORTHOGRAPHIC) emitted = (Real)(0.0f); // no emission has exactly the direction of the camera's rays
+  found.value = vec_mul(s->throughput, radiance);
+  found.weight = weight_of_hit_light(s, sky->probability * sampled, emitted * sky->probability, emission);
   found.found = hits_count(s, m);
   return found;
 }
@@ -82,7 +98,8 @@ static inline FoundLight hit_sky(const Scene* scene, const Subpath* s, int sky_l
 static inline Real weight_of_sampled_light(const Scene* scene, const Subpath* s, LightSample light, LobeValue lobe,
                                            Real cosine) {
   if (IS_BIDIR)
-    return weight_of_light_sample(s->mis, light.density, LIGHT_REAL(scene, light.light, emission_density), lobe.density,
+    return weight_of_light_sample(s->mis, light.density,
+                                  emission_density(scene, light.light, light.density / light.choice), lobe.density,
                                   lobe.reverse, cosine, light.hittable);
   if ((CONNECT != CONNECT_MIS) | !HAS_HITTABLE_LIGHTS) return (Real)(1.0f);
   return light.hittable ? light.density / (light.density + lobe.density) : (Real)(1.0f);
@@ -90,7 +107,7 @@ static inline Real weight_of_sampled_light(const Scene* scene, const Subpath* s,
 
 // A light sample at the vertices of m: unoccluded light along light.ray, before light.distance.
 static inline FoundLight sample_light(const Scene* scene, const Subpath* s, Vertex v, LightSample* light, Mask m) {
-  *light = light_sample(scene, v.point, random_words(s->sequence, DIMENSION_LIGHT_SAMPLE(s->edges), 0));
+  *light = light_sample(scene, v.point, random_draws(s->sequence, DIMENSION_LIGHT_SAMPLE(s->edges)));
   const Vec3 generated = to_frame(v.point.frame, light->ray.direction);
   const Real cosine = vec_dot(v.point.normal, light->ray.direction);
   FoundLight found;
@@ -101,7 +118,7 @@ static inline FoundLight sample_light(const Scene* scene, const Subpath* s, Vert
   const LobeValue lobe = material_evaluate(v.material, v.fixed, generated);
   const Vec3 reflected = vec_mul(s->throughput, lobe.value);
   found.value = vec_scale(generated.z / light->density, vec_mul(light->radiance, reflected));
-  found.weight = weight_of_sampled_light(scene, s, *light, lobe, cosine);
+  found.weight = weight_of_sampled_light(scene, s, *light, lobe, size_of_cosine(cosine));
   if (HAS_DELTA) found.found &= vec_max(lobe.value) > 0.0f;
   return found;
 }

@@ -3,17 +3,19 @@
 #include "transport/light_subpath.cl"
 
 __kernel void trace_light(SCENE_PARAMETERS, int pixel_count, int first_pixel, int job_count, int first_sample,
-                          int block_samples, uint2 seed, int max_edges, int roulette_edges, __global uint* counters,
+                          int block_samples, uint2 seed, uint2 point_sets, int max_edges, int roulette_edges, __global uint* counters,
                           int batch_jobs, int record_words, int record_capacity, __global float* records,
                           __global int* record_counts) {
   SCENE_FROM_PARAMETERS
   WorkItem work;
   const JobList list = {pixel_count, first_pixel, job_count, first_sample, block_samples};
   const PathLimits limits = {max_edges, roulette_edges};
+  const PointSets sets = {point_sets.x, point_sets.y};
   work.scene = &scene;
   work.list = list;
   work.limits = limits;
   work.seed = seed;
+  work.sets = sets;
   work.rays = 0;
   empty_shadow_queue(&work.queue);
   for (int index = (int)get_global_id(0); index < batch_count(list, batch_jobs); index += (int)get_global_size(0)) {

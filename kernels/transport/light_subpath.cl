@@ -18,6 +18,7 @@ typedef struct {
   PathLimits limits;
   int sky_light;
   uint2 seed;
+  PointSets sets;
   ShadowQueue queue;
   Output output;
   VertexStore light, eye; // bidir
@@ -36,45 +37,58 @@ static inline Contribution splat(const Subpath* s, Int pixel, Vec3 value, Real w
   return c;
 }
 
-// The direction from the camera to a position, and where on the film that is.
-typedef struct {
-  Vec3 from_camera;
-  Real distance2;
-  FilmPoint film;
-} View;
+// The point of the lens to which a vertex after so many edges is connected, and the offset of its splat.
+static inline CameraSample splat_sample(const Scene* scene, const Subpath* s, Int edges) {
+  CameraSample none;
+  none.x = none.y = none.lens_x = none.lens_y = (Real)(0.0f);
+  return HAS_CAMERA_SAMPLE ? camera_sample(scene, random_words(s->sequence, DIMENSION_SPLAT(edges), 0)) : none;
+}
 
-static inline View view_of(const Scene* scene, Vec3 position) {
-  const Vec3 to_position = vec_sub(position, broadcast_vec(scene->camera->position));
-  View view;
-  view.distance2 = vec_dot(to_position, to_position);
-  view.from_camera = vec_scale(1.0f / sqrt(view.distance2), to_position);
-  view.film = camera_sees(scene, view.from_camera);
-  return view;
+// Connects the camera to the point at infinity of the lanes of `sky`. An orthographic camera sees the sky in one
+// direction, which no emission has: the ray of the path's own pixel takes its place in light tracing, and hits in
+// bidirectional path tracing.
+static inline void see_sky(const Scene* scene, const Subpath* s, Emission* e, CameraSample sample, View* view, Ray* ray,
+                           Real* density, Mask sky) {
+  Vec3 from_camera = vec_scale((Real)(-1.0f), e->ray.direction);
+  Vec3 eye = lens_position(scene, sample);
+  FilmPoint film = camera_sees(scene, from_camera, sample);
+  Real sky_density = e->sky_density;
+  if (HAS_ORTHOGRAPHIC) {
+    const Ray own = camera_ray(scene, s->sequence.pixel, sample);
+    eye = own.origin;
+    from_camera = own.direction;
+    film.seen = IS_BIDIR ? NO_LANES : ALL_LANES;
+    film.pixel = uint_to_int(s->sequence.pixel);
+    film.share = (Real)(1.0f);
+    sky_density = film.density;
+    if (HAS_ENVIRONMENT_MAP) e->radiance = vec_select(sky, environment_towards(scene, from_camera).radiance, e->radiance);
+  }
+  view->film = select_film(sky, film, view->film);
+  ray->origin = vec_select(sky, eye, ray->origin);
+  ray->direction = vec_select(sky, from_camera, ray->direction);
+  *density = sky ? sky_density * light_probability(scene, e->light) : *density;
 }
 
 // Connects the camera to the light's own point (s = 1, t = 1) in the lanes of m.
 static inline void connect_light_to_camera(WorkItem* work, const Subpath* s, Emission e, Mask m) {
   if (!HAS_HITTABLE_LIGHTS) return;
   const Scene* scene = work->scene;
-  const Vec3 camera = broadcast_vec(scene->camera->position);
-  View view = view_of(scene, e.origin.position);
+  const CameraSample sample = splat_sample(scene, s, (Int)(0));
+  View view = view_of(scene, e.origin.position, sample);
   Real distance;
-  Ray ray = ray_to_point(e.origin, camera, &distance);
+  Ray ray = ray_to_point(e.origin, view.eye, &distance);
   const Real cosine = -vec_dot(e.origin.normal, view.from_camera);
   Mask faces = e.surface & (cosine > 0.0f);
   Real density = PI * e.density * view.distance2 / cosine; // of the light's point, per solid angle at the camera
-  if (HAS_CONSTANT_LIGHT) {
-    const Vec3 from_camera = vec_scale((Real)(-1.0f), e.ray.direction);
-    view.film = select_film(e.sky, camera_sees(scene, from_camera), view.film);
-    ray.origin = vec_select(e.sky, camera, ray.origin);
-    ray.direction = vec_select(e.sky, from_camera, ray.direction);
+  if (HAS_SKY) {
+    see_sky(scene, s, &e, sample, &view, &ray, &density, e.sky);
     distance = e.sky ? (Real)(INFINITY) : distance;
     faces = faces | e.sky;
-    density = e.sky ? (0.25f * INV_PI) * light_probability(scene, e.light) : density;
   }
   const Mask seen = m & faces & view.film.seen;
   if (!any_lane(seen)) return;
-  const Vec3 value = vec_scale(view.film.density / density, e.radiance);
+  const Real seen_share = view.film.density / density;
+  const Vec3 value = vec_scale(HAS_FILTER ? view.film.share * seen_share : seen_share, e.radiance);
   const Real weight = IS_BIDIR ? weight_of_seen_light(view.film.density, density) : (Real)(1.0f);
   add_if_unoccluded(scene, &work->queue, &work->output, ray, distance,
                     splat(s, view.film.pixel, value, weight, (Int)(TECHNIQUE(1, 1))), seen);
@@ -83,7 +97,7 @@ static inline void connect_light_to_camera(WorkItem* work, const Subpath* s, Emi
 // Connects the camera to the vertices of m (t = 1; Dutre, Lafortune and Willems 1993).
 static inline void connect_to_camera(WorkItem* work, const Subpath* s, Vertex v, Mask m) {
   const Scene* scene = work->scene;
-  const View view = view_of(scene, v.point.position);
+  const View view = view_of(scene, v.point.position, splat_sample(scene, s, s->edges));
   const Vec3 to_camera = vec_scale((Real)(-1.0f), view.from_camera);
   const Vec3 generated = to_frame(v.point.frame, to_camera);
   const Real cosine = vec_dot(v.point.normal, to_camera);
@@ -91,11 +105,12 @@ static inline void connect_to_camera(WorkItem* work, const Subpath* s, Vertex v,
   if (!any_lane(seen)) return;
   const LobeValue lobe = material_evaluate(v.material, v.fixed, generated);
   const Vec3 reflected = vec_mul(s->throughput, lobe.value);
-  const Vec3 value = vec_scale(adjoint_cosine(v, generated, cosine) * view.film.density / view.distance2, reflected);
+  const Real arriving = adjoint_cosine(v, generated, cosine) * view.film.density / view.distance2;
+  const Vec3 value = vec_scale(HAS_FILTER ? view.film.share * arriving : arriving, reflected);
   Real weight = (Real)(1.0f);
-  if (IS_BIDIR) weight = weight_of_seen_vertex(s->mis, view.film.density, lobe.reverse, view.distance2, cosine);
+  if (IS_BIDIR) weight = weight_of_seen_vertex(s->mis, view.film.density, lobe.reverse, view.distance2, size_of_cosine(cosine));
   Real distance;
-  const Ray ray = ray_to_point(surface_position(v.point), broadcast_vec(scene->camera->position), &distance);
+  const Ray ray = ray_to_point(surface_position(v.point), view.eye, &distance);
   add_if_unoccluded(scene, &work->queue, &work->output, ray, distance,
                     splat(s, view.film.pixel, value, weight, TECHNIQUE(s->edges + 1, 1)), seen & brings_light(value));
 }
@@ -113,6 +128,7 @@ static inline Mask start_at_light(WorkItem* work, Batch* batch, Subpath* s, Mask
   s->begin = vec_max(s->throughput);
   s->light = e.light;
   s->light_cosine = vec_dot(e.origin.normal, e.ray.direction);
+  if (HAS_ENVIRONMENT_MAP) s->light_cosine = e.sky ? e.sky_density : s->light_cosine;
   const Mask shines = *started & (vec_max(e.radiance) > 0.0f);
   connect_light_to_camera(work, s, e, shines);
   return work->limits.longest > 1 ? shines : NO_LANES;
@@ -122,7 +138,7 @@ static inline Mask start_at_light(WorkItem* work, Batch* batch, Subpath* s, Mask
 // `distance` away, in the lanes of m; that of a light without a surface as in LightSample.
 static inline Real density_of_start(const Scene* scene, const Subpath* s, Vertex v, Real distance, Mask m) {
   const Vec3 lit = v.point.position;
-  const Real choice = probability_for(scene, lit, v.point.normal, s->light, m);
+  const Real choice = probability_for(scene, lit, lit_normal(v.point), s->light, m);
   const Int kind = light_kind(scene, s->light);
   Real density = choice;
   if (HAS_AREA_LIGHTS) {
@@ -130,7 +146,10 @@ static inline Real density_of_start(const Scene* scene, const Subpath* s, Vertex
     density = surface ? light_density(scene, lit, s->light, choice, distance, s->light_cosine) : density;
   }
   if (HAS_POINTLIKE_LIGHTS) density = is_pointlike(kind) ? choice * distance * distance : density;
-  if (HAS_CONSTANT_LIGHT) density = LIGHT_IS(kind, LIGHT_CONSTANT) ? choice * v.fixed.z * INV_PI : density;
+  if (HAS_SKY) {
+    const Real by_sky = HAS_ENVIRONMENT_MAP ? choice * s->light_cosine : choice * v.fixed.z * INV_PI;
+    density = is_sky(kind) ? by_sky : density;
+  }
   return density;
 }
 
@@ -141,7 +160,7 @@ static inline MisQuantities mis_arrived_from_light(const Scene* scene, const Sub
   const Mask first = s->edges == 1;
   if (!any_lane(first)) return later;
   const MisQuantities start =
-      mis_from_light(density_of_start(scene, s, v, distance, first), LIGHT_REAL(scene, s->light, emission_density),
+      mis_from_light(density_of_start(scene, s, v, distance, first), emission_density(scene, s->light, s->light_cosine),
                      cosine, is_hittable(light_kind(scene, s->light)));
   MisQuantities q;
   q.d_vcm = first ? start.d_vcm : later.d_vcm;
@@ -153,7 +172,7 @@ static inline MisQuantities mis_arrived_from_light(const Scene* scene, const Sub
 // that bidirectional path tracing stores.
 static inline int trace_light_subpaths(WorkItem* work, Batch batch) {
   const Scene* scene = work->scene;
-  Subpath s = no_subpath(work->seed), next = no_subpath(work->seed);
+  Subpath s = no_subpath(work->seed, work->sets), next = s;
   WaitingSubpaths waiting;
   waiting.count = 0;
   StoredSubpath stored = nothing_stored();

@@ -33,13 +33,14 @@ static inline Vec3 ambient_variate(Vertex v, MaterialSample sample, Vec3 through
 }
 
 __kernel void trace_paths(SCENE_PARAMETERS, int pixel_count, int first_pixel, int job_count, int first_sample,
-                          int block_samples, uint2 seed, int max_edges, int roulette_edges, __global uint* counters,
+                          int block_samples, uint2 seed, uint2 point_sets, int max_edges, int roulette_edges, __global uint* counters,
                           int sky_light, float ambient, __global float* sums) {
   SCENE_FROM_PARAMETERS
   const JobList list = {pixel_count, first_pixel, job_count, first_sample, block_samples};
   const PathLimits limits = {max_edges, roulette_edges};
+  const PointSets sets = {point_sets.x, point_sets.y};
   Job job = first_job(list);
-  Subpath path = no_subpath(seed);
+  Subpath path = no_subpath(seed, sets);
   Vec3 radiance = vec_all((Real)(0.0f));
   Uint rays = (Uint)(0u), shadow_rays = (Uint)(0u);
   Mask alive = NO_LANES;
@@ -50,8 +51,9 @@ __kernel void trace_paths(SCENE_PARAMETERS, int pixel_count, int first_pixel, in
 
     const Arrival arrival = next_vertex(&scene, &path, limits, working);
     rays += working ? (Uint)(1u) : (Uint)(0u);
-    if (HAS_CONSTANT_LIGHT) {
-      const FoundLight sky = hit_sky(&scene, &path, sky_light, working & !arrival.hits);
+    const Mask leaves_scene = working & !arrival.hits;
+    if (HAS_SKY && any_lane(leaves_scene)) {
+      const FoundLight sky = hit_sky(&scene, &path, sky_light, leaves_scene);
       radiance = add_found(radiance, sky, sky.found);
     }
     const FoundLight hit = hit_light(&scene, &path, arrival.vertex.point, arrival.distance, arrival.hits);

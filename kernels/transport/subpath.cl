@@ -4,16 +4,18 @@
 
 #include "lobes/material.cl"
 #include "math/random.h"
-#include "scene/surface.cl"
+#include "scene/lights.cl"
 #include "transport/mis_weights.cl"
 
 // Dimensions of the random numbers of a path. Eye subpaths: 0 is the position in the pixel, then two for every edge.
-// Light subpaths: two for the first edge, then one for every edge. One for the roulette of connections.
+// Light subpaths: two for the first edge, then one for every edge; one for every splat. One for the roulette of
+// connections.
 #define DIMENSION_SCATTERING(edges) int_to_uint(2 * (edges))
 #define DIMENSION_LIGHT_SAMPLE(edges) int_to_uint(2 * (edges) + 1)
 #define DIMENSION_EMISSION 0x40000000u
 #define DIMENSION_LIGHT_SCATTERING(edges) int_to_uint((edges) + 0x40000001)
 #define DIMENSION_CONNECTIONS 0x60000000u
+#define DIMENSION_SPLAT(edges) int_to_uint((edges) + 0x70000000)
 
 // A subpath and its next ray.
 typedef struct {
@@ -24,14 +26,14 @@ typedef struct {
   Int path;        // number in the batch
   RandomSequence sequence;
   // Of the vertex where the ray starts, for the weights of what it finds:
-  Vec3 normal;         // geometric
+  Vec3 normal;         // by which a light is chosen (lit_normal)
   Real density;        // of the ray's direction, per solid angle
-  Real cosine_density; // of the same direction by the cosine, with which a constant light is sampled
+  Real cosine_density; // of the same direction by the cosine, with which a constant sky is sampled
   Mask delta;          // the direction was sampled from a delta distribution
   // Bidirectional path tracing alone:
   MisQuantities mis;
   Int light;         // light subpaths: where they started
-  Real light_cosine; // light subpaths: of the first edge to that light's normal
+  Real light_cosine; // light subpaths: of the first edge to that light's normal; from the sky, its direction's density
 } Subpath;
 
 // Lengths of paths, in edges.
@@ -47,12 +49,13 @@ typedef struct {
   Vec3 fixed; // back along the subpath, in the shading frame
 } Vertex;
 
-static inline Subpath no_subpath(uint2 seed) {
+static inline Subpath no_subpath(uint2 seed, PointSets sets) {
   Subpath s;
   s.ray.origin = s.ray.direction = s.throughput = s.normal = vec_all((Real)(0.0f));
   s.edges = s.path = s.light = (Int)(0);
   s.sequence.pixel = s.sequence.sample = (Uint)(0u);
   s.sequence.seed = seed;
+  s.sequence.sets = sets;
   s.begin = s.density = s.cosine_density = s.mis.d_vcm = s.mis.d_vc = s.light_cosine = (Real)(0.0f);
   s.delta = NO_LANES;
   return s;
@@ -73,23 +76,28 @@ static inline Arrival next_vertex(const Scene* scene, Subpath* s, PathLimits lim
   a.distance = hit.distance;
   a.hits = alive & (hit.primitive >= 0);
   a.vertex.point = surface_point(scene, s->ray, hit);
-  a.vertex.material = material_at(scene, a.vertex.point.material);
+  a.vertex.material = material_at(scene, a.vertex.point.material, a.vertex.point.uv);
   a.vertex.fixed = to_frame(a.vertex.point.frame, vec_scale((Real)(-1.0f), s->ray.direction));
   a.scattered = a.hits & (s->edges < limits.longest) & (a.vertex.fixed.z > 0.0f) &
-                reflects(scene, a.vertex.point.material, a.vertex.point.front);
+                reflects(scene, a.vertex.point.material, a.vertex.point.shaded_front);
   return a;
 }
+
+// |cosine|, where directions that count may have negative ones.
+static inline Real size_of_cosine(Real cosine) { return HAS_SIGNED_COSINES ? fabs(cosine) : cosine; }
 
 // The cosine factor at the vertex of a light subpath that arrives along `fixed` and leaves along `generated` (in the
 // shading frame; with its cosine to the geometric normal): Veach's (1997, 5.3) adjoint BSDF times cosine, over f_r.
 // Without interpolated normals, the cosine of `generated`.
 static inline Real adjoint_cosine(Vertex v, Vec3 generated, Real geometric_cosine) {
   if (!HAS_SMOOTH_NORMALS) return generated.z;
-  return v.fixed.z * geometric_cosine / vec_dot(v.point.normal, from_frame(v.point.frame, v.fixed));
+  return v.fixed.z * size_of_cosine(geometric_cosine) / vec_dot(v.point.normal, from_frame(v.point.frame, v.fixed));
 }
 
-// Lanes whose direction leaves the surface by both normals: no light leaks through.
+// Lanes whose direction leaves the surface by both normals, so that no light leaks through; by the shading normal alone
+// if strictNormals is false.
 static inline Mask leaves(Vec3 generated, Real geometric_cosine) {
+  if (SIDES_BY_SHADING) return generated.z > 0.0f;
   return (generated.z > 0.0f) & (geometric_cosine > 0.0f);
 }
 
@@ -106,10 +114,10 @@ static inline Mask scatter(Subpath* s, Vertex v, int adjoint, Uint dimension, Pa
     s->throughput = vec_scale(adjoint_cosine(v, sample->direction, cosine) / sample->direction.z, s->throughput);
   if (IS_BIDIR) {
     const Real reverse = material_evaluate(v.material, v.fixed, sample->direction).reverse;
-    s->mis = mis_scattered(s->mis, sample->density, reverse, cosine, sample->delta);
+    s->mis = mis_scattered(s->mis, sample->density, reverse, size_of_cosine(cosine), sample->delta);
   }
   const Mask continues = m & sample->survives & leaves(sample->direction, cosine) & (vec_max(s->throughput) > 0.0f);
-  s->normal = v.point.normal;
+  s->normal = lit_normal(v.point);
   s->density = sample->density;
   s->cosine_density = sample->direction.z * INV_PI;
   s->delta = sample->delta;

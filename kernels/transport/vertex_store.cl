@@ -16,6 +16,7 @@ typedef struct {
   MisQuantities mis;
   Vec3 normal;  // HAS_SMOOTH_NORMALS
   Vec3 tangent; // HAS_TANGENTS
+  TextureCoordinates uv; // HAS_TEXTURES
 } VertexRecord;
 #define VERTEX_FIELDS(VECTOR, NUMBER, INTEGER, UNSIGNED)                                                               \
   VECTOR(position)                                                                                                     \
@@ -23,9 +24,11 @@ typedef struct {
   VECTOR(back) VECTOR(throughput) NUMBER(error) INTEGER(material) NUMBER(mis.d_vcm) NUMBER(mis.d_vc)
 #define VERTEX_FIELDS_OF_NORMALS(VECTOR, NUMBER, INTEGER, UNSIGNED) VECTOR(normal)
 #define VERTEX_FIELDS_OF_TANGENTS(VECTOR, NUMBER, INTEGER, UNSIGNED) VECTOR(tangent)
+#define VERTEX_FIELDS_OF_UV(VECTOR, NUMBER, INTEGER, UNSIGNED) NUMBER(uv.u) NUMBER(uv.v)
 #define VERTEX_WORDS                                                                                                   \
   (RECORD_WORDS_OF(VERTEX_FIELDS) + (HAS_SMOOTH_NORMALS ? RECORD_WORDS_OF(VERTEX_FIELDS_OF_NORMALS) : 0) +             \
-   (HAS_TANGENTS ? RECORD_WORDS_OF(VERTEX_FIELDS_OF_TANGENTS) : 0))
+   (HAS_TANGENTS ? RECORD_WORDS_OF(VERTEX_FIELDS_OF_TANGENTS) : 0) +                                                   \
+   (HAS_TEXTURES ? RECORD_WORDS_OF(VERTEX_FIELDS_OF_UV) : 0))
 #define ROW_WORDS (VERTEX_WORDS * LANES)
 
 typedef struct {
@@ -86,6 +89,7 @@ static inline void store_vertices(const VertexStore* store, int row, const Subpa
   record.mis = s->mis;
   record.normal = v.point.normal;
   record.tangent = v.point.frame.x;
+  record.uv = v.point.uv;
   __global Scalar* words = store->words + (size_t)row * ROW_WORDS;
   VERTEX_FIELDS(STORE_VECTOR, STORE_NUMBER, STORE_INTEGER, STORE_INTEGER)
   if (HAS_SMOOTH_NORMALS) {
@@ -93,6 +97,9 @@ static inline void store_vertices(const VertexStore* store, int row, const Subpa
   }
   if (HAS_TANGENTS) {
     VERTEX_FIELDS_OF_TANGENTS(STORE_VECTOR, STORE_NUMBER, STORE_INTEGER, STORE_INTEGER)
+  }
+  if (HAS_TEXTURES) {
+    VERTEX_FIELDS_OF_UV(STORE_VECTOR, STORE_NUMBER, STORE_INTEGER, STORE_INTEGER)
   }
   stored->first = starting ? row * ROW_WORDS + LANE_NUMBERS : stored->first;
   stored->length = starting ? (Int)(0) : stored->length;
@@ -114,11 +121,15 @@ static inline VertexRecord vertex_record_at(const VertexStore* store, Int at) {
   const __global Scalar* words = store->words;
   VERTEX_FIELDS(GATHER_VECTOR, GATHER_NUMBER, GATHER_INTEGER, GATHER_INTEGER)
   record.normal = record.tangent = record.shading_normal;
+  record.uv.u = record.uv.v = (Real)(0.0f);
   if (HAS_SMOOTH_NORMALS) {
     VERTEX_FIELDS_OF_NORMALS(GATHER_VECTOR, GATHER_NUMBER, GATHER_INTEGER, GATHER_INTEGER)
   }
   if (HAS_TANGENTS) {
     VERTEX_FIELDS_OF_TANGENTS(GATHER_VECTOR, GATHER_NUMBER, GATHER_INTEGER, GATHER_INTEGER)
+  }
+  if (HAS_TEXTURES) {
+    VERTEX_FIELDS_OF_UV(GATHER_VECTOR, GATHER_NUMBER, GATHER_INTEGER, GATHER_INTEGER)
   }
   return record;
 }
@@ -135,7 +146,7 @@ static inline StoredVertex stored_vertex(const Scene* scene, const VertexStore* 
     s.vertex.point.frame.y = vec_cross(record.shading_normal, record.tangent);
   }
   s.vertex.fixed = to_frame(s.vertex.point.frame, record.back);
-  s.vertex.material = material_at(scene, record.material);
+  s.vertex.material = material_at(scene, record.material, record.uv);
   s.throughput = record.throughput;
   s.mis = record.mis;
   return s;

@@ -1,9 +1,14 @@
 // The checkpoint file, and the errors of damaged ones.
+#include <cmath>
+
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
+#include <xxhash.h>
 
 #include "checkpoint/checkpoint.h"
 #include "checkpoint/sameness.h"
 #include "errors.h"
+#include "film/reliability.h"
 #include "temporary_folder.h"
 
 using namespace phlux;
@@ -29,11 +34,18 @@ checkpoint::Session small_session() {
   session.choices.definitions["a"] = "b";
   session.choices.choose(settings::named("seed"), "7");
   session.settings.seed = 7;
-  session.state.paths = 12;
+  session.state.paths = 96;
   session.state.first_nonfinite = {3, 1, 2};
   session.state.position = {16, 2, 16, {{0, 2, 0, 16}}};
   session.state.seconds_render = 2.5;
   return session;
+}
+
+// A film of that session: all pixels have 16 samples, as the first two lack those that are missing.
+film::Film film_of_session() {
+  film::Film film(3, 2);
+  for (std::size_t pixel = 0; pixel < 6; ++pixel) film.add(pixel, {{1, 2, 3}, {1, 4, 9}}, 16);
+  return film;
 }
 
 struct Saved : TemporaryFolder {
@@ -71,7 +83,7 @@ TEST_CASE("A checkpoint read from its file is complete") {
 
 TEST_CASE("The format is that of its version: who changes one raises the other, and then this length") {
   CHECK(Saved().bytes.substr(0, 19) == "phlux checkpoint 4 ");
-  CHECK(Saved().bytes.size() == 10055);
+  CHECK(Saved().bytes.size() == 9945);
 }
 
 TEST_CASE("A file that is not a complete checkpoint of this version is refused with the reason") {
@@ -91,7 +103,7 @@ TEST_CASE("A file that is not a complete checkpoint of this version is refused w
   }
   std::string later = saved.bytes;
   later[17] = '9';
-  CHECK_THAT(saved.refusal(later), Contains("is a checkpoint of format 9") && Contains("reads format 3"));
+  CHECK_THAT(saved.refusal(later), Contains("is a checkpoint of format 9") && Contains("reads format 4"));
   CHECK_THROWS_WITH(checkpoint::read(saved / "missing"), Contains("missing: cannot be read: No such file"));
   CHECK_THROWS_WITH(checkpoint::read(saved.path()), Contains("is no file"));
 }
@@ -100,7 +112,7 @@ namespace {
 
 std::string refusal(const checkpoint::Session& now, int width = 3) {
   try {
-    checkpoint::check_same({small_session(), small_film()}, now, width, 2, "c");
+    checkpoint::check_same({small_session(), film_of_session()}, now, width, 2, "c");
   } catch (const Error& error) {
     return error.what();
   }
@@ -151,4 +163,91 @@ TEST_CASE("A checkpoint with more samples than requested is refused") {
       refusal([](render::Settings& s) { s.samples_per_pixel = 31; }),
       Contains("has 32 samples per pixel already, and `spp` 31 asks for fewer: give `spp` 32 or more"));
   CHECK(refusal([](render::Settings& s) { s.time_limit = 1.0; }) == "nothing");
+}
+
+namespace {
+
+// What a render that resumes from this state says.
+std::string refusal_of(const std::function<void(checkpoint::Checkpoint&)>& forge) {
+  checkpoint::Checkpoint earlier{small_session(), film_of_session()};
+  forge(earlier);
+  checkpoint::Session now = small_session();
+  now.settings.samples_per_pixel = 32;
+  try {
+    checkpoint::check_same(earlier, now, 3, 2, "c");
+  } catch (const FileError& error) {
+    return error.what();
+  }
+  return "nothing";
+}
+
+} // namespace
+
+TEST_CASE("A forged state is refused, whatever number is wrong") {
+  using checkpoint::Checkpoint;
+  CHECK(refusal_of([](Checkpoint&) {}) == "nothing");
+  const auto refuses = [](const char* what, const std::function<void(Checkpoint&)>& forge) {
+    CHECK_THAT(refusal_of(forge), Contains("c: is damaged: ") && Contains(what));
+  };
+  constexpr auto huge = std::int64_t{1} << 62;
+  for (const std::int64_t wrong : {std::int64_t{-1}, std::int64_t{6}, huge})
+    refuses("its position", [&](Checkpoint& c) { c.session.state.position.pixel = wrong; });
+  for (const std::int64_t wrong : {std::int64_t{-1}, huge})
+    refuses("its position", [&](Checkpoint& c) { c.session.state.position.sample = wrong; });
+  for (const int wrong : {0, -1, 17, 1 << 30})
+    refuses("its position", [&](Checkpoint& c) { c.session.state.position.block_samples = wrong; });
+  for (const render::Launch wrong : {render::Launch{-1, 2, 0, 16},
+                                     {6, 2, 0, 16},
+                                     {0, 0, 0, 16},
+                                     {0, huge, 0, 16},
+                                     {0, 2, -1, 16},
+                                     {0, 2, huge, 16},
+                                     {0, 2, 0, 0},
+                                     {0, 2, 0, 1 << 30},
+                                     {0, 13, 0, 16}})
+    refuses("its missing samples", [&](Checkpoint& c) { c.session.state.position.missing = {wrong}; });
+  refuses("numbers of samples", [](Checkpoint& c) { c.session.state.position.missing = {}; });
+  refuses("numbers of samples", [](Checkpoint& c) { c.session.state.position.missing = {{1, 2, 0, 16}}; });
+  refuses("numbers of samples", [](Checkpoint& c) { c.film.pixels()[3].samples = 17; });
+  refuses("sums of samples", [](Checkpoint& c) { c.film.pixels()[3].sum[1] = std::nan(""); });
+  refuses("sums of samples", [](Checkpoint& c) { c.film.pixels()[3].sum_of_squares[1] = -1; });
+  refuses("sums over the image", [](Checkpoint& c) { c.film.set_unit(0); });
+  refuses("numbers of paths", [](Checkpoint& c) { c.session.state.paths = 97; });
+  refuses("numbers of paths", [](Checkpoint& c) { c.film.add_splatting_paths(6); });
+  refuses("its seconds", [](Checkpoint& c) { c.session.state.seconds_render = std::nan(""); });
+  refuses("its first contribution", [](Checkpoint& c) { c.session.state.first_nonfinite = {6, 1, 2}; });
+  refuses("clamping", [](Checkpoint& c) { c.film.set_clamp(1); });
+  refuses("splats", [](Checkpoint& c) {
+    c.film.use_splats();
+    c.film.add_splatting_paths(96);
+  });
+}
+
+TEST_CASE("A file with any byte changed and the right digest is refused, or has a state of the render") {
+  const Saved place;
+  const std::string bytes = checkpoint::encode(small_session(), film_of_session());
+  checkpoint::Session now = small_session();
+  now.settings.samples_per_pixel = 32;
+  const std::size_t begin = bytes.find('\n') + 1;
+  std::size_t accepted = 0;
+  for (std::size_t place_of = begin; place_of < bytes.size(); ++place_of) {
+    std::string forged = bytes;
+    forged[place_of] = static_cast<char>(forged[place_of] ^ (place_of % 3 == 0   ? 0x80
+                                                             : place_of % 3 == 1 ? 0xff
+                                                                                 : 1));
+    const XXH128_hash_t hash = XXH3_128bits(forged.data() + begin, forged.size() - begin);
+    forged.replace(0, begin,
+                   fmt::format("phlux checkpoint 4 {:016x}{:016x} {:020}\n", hash.high64, hash.low64,
+                               forged.size() - begin));
+    place.write("forged", forged);
+    try {
+      checkpoint::Checkpoint earlier = checkpoint::read(place / "forged");
+      checkpoint::check_same(earlier, now, 3, 2, "forged");
+      for (std::size_t pixel = 0; pixel < 6; ++pixel) earlier.film.add(pixel, {{1, 2, 3}, {1, 4, 9}}, 16);
+      static_cast<void>(film::reliability_of(earlier.film));
+      ++accepted;
+    } catch (const Error&) { // anything else fails the test
+    }
+  }
+  CHECK(accepted > 0); // sums that are other numbers
 }

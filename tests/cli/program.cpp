@@ -2,7 +2,6 @@
 #include "cli/program.h"
 
 #include <algorithm>
-#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
@@ -16,6 +15,7 @@
 
 #include <fcntl.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -66,7 +66,18 @@ struct ShowRuns : Catch::TestEventListenerBase {
 };
 CATCH_REGISTER_LISTENER(ShowRuns)
 
-void redirect(int descriptor, const std::filesystem::path& file) {
+void redirect(int descriptor, const std::string& file) {
+  if (file == "closed") {
+    ::close(descriptor);
+    return;
+  }
+  int pipe[2];
+  if (file == "broken pipe") {
+    if (::pipe(pipe) != 0 || ::dup2(pipe[1], descriptor) < 0) ::_exit(126);
+    ::close(pipe[0]);
+    ::close(pipe[1]);
+    return;
+  }
   const int opened = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   if (opened < 0 || ::dup2(opened, descriptor) < 0) ::_exit(126);
 }
@@ -74,11 +85,17 @@ void redirect(int descriptor, const std::filesystem::path& file) {
 [[noreturn]] void become(const Invocation& invocation, const TemporaryFolder& streams) {
   redirect(STDOUT_FILENO, streams / "out");
   redirect(STDERR_FILENO, streams / "err");
+  for (const auto& [descriptor, file] : invocation.streams) redirect(descriptor, file);
+  if (invocation.ignores_hangup) std::signal(SIGHUP, SIG_IGN);
   if (::chdir(invocation.folder.c_str()) != 0) ::_exit(126);
   if (invocation.largest_file) {
     const rlimit limit{*invocation.largest_file, *invocation.largest_file};
     if (::setrlimit(RLIMIT_FSIZE, &limit) != 0) ::_exit(126);
     std::signal(SIGXFSZ, SIG_IGN); // its default action ends the program
+  }
+  if (invocation.address_space) {
+    const rlimit limit{*invocation.address_space, *invocation.address_space};
+    if (::setrlimit(RLIMIT_AS, &limit) != 0) ::_exit(126);
   }
   for (const auto& [name, value] : invocation.environment) ::setenv(name.c_str(), value.c_str(), 1);
   std::vector<std::string> texts = {PHLUX_PROGRAM};
@@ -107,13 +124,25 @@ bool catches_interrupts(pid_t process) {
   return ((caught >> (SIGINT - 1)) & 1) != 0;
 }
 
-void interrupt(pid_t process, std::chrono::milliseconds after) {
+// A number that changes when the file is replaced.
+ino_t version_of(const std::filesystem::path& file) {
+  struct stat status {};
+  return ::stat(file.c_str(), &status) == 0 ? status.st_ino : 0;
+}
+
+void interrupt(pid_t process, const Invocation& invocation, ino_t version) {
   using namespace std::chrono_literals;
   const auto patience = std::chrono::steady_clock::now() + 60s;
-  while (!catches_interrupts(process) && std::chrono::steady_clock::now() < patience)
-    std::this_thread::sleep_for(5ms);
-  std::this_thread::sleep_for(after);
-  ::kill(process, SIGINT);
+  const auto is_time = [&] {
+    siginfo_t info{};
+    const bool ended = ::waitid(P_PID, static_cast<id_t>(process), &info, WEXITED | WNOHANG | WNOWAIT) != 0 ||
+                       info.si_pid == process;
+    return ended || (catches_interrupts(process) &&
+                     (invocation.after_write.empty() || version_of(invocation.after_write) != version));
+  };
+  while (!is_time() && std::chrono::steady_clock::now() < patience) std::this_thread::sleep_for(5ms);
+  std::this_thread::sleep_for(*invocation.interrupt_after);
+  ::kill(process, invocation.signal);
 }
 
 } // namespace
@@ -128,10 +157,11 @@ bool Outcome::is_one_line_error() const {
 
 Outcome run(const Invocation& invocation) {
   const TemporaryFolder streams;
+  const ino_t version = version_of(invocation.after_write);
   const pid_t process = ::fork();
   if (process < 0) throw std::runtime_error("cannot fork");
   if (process == 0) become(invocation, streams);
-  if (invocation.interrupt_after) interrupt(process, *invocation.interrupt_after);
+  if (invocation.interrupt_after) interrupt(process, invocation, version);
   int status = 0;
   if (::waitpid(process, &status, 0) != process) throw std::runtime_error("the program is lost");
   const int exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);

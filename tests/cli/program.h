@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -21,10 +22,18 @@ struct Invocation {
   std::vector<std::string> arguments;
   std::filesystem::path folder;                   ///< where it runs
   std::map<std::string, std::string> environment; ///< on top of this process's
-  /// Time from when the program handles SIGINT until the signal is sent.
+  /// Time from when the program handles SIGINT until `signal` is sent.
   std::optional<std::chrono::milliseconds> interrupt_after;
   /// Limit on the size of written files, in bytes.
   std::optional<std::size_t> largest_file = std::nullopt;
+  /// Limit on its address space, in bytes.
+  std::optional<std::size_t> address_space = std::nullopt;
+  int signal = SIGINT;
+  /// Sent once this file has been written; empty: as soon as it is handled.
+  std::filesystem::path after_write = {};
+  /// Where standard output (1) and error (2) go instead of to Outcome: a file, "closed" or "broken pipe".
+  std::map<int, std::string> streams = {};
+  bool ignores_hangup = false; ///< as under nohup
 };
 
 /// Waits for the program to end. Standard output and error are not terminals.

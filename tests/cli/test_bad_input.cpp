@@ -1,4 +1,7 @@
 #include <catch2/catch.hpp>
+#include <sys/stat.h>
+
+#include "files/exr.h"
 
 #include "cli/program.h"
 #include "cli/scenes.h"
@@ -123,5 +126,76 @@ TEST_CASE("Recoverable problems are warnings that name the cause") {
     CHECK(outcome.exit_code == 0);
     CHECK_THAT(outcome.err, Catch::StartsWith("phlux: warning: ") && Catch::Contains(what));
     CHECK(std::filesystem::exists(folder / "scene.exr"));
+  }
+}
+
+TEST_CASE("A render that needs more memory than there is says so before it begins") {
+  const TemporaryFolder folder;
+  folder.write("scene.xml", good_scene);
+  const Outcome outcome = run({{"render", "scene.xml", "--size", "8192x8192", "-i", "bidir", "-n", "1000000"},
+                               folder.path(),
+                               {},
+                               {},
+                               {},
+                               std::size_t{6} << 30});
+  CAPTURE(outcome.err);
+  CHECK(outcome.exit_code == 2);
+  CHECK(outcome.is_one_line_error());
+  CHECK_THAT(outcome.err, Catch::Contains("8192x8192 pixels need 8.99 GB of memory, and ") &&
+                              Catch::Contains("or --integrator path (or light), which needs 4.7 GB"));
+}
+
+TEST_CASE("Radiances that single precision cannot hold beside the lights are wrong usage") {
+  const TemporaryFolder folder;
+  folder.write("scene.xml", good_scene);
+  check_rejected(folder, {"render", "scene.xml", "-D", "radiance=1e-25", "--clamp", "1e20"}, 2);
+  check_rejected(folder, {"render", "scene.xml", "-D", "radiance=1e-25", "--ambient", "1e20"}, 2);
+}
+
+TEST_CASE("Pipes and devices in the place of files are refused at once; names cannot control the terminal") {
+  const TemporaryFolder folder;
+  folder.write("scene.xml", good_scene);
+  folder.write("evil\x1b[2J.xml", "<scene/>");
+  REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
+  check_rejected(folder, {"render", "pipe"}, 3);
+  check_rejected(folder, {"render", "/dev/zero"}, 3);
+  check_rejected(folder, {"compare", "pipe", "pipe"}, 3);
+  check_rejected(folder, {"merge", "pipe", "pipe", "-o", "m.exr"}, 3);
+  check_rejected(folder, {"render", "scene.xml", "--strategy", "pipe"}, 2);
+  const Outcome outcome = run({{"render", "evil\x1b[2J.xml"}, folder.path(), {}, {}});
+  CHECK_THAT(outcome.err, Catch::StartsWith("phlux: evil?[2J.xml:1: "));
+}
+
+TEST_CASE("A damaged cache of the driver is built anew, and the image is the same") {
+  const TemporaryFolder folder;
+  folder.write("scene.xml", good_scene);
+  const std::filesystem::path cache = folder / "cache";
+  const auto render = [&](const std::string& name) {
+    const Outcome outcome =
+        run({{"render", "scene.xml", "-q", "-n", "4", "--png", "none", "-o", name, "--stats", "stats.json"},
+             folder.path(),
+             {{"POCL_CACHE_DIR", cache.string()}, {"PHLUX_CACHE_DIR", (folder / "own").string()}},
+             {}});
+    CHECK(outcome.exit_code == 0);
+    return TemporaryFolder::read(folder / "stats.json").find("\"kernel_cache\": \"hit\"") !=
+           std::string::npos;
+  };
+  const auto channels = [&](const std::string& name) {
+    return phlux::files::read_exr(folder / name).channels;
+  };
+  CHECK_FALSE(render("first.exr"));
+  CHECK(render("again.exr"));
+  for (const bool flip : {false, true}) {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(cache)) {
+      if (!entry.is_regular_file() || entry.file_size() == 0) continue;
+      std::string bytes = TemporaryFolder::read(entry.path());
+      bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 4);
+      if (!flip) bytes.resize(bytes.size() / 2);
+      std::filesystem::permissions(entry.path(), std::filesystem::perms::owner_all);
+      std::ofstream(entry.path(), std::ios::binary | std::ios::trunc) << bytes;
+    }
+    CHECK_FALSE(render("damaged.exr"));
+    CHECK(channels("damaged.exr") == channels("first.exr"));
+    CHECK(render("damaged.exr")); // recorded again
   }
 }

@@ -137,7 +137,7 @@ TEST_CASE("phlux compare --png writes a picture, and never over an image") {
     std::string message;
   };
   for (const auto& [reference, picture, exit_code, message] :
-       std::vector<Case>{{"a.exr", "link.png", 2, "--png link.png: is one of the images to compare"},
+       std::vector<Case>{{"a.exr", "link.png", 2, "link.png: named for an output, but is the input a.exr"},
                          {"a.exr", "a.exr", 2, "--png a.exr: the picture is a PNG file, such as a.png"},
                          {"a.exr", "new.jpg", 2, "such as new.png"},
                          {"a.exr", "missing/new.png", 5, "missing/new.png: cannot be written"},

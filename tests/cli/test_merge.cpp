@@ -1,6 +1,7 @@
 // The command phlux merge.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <catch2/catch.hpp>
 
@@ -54,4 +55,18 @@ TEST_CASE("Renders of the two halves of a seed's samples merge to the render of 
   CHECK(merge({"a.exr", "scene.xml", "-o", "none.exr"}).exit_code == 3);
   CHECK(merge({"a.exr", "b.exr", "-o", "nowhere/none.exr"}).exit_code == 5);
   CHECK_FALSE(place.names().contains("none.exr"));
+}
+
+TEST_CASE("Values that are not finite are not written silently") {
+  const Workplace place;
+  phlux::files::Image image{.width = 1, .height = 1, .channels = {}, .info = {}};
+  for (const char* name : {"R", "G", "B"}) image.channels[name] = {std::numeric_limits<float>::quiet_NaN()};
+  image.info.samples = 4;
+  for (const std::string file : {"a.exr", "b.exr"}) {
+    image.info.ranges = {{file == "a.exr" ? 1U : 2U, 0, 4}};
+    phlux::files::write_exr(place / file, image);
+  }
+  const Outcome outcome = run({{"merge", "a.exr", "b.exr", "-o", "m.exr"}, place.path(), {}, {}});
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.err, Contains("phlux: warning: m.exr: 1 values of channel R are not finite"));
 }

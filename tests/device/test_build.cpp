@@ -6,6 +6,7 @@
 
 #include "device/binary_cache.h"
 #include "device/cache_folder.h"
+#include "device/driver_cache.h"
 #include "device/program.h"
 #include "environment.h"
 #include "errors.h"
@@ -110,6 +111,20 @@ TEST_CASE("PoCL keeps its programs itself") {
   CHECK(again.from_cache);
   CHECK(run(device, again.program, 3.0f) == 6.0f);
   CHECK(files_in(cache.path()).empty());
+}
+
+TEST_CASE("a record of the driver's cache names a folder of the driver, and nothing else") {
+  const DriverRecord record{
+      "phlux_0123456789abcdef", "OG/BFBDEJHLBJGBOHHC", {{"program.bc", "3 abc"}, {"k/1/k b.so", "4 d"}}};
+  const auto back = DriverRecord::decode(record.encode());
+  REQUIRE(back);
+  CHECK(back->mark == record.mark);
+  CHECK(back->folder == record.folder);
+  CHECK(back->digests == record.digests);
+  for (const std::string text : {"", "\n", "phlux_0123456789abcdef\n", "phlux_0123456789abcdef\n../../home\n",
+                                 "phlux_0123456789abcdef\n/etc/passwdpasswd\n", "phlux_x\nOG/BFBDEJHLBJ\n",
+                                 "phlux_0123456789abcdef\nOG/BFBDEJHLBJ\nprogram.bc\n"})
+    CHECK_FALSE(DriverRecord::decode(text));
 }
 
 TEST_CASE("without a writable cache, programs are built") {

@@ -12,6 +12,7 @@
 #include <ImfStringAttribute.h>
 
 #include <catch2/catch.hpp>
+#include <sys/stat.h>
 
 #include "errors.h"
 #include "files/output.h"
@@ -148,9 +149,49 @@ TEST_CASE("What is no EXR image is a FileError of one line that names the file")
     bytes.replace(window + 31, 8, "\x7f\x7f\x7f\x7f\x7f\x7f\x7f\x7f", 8);
     write_file(file, bytes);
   }
+  SECTION("a header that claims more pixels than the file can hold") {
+    std::string bytes = encode_exr(image_of(numbered_film(), render_info, true));
+    for (const char* name : {"dataWindow", "displayWindow"}) {
+      const std::size_t corner =
+          bytes.find(name) + std::string(name).size() + 1 + 6 + 4 + 8; // after "box2i", its size and min
+      bytes.replace(corner, 8, "\xff\x3f\0\0\xff\x3f\0\0", 8);         // 16383, 16383
+    }
+    bytes.resize(bytes.size() + (1 << 14)); // with room for its table of chunks
+    write_file(file, bytes);
+    CHECK_THROWS_WITH(read_exr(file), Catch::Contains("it claims 16384x16384 pixels"));
+  }
+  SECTION("a pipe") {
+    REQUIRE(::mkfifo(file.c_str(), 0600) == 0);
+  }
   SECTION("a folder") {
     std::filesystem::create_directory(file);
   }
   CHECK_THROWS_AS(read_exr(file), FileError);
   CHECK_THROWS_WITH(read_exr(file), Catch::StartsWith(file + ": ") && !Catch::Contains("\n"));
+}
+
+TEST_CASE("Only what is used of an EXR file is read; attributes that are not finite or in range are not") {
+  const TemporaryFolder folder;
+  RenderInfo info = render_info;
+  info.samples = info.seconds = std::numeric_limits<double>::quiet_NaN();
+  info.ranges = {{7, 5, 3}};
+  Image image = image_of(numbered_film(), info, false);
+  image.channels["depth"] = image.channels.at("R");
+  image.channels.at("G")[2] = std::numeric_limits<float>::infinity();
+  CHECK(write_exr(folder / "a.exr", image) == NonFinite{{"G", 1}});
+  const Image back = read_exr(folder / "a.exr");
+  CHECK(back.channels.size() == 3);
+  CHECK(back.info.samples == 0.0);
+  CHECK(back.info.seconds == 0.0);
+  CHECK(back.info.ranges.empty());
+}
+
+TEST_CASE("A film is written row by row as its image is") {
+  Film film(5, 37); // not a whole number of ZIP's blocks of lines
+  for (std::size_t pixel = 0; pixel < 5 * 37; ++pixel)
+    film.add(pixel, {{static_cast<float>(pixel), 2, 3}, {static_cast<float>(pixel * pixel), 4, 9}}, 2);
+  const TemporaryFolder folder;
+  CHECK(write_exr(folder / "a.exr", rows_of(film, true), render_info).empty());
+  CHECK(TemporaryFolder::read(folder / "a.exr") == encode_exr(image_of(film, render_info, true)));
+  CHECK(read_exr(folder / "a.exr").channels == image_of(film, render_info, true).channels);
 }

@@ -1,5 +1,7 @@
 #include "files/merge.h"
 
+#include <limits>
+
 #include <catch2/catch.hpp>
 
 #include "errors.h"
@@ -120,4 +122,24 @@ TEST_CASE("Samples that two images share are refused") {
   CHECK_THAT(with({7, 9, 20}), Contains("`first-sample` 10"));
   CHECK(with({7, 10, 20}) == "nothing");
   CHECK(with({6, 0, 10}) == "nothing");
+}
+
+TEST_CASE("Numbers of samples that are not finite weigh nothing, and many ranges are checked at once") {
+  for (const double samples :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), -1.0})
+    CHECK_THAT(refusal([&](Image& image) { image.info.samples = samples; }),
+               Contains("does not say which samples it has"));
+  constexpr int count = 200'000; // with a comparison of each pair 4e10 steps
+  Image even = first, odd = second;
+  even.info.ranges.clear();
+  odd.info.ranges.clear();
+  for (int i = 0; i < count; ++i) (i % 2 == 0 ? even : odd).info.ranges.push_back({9, 10 * i, 10 * i + 10});
+  Merger merger;
+  merger.add("a.exr", even);
+  CHECK_NOTHROW(merger.add("b.exr", odd));
+  Image again = second;
+  again.info.ranges = {{9, 1'000'005, 1'000'006}};
+  CHECK_THROWS_WITH(merger.add("c.exr", again),
+                    Contains("c.exr: has samples 1000005 to 1000005 of seed 9, and a.exr has "
+                             "samples 1000000 to 1000009"));
 }

@@ -3,12 +3,16 @@
 #include <csignal>
 #include <vector>
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <catch2/catch.hpp>
 
 #include "errors.h"
+#include "faults/files.h"
 #include "temporary_folder.h"
 
 namespace fs = std::filesystem;
@@ -103,4 +107,91 @@ TEST_CASE("Links stay links, and special files stay special") {
   write_file("/dev/null", "bytes");
   CHECK(fs::is_character_file("/dev/null"));
   CHECK_THROWS_AS(write_file("/dev/full", "bytes"), WriteError);
+}
+
+TEST_CASE("What a dangling link points to is made; links in a circle are an error that names them") {
+  const TemporaryFolder folder;
+  fs::create_directory(folder / "sub");
+  fs::create_symlink("sub/new", folder / "link");
+  check_writable(folder / "link");
+  write_file(folder / "link", "bytes");
+  CHECK(fs::is_symlink(folder / "link"));
+  CHECK(TemporaryFolder::read(folder / "sub/new") == "bytes");
+  fs::create_symlink("b", folder / "a");
+  fs::create_symlink("a", folder / "b");
+  CHECK_THROWS_WITH(check_writable(folder / "a"), Catch::StartsWith((folder / "a").string() + ": cannot be"));
+  CHECK_THROWS_WITH(write_file(folder / "a", "x"), Catch::Contains("links to itself"));
+}
+
+TEST_CASE("A pipe without a reader is an error, and nothing waits for one") {
+  const TemporaryFolder folder;
+  REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
+  check_writable(folder / "pipe"); // a reader may come
+  CHECK_THROWS_WITH(write_file(folder / "pipe", "x"), Catch::Contains("a program must read from it"));
+  const int reader = ::open((folder / "pipe").c_str(), O_RDONLY | O_NONBLOCK);
+  write_file(folder / "pipe", "bytes");
+  char bytes[8] = {};
+  CHECK(::read(reader, bytes, sizeof bytes) == 5);
+  ::close(reader);
+}
+
+TEST_CASE("Temporary files of dead writers are removed, those of others stay") {
+  const TemporaryFolder folder;
+  for (const char* name :
+       {"a.0123456789ab.part", "a.ffffffffffff.part", "a.backup.part", "b.0123456789ab.part"})
+    folder.write(name, "x");
+  const int writer = ::open((folder / "a.ffffffffffff.part").c_str(), O_WRONLY);
+  REQUIRE(::flock(writer, LOCK_EX) == 0);
+  check_writable(folder / "a");
+  CHECK(folder.names() ==
+        std::set<std::string>{"a.ffffffffffff.part", "a.backup.part", "b.0123456789ab.part"});
+  ::close(writer);
+  check_writable(folder / "a");
+  CHECK(folder.names() == std::set<std::string>{"a.backup.part", "b.0123456789ab.part"});
+}
+
+TEST_CASE("Names of one file are recognized, also of one that is yet to be written") {
+  using phlux::files::same_file;
+  const TemporaryFolder folder;
+  folder.write("a", "x");
+  folder.write("b", "x");
+  fs::create_directory(folder / "sub");
+  fs::create_symlink("a", folder / "link");
+  fs::create_symlink("../new", folder / "sub/dangling");
+  fs::create_hard_link(folder / "a", folder / "hard");
+  for (const char* name : {"a", "./a", "sub/../a", "link", "hard"})
+    CHECK(same_file(folder / "a", folder / name));
+  for (const char* name : {"b", "new"}) CHECK_FALSE(same_file(folder / "a", folder / name));
+  CHECK(same_file(folder / "new", folder / "sub/dangling"));
+  CHECK_FALSE(same_file(folder / "new", folder / "sub/new"));
+  CHECK_FALSE(same_file(folder / "new", folder / "other"));
+}
+
+TEST_CASE("Whichever calls fail, a file is the old or the new one, and an error says what it may be") {
+  const TemporaryFolder folder;
+  const std::string name = folder / "a";
+  long faults_so_far = 0, errors = 0;
+  std::string old = "old";
+  write_file(name, old);
+  for (unsigned seed = 0; seed < 300; ++seed) {
+    const std::string text(1000 + seed, static_cast<char>('a' + seed % 26));
+    faults::plan_file_faults(seed, 0.2, folder.path());
+    bool failed = false;
+    try {
+      write_file(name, text);
+    } catch (const WriteError&) {
+      failed = true;
+    }
+    CHECK(failed == (faults::file_faults() > 0));
+    faults_so_far += faults::file_faults();
+    faults::plan_file_faults(0, 0, "");
+    const std::string now = TemporaryFolder::read(name);
+    CHECK((now == text || (failed && now == old)));
+    CHECK(folder.names().size() == 1);
+    errors += failed ? 1 : 0;
+    old = now;
+  }
+  CHECK(errors > 100);
+  CHECK(errors < 250);
+  CHECK(faults_so_far >= errors);
 }

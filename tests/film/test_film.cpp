@@ -73,6 +73,23 @@ TEST_CASE("Blocks add up per pixel and channel") {
   CHECK(film.relative_variance() == Approx((2.0 / 4.0 + 0.0 + 4.5 / 2.25) / 3.0));
 }
 
+// Four blocks of 1, 1, 2 and 4 samples with sums 3, 1, 6 and 4: mean 14 / 8, squared deviations of the sums
+// 1.25^2 + .75^2 + 2.5^2 + 3^2 over 8^2 - (1 + 1 + 4 + 16).
+TEST_CASE("The variance of dependent samples is that of the sums of blocks") {
+  Film film(1, 1);
+  film.use_dependent_samples();
+  film.add(0, {{3, 3, 0}, {9, 9, 0}}, 1);
+  CHECK(!film.has_variance());
+  film.add(0, {{1, 3, 0}, {1, 9, 0}}, 1);
+  CHECK(film.has_variance());
+  film.add(0, {{6, 6, 0}, {18, 18, 0}}, 2);
+  film.add(0, {{4, 12, 0}, {100, 36, 0}}, 4);
+  CHECK(film.mean(0)[0] == 14.0 / 8.0);
+  CHECK(film.variance_of_mean(0)[0] == Approx((1.5625 + 0.5625 + 6.25 + 9.0) / 42.0));
+  CHECK(film.variance_of_mean(0)[1] == 0.0); // every sample is 3
+  CHECK(film.variance_of_mean(0)[2] == 0.0);
+}
+
 TEST_CASE("Variance equals the float64 two-pass formula") {
   std::mt19937 random(7);
   SECTION("noise of the order of the mean, 1e6 samples") {

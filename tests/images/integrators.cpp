@@ -14,6 +14,8 @@ namespace phlux::test {
 std::string name_of(const Method& method) {
   if (method.connect != render::Connect::mis)
     return method.connect == render::Connect::none ? "path, hits" : "path, light samples";
+  if (method.sampler != render::Sampler::independent)
+    return method.integrator + (method.sampler == render::Sampler::sobol ? ", sobol" : ", lattice");
   if (method.integrator != "bidir") return method.integrator;
   return method.weights == render::Weights::balance ? "bidir, balance"
          : method.weights == render::Weights::power ? "bidir, power"
@@ -24,6 +26,7 @@ render::Settings by(const Method& method, render::Settings settings) {
   settings.integrator = method.integrator;
   settings.weights = method.weights;
   settings.connect = method.connect;
+  settings.sampler = method.sampler;
   return settings;
 }
 

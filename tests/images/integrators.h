@@ -13,6 +13,7 @@ struct Method {
   std::string integrator = "path";
   render::Weights weights = render::Weights::balance; ///< bidir
   render::Connect connect = render::Connect::mis;     ///< path
+  render::Sampler sampler = render::Sampler::independent;
   bool operator==(const Method&) const = default;
 };
 
@@ -21,7 +22,11 @@ struct Method {
 inline const Method path{"path"}, light{"light"}, bidir{"bidir"},
     bidir_power{"bidir", render::Weights::power}, bidir_uniform{"bidir", render::Weights::uniform},
     path_hits{"path", render::Weights::balance, render::Connect::none},
-    path_light_samples{"path", render::Weights::balance, render::Connect::light};
+    path_light_samples{"path", render::Weights::balance, render::Connect::light},
+    path_sobol{"path", render::Weights::balance, render::Connect::mis, render::Sampler::sobol},
+    path_lattice{"path", render::Weights::balance, render::Connect::mis, render::Sampler::lattice},
+    bidir_sobol{"bidir", render::Weights::balance, render::Connect::mis, render::Sampler::sobol},
+    bidir_lattice{"bidir", render::Weights::balance, render::Connect::mis, render::Sampler::lattice};
 
 /// The settings for this method.
 [[nodiscard]] render::Settings by(const Method& method, render::Settings settings);

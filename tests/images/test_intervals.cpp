@@ -62,6 +62,31 @@ TEST_CASE("the 95% interval holds the right value 93% to 97% of the time") {
   check_coverage(coverage_of_seeds("caustic", light, 1024, 60));
 }
 
+// 24 blocks' variance: normal intervals hold in 94% of the cases.
+TEST_CASE("the 95% interval of point sets holds the right value 93% to 97% of the time") {
+  check_coverage(coverage_of_streams("narrow-view", path_sobol, 512));
+  check_coverage(coverage_of_streams("near-light", path_lattice, 512));
+  check_coverage(coverage_of_streams("tiny-light", bidir_lattice, 512));
+}
+
+// An incomplete last set too.
+TEST_CASE("point sets have the mean of independent samples, and less noise") {
+  const scene::Scene scene = stability("near-light", {{"width", "6"}, {"height", "4"}});
+  for (const auto& [sets, independent] : {std::pair(path_sobol, path), std::pair(path_lattice, path),
+                                          std::pair(bidir_sobol, bidir), std::pair(bidir_lattice, bidir)}) {
+    CAPTURE(name_of(sets));
+    const Repeated by_sets = repeated(scene, sets, settings_for(1000)),
+                   reference = repeated(scene, independent, settings_for(1000));
+    check_methods(by_sets, reference);
+    double of_sets = 0.0, of_independent = 0.0;
+    for (std::size_t pixel = 0; pixel < reference.image.mean.size(); ++pixel) {
+      of_sets += by_sets.image.variance[pixel][1];
+      of_independent += reference.image.variance[pixel][1];
+    }
+    CHECK(of_sets < (sets.integrator == "path" ? 0.5 : 0.9) * of_independent);
+  }
+}
+
 TEST_CASE("the 95% interval holds the right value for 93% to 97% of 400 seeds", "[.long]") {
   check_coverage(coverage_of_seeds("narrow-view", path, 512, 400));
   check_coverage(coverage_of_seeds("corner", bidir, 512, 400));

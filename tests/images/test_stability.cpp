@@ -39,6 +39,7 @@ const Failure failures[] = {
     {"near-light", {path, bidir}, {path_light_samples}, 64, 0.02, 0.04, bidir, 512, {}, {path_light_samples}},
     {"corridor", {light}, {path_hits}, 64, 0.1, 0.3, light, 512},
     {"mirrored-caustic", {bidir}, {light, path_light_samples}, 512, 0.2, 0.5, bidir, 2048, {bidir}},
+    {"sun", {path_light_samples, path, light, bidir}, {path_hits}, 256, 0.05, 0.5, bidir, 1024},
     {"keyhole", {light}, {path_hits, path_light_samples, path}, 256, 0.05, 0.2, light, 1024},
 };
 
@@ -146,6 +147,7 @@ TEST_CASE("no failure scene makes energy") {
     scene::Scene scene = stability(name);
     scene.area_emitters.clear();
     for (scene::Patch& patch : scene.patches) patch.surface.area_emitter = -1;
+    scene.environment.reset();
     scene.constant_radiance = Rgb(1);
     // With exact sampling no path contributes more than the sky, so noise cannot cause a bright pixel.
     const Estimate hits = image_by(path_hits, scene, 16, 1), all = image_by(bidir, scene, 32, 2);

@@ -1,13 +1,21 @@
 #include "scene/camera.cl"
 
+static inline CameraSample sample_at(Real u, Real v) {
+  CameraSample sample;
+  sample.x = u;
+  sample.y = v;
+  sample.lens_x = sample.lens_y = (Real)(0.0f);
+  return sample;
+}
+
 // The camera's pixel and density for its own rays.
 __kernel void see_rays(SCENE_PARAMETERS, __global const Uint* pixel, __global const Real* u, __global const Real* v,
                        __global Vec3* direction, __global Int* seen, __global Int* seen_pixel, __global Real* density,
                        __global Real* density_alone) {
   SCENE_FROM_PARAMETERS
   const size_t i = get_global_id(0);
-  const Ray ray = camera_ray(&scene, pixel[i], u[i], v[i]);
-  const FilmPoint point = camera_sees(&scene, ray.direction);
+  const Ray ray = camera_ray(&scene, pixel[i], sample_at(u[i], v[i]));
+  const FilmPoint point = camera_sees(&scene, ray.direction, sample_at(u[i], v[i]));
   direction[i] = ray.direction;
   seen[i] = point.seen ? (Int)(1) : (Int)(0);
   seen_pixel[i] = point.pixel;
@@ -19,7 +27,7 @@ __kernel void see_directions(SCENE_PARAMETERS, __global const Vec3* direction, _
                              __global Int* seen_pixel, __global Real* density) {
   SCENE_FROM_PARAMETERS
   const size_t i = get_global_id(0);
-  const FilmPoint point = camera_sees(&scene, direction[i]);
+  const FilmPoint point = camera_sees(&scene, direction[i], sample_at((Real)(0.5f), (Real)(0.5f)));
   seen[i] = point.seen ? (Int)(1) : (Int)(0);
   seen_pixel[i] = point.pixel;
   density[i] = point.density;

@@ -25,7 +25,7 @@ __kernel void sample_lights(SCENE_PARAMETERS, __global const Vec3* position, __g
   sequence.pixel = path[i];
   sequence.sample = (Uint)(0u);
   sequence.seed = seed;
-  const LightSample s = light_sample(&scene, lit, random_words(sequence, (Uint)(0u), 0));
+  const LightSample s = light_sample(&scene, lit, random_draws(sequence, (Uint)(0u)));
 
   const Hit hit = scene_intersect(&scene, s.ray, s.valid);
   const SurfacePoint point = surface_point(&scene, s.ray, hit);

@@ -223,7 +223,7 @@ void check_kind(const Kind& kind, const SceneProgram& program, const std::vector
     if (has_place(name)) places.push_back(place_of(name, e, origin, disk_radius));
     if (name != "directional") directions.push_back(direction_of(name, e));
     REQUIRE(e.surface == (record.kind == LIGHT_PLANAR || record.kind == LIGHT_SPHERE));
-    REQUIRE(e.sky == (record.kind == LIGHT_CONSTANT));
+    REQUIRE(e.sky == (record.kind == LIGHT_SKY));
     // The density of the point alone, if its direction follows the cosine.
     const double relative = e.surface != 0 ? e.found / (e.density * pi) : 0;
     found += relative;

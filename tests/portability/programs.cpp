@@ -42,10 +42,10 @@ Parts parts_of(const std::string& names, const std::string& strategy) {
 
 // A part that requires another.
 constexpr std::pair<const char*, const char*> needs[] = {
-    {"triangles", "planars"},      {"parallelograms", "planars"}, {"ellipses", "planars"},
-    {"light_planar", "planars"},   {"light_planar", "emission"},  {"light_sphere", "spheres"},
-    {"light_sphere", "emission"},  {"smooth_normals", "planars"}, {"smooth_normals", "triangles"},
-    {"light_tree", "light_choice"}};
+    {"triangles", "planars"},        {"parallelograms", "planars"}, {"ellipses", "planars"},
+    {"light_planar", "planars"},     {"light_planar", "emission"},  {"light_sphere", "spheres"},
+    {"light_sphere", "emission"},    {"smooth_normals", "planars"}, {"strict_normals", "smooth_normals"},
+    {"smooth_normals", "triangles"}, {"light_tree", "light_choice"}};
 
 Parts without(Parts parts, const std::string& name) {
   set(parts, name, false);
@@ -90,6 +90,11 @@ Parts with_clamp(Parts parts) {
   return parts;
 }
 
+Parts with_sampler(Parts parts, render::Sampler sampler) {
+  parts.sampler = sampler;
+  return parts;
+}
+
 Parts with_roulette_of_connections(Parts parts) {
   parts.connections = 2;
   return parts;
@@ -110,7 +115,13 @@ constexpr char glossy[] = "parallelograms spheres phong light_planar";
 constexpr char ambient[] = "parallelograms spheres phong black light_sphere ambient";
 constexpr char mirrors[] = "parallelograms spheres phong conductor light_planar";
 constexpr char triangles[] = "hierarchy triangles smooth_normals phong light_planar light_choice light_tree";
+constexpr char textured[] = "parallelograms spheres phong light_planar byte_textures";
+constexpr char textured_mesh[] = "hierarchy triangles ellipses smooth_normals anisotropicphong light_planar "
+                                 "checkerboards float_textures";
 constexpr char sky[] = "spheres phong light_constant";
+constexpr char map[] =
+    "parallelograms spheres diffuse light_planar light_choice environment_map lens tent_filter";
+constexpr char parallel[] = "parallelograms diffuse light_constant orthographic gaussian_filter";
 
 // A program for one reflectance model.
 Program of_model(const std::string& file, const std::string& model, const std::string& strategy, int width) {
@@ -132,8 +143,11 @@ const std::vector<SceneProgram>& scene_programs() {
       {"diffuse-box", parts_of(diffuse, "cosine")},
       {"few-in-diffuse-box", few_of_all(parts_of(diffuse, "cosine"))},
       {"glossy-spheres", parts_of(glossy, "exact")},
+      {"glossy-spheres-sobol", with_sampler(parts_of(glossy, "exact"), render::Sampler::sobol)},
       {"ambient", with_clamp(parts_of(ambient, "lobe-rho"))},
       {"mesh", connecting(parts_of(triangles, "lobe-ks"), Connect::light)},
+      {"textured", parts_of(textured, "exact")},
+      {"textured-mesh-bidir", by(Integrator::bidir, parts_of(textured_mesh, "exact"))},
       {"sphere-in-sky", connecting(parts_of(sky, "mixture"), Connect::none)},
       {"everything-light", by(Integrator::light, everything())},
       {"diffuse-box-light", by(Integrator::light, parts_of(diffuse, "cosine"))},
@@ -148,11 +162,19 @@ const std::vector<SceneProgram>& scene_programs() {
       {"glossy-spheres-bidir-clamp", with_clamp(by(Integrator::bidir, parts_of(glossy, "exact")))},
       {"mesh-bidir",
        with_techniques(by(Integrator::bidir, parts_of(triangles, "lobe-ks"), Weights::uniform))},
+      {"map", parts_of(map, "exact")},
+      {"map-light", by(Integrator::light, parts_of(map, "exact"))},
+      {"map-bidir", by(Integrator::bidir, parts_of(map, "exact"))},
+      {"parallel", parts_of(parallel, "exact")},
+      {"parallel-light", by(Integrator::light, parts_of(parallel, "exact"))},
+      {"parallel-bidir", by(Integrator::bidir, parts_of(parallel, "exact"))},
       {"glossy-spheres-bidir-roulette",
        with_roulette(by(Integrator::bidir, parts_of(glossy, "exact")), Roulette::efficiency)},
       {"diffuse-box-roulette", with_roulette(parts_of(diffuse, "cosine"), Roulette::reflectivity)},
       {"glossy-spheres-roulette", with_roulette(parts_of(glossy, "lobe-rho"), Roulette::kd_ks)},
       {"mirrors-bidir", by(Integrator::bidir, parts_of(mirrors, "exact"))},
+      {"glossy-spheres-bidir-lattice",
+       with_sampler(by(Integrator::bidir, parts_of(glossy, "exact")), render::Sampler::lattice)},
       // With every part, double precision needs more registers than a thread can have.
       {"brushed-double", in_double(parts_of("parallelograms anisotropicphong light_planar", "exact"))},
       {"mirrors-double", in_double(parts_of(mirrors, "exact"))},

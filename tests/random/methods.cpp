@@ -104,7 +104,8 @@ Vec3 vector_of(const float (&v)[3]) {
 }
 
 // Light paths end anywhere on the surfaces, whose area is about that of a sphere with the scene's radius; a
-// film of solid angle w sees the area w d^2 / cosine at the distance d.
+// film of solid angle w sees the area w d^2 / cosine at the distance d. An orthographic film sees its own
+// area.
 double narrowest_view(const Surfaces& surfaces, const CameraRecord& camera, double radius) {
   double narrowest = 1;
   for (int y = 0; y < camera.height; ++y)
@@ -191,7 +192,10 @@ SceneFacts facts_of(const scene::Scene& scene) {
                                          anisotropic ? phlux::test::exponent_v_of(m) : 0.0});
   }
   const Surfaces surfaces(host.geometry);
-  facts.narrowest_view = narrowest_view(surfaces, host.camera, host.geometry.radius);
+  facts.narrowest_view = scene.camera.orthographic
+                             ? static_cast<double>(host.camera.film_area) /
+                                   (4 * std::numbers::pi * std::pow(host.geometry.radius, 2))
+                             : narrowest_view(surfaces, host.camera, host.geometry.radius);
   for (const LightRecord& light : host.lights.records) {
     const bool spreads = light.kind == LIGHT_POINT || light.kind == LIGHT_SPOT;
     const double unit = host.lights.unit / (spreads ? std::pow(host.geometry.radius, 2) : 1);

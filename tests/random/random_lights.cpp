@@ -1,5 +1,8 @@
 #include "random/random_lights.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <fmt/format.h>
 
 namespace phlux::test {
@@ -9,7 +12,8 @@ using scene::Vec3;
 
 RandomLights::RandomLights(SceneDraft& draft)
     : draft_(draft), radiance_(draft.values.chance(0.9) ? draft.values.log_uniform(1e-2, 1e2)
-                                                        : draft.values.log_uniform(1e-8, 1e8)) {}
+                                                        : draft.values.log_uniform(1e-8, 1e8)),
+      maps_(draft.further.chance(0.5)) {}
 
 Rgb RandomLights::color() {
   const Rgb tint = triple(draft_.values, 0.2, 1);
@@ -35,7 +39,8 @@ void RandomLights::write() {
 
 void RandomLights::emitter(const std::string& type) {
   SceneText& text = draft_.text;
-  text.open("emitter", fmt::format("type=\"{}\"", type));
+  const bool map = type == "constant" && maps_;
+  text.open("emitter", fmt::format("type=\"{}\"", map ? "envmap" : type));
   const Rgb light = color();
   if (type == "point") {
     text.color("intensity", draft_.scale * draft_.scale * light);
@@ -46,7 +51,10 @@ void RandomLights::emitter(const std::string& type) {
     text.color("irradiance", light);
     text.triple("vector name=\"direction\"", -above_floor(draft_.values, 1, 2));
   } else {
-    text.color("radiance", 0.3 * light);
+    if (map)
+      environment_map(0.3 * light);
+    else
+      text.color("radiance", 0.3 * light);
     sky_ = true;
   }
   text.close("emitter");
@@ -63,6 +71,28 @@ void RandomLights::spot(const Rgb& light) {
   draft_.open_to_world();
   text.line(look_at("lookat", draft_.in_world(from), draft_.in_world(to), up_for(to - from)));
   text.close("transform");
+}
+
+// With dark and with bright texels, in the format RGBE without compression, which narrow images have.
+void RandomLights::environment_map(const Rgb& color) {
+  RandomNumbers& values = draft_.values;
+  const int width = 1 + values.below(7), height = 1 + values.below(5);
+  std::string bytes = fmt::format("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {} +X {}\n", height, width);
+  for (int i = 0; i < width * height; ++i) {
+    const double level = values.pick({0.0, 0.3, 0.5, 0.8, 1.0, 10.0});
+    const Rgb texel = level * color * triple(values, 0.5, 1);
+    int exponent = 0;
+    std::frexp(std::max({texel.r, texel.g, texel.b}), &exponent);
+    for (int c = 0; c < 3; ++c) bytes += static_cast<char>(std::ldexp(texel[c], 8 - exponent));
+    bytes += static_cast<char>(level > 0 ? exponent + 128 : 0);
+  }
+  draft_.files["sky.hdr"] = bytes;
+  draft_.text.string("filename", "sky.hdr");
+  draft_.text.real("scale", values.uniform(0.5, 1));
+  draft_.open_to_world();
+  if (values.chance(0.3)) draft_.text.line("<scale x=\"-1\"/>");
+  draft_.text.line(fmt::format("<rotate x=\"1\" y=\".5\" angle=\"{}\"/>", values.below(360)));
+  draft_.text.close("transform");
 }
 
 Vec3 RandomLights::lamp_place() {

@@ -21,12 +21,14 @@ public:
 private:
   void emitter(const std::string& type);
   void spot(const scene::Rgb& color);
+  void environment_map(const scene::Rgb& color);
   scene::Vec3 lamp_place();
 
   SceneDraft& draft_;
   double radiance_;
   int lamps_ = 0;
   bool sky_ = false;
+  bool maps_; ///< the sky is an environment map, not constant
 };
 
 } // namespace phlux::test

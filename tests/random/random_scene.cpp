@@ -34,16 +34,21 @@ void write_integrator(SceneDraft& draft) {
   draft.text.open("integrator", fmt::format("type=\"{}\"", values.pick({"path", "ptracer", "bdpt"})));
   draft.text.integer("max_depth", values.chance(0.04) ? 1 : values.pick({2, 3, 3, 4, 4, 5, 8, -1, -1}));
   draft.text.integer("rr_depth", values.pick({1, 2, 3, 5}));
+  if (values.chance(0.5)) draft.text.boolean("strict_normals", values.chance(0.7));
   draft.text.close("integrator");
 }
 
-void write_camera_place(SceneDraft& draft) {
+void write_camera_place(SceneDraft& draft, bool orthographic) {
   RandomNumbers& values = draft.values;
   const Vec3 from = draft.place([&](RandomNumbers& random) {
     return draft.closed ? triple(random, -0.75, 0.75) : above_floor(random, 1.6, 3);
   });
   const Vec3 to = draft.place([](RandomNumbers& random) { return triple(random, -0.3, 0.3); });
   draft.open_to_world();
+  if (orthographic) {
+    const std::string half_width = SceneText::number(draft.scale * values.uniform(0.3, 1.2));
+    draft.text.line(fmt::format("<scale x=\"{0}\" y=\"{0}\"/>", half_width));
+  }
   if (values.chance(0.2)) draft.text.line("<scale x=\"-1\"/>");
   if (values.chance(0.2)) {
     draft.text.line("<rotate y=\"1\" angle=\"180\"/>");
@@ -56,24 +61,44 @@ void write_camera_place(SceneDraft& draft) {
   draft.text.close("transform");
 }
 
-void write_sensor(SceneDraft& draft) {
+void write_field_of_view(SceneDraft& draft) {
   RandomNumbers& values = draft.values;
   SceneText& text = draft.text;
-  text.open("sensor", "type=\"perspective\"");
   text.real("fov", draft.place([](RandomNumbers& random) {
     return random.chance(0.8) ? random.uniform(30, 100) : random.uniform(2, 165);
   }));
   if (values.chance(0.6)) text.string("fov_axis", values.pick({"x", "y", "diagonal", "smaller", "larger"}));
   if (values.chance(0.2)) text.real("principal_point_offset_x", values.uniform(-0.3, 0.3));
   if (values.chance(0.2)) text.real("principal_point_offset_y", values.uniform(-0.3, 0.3));
-  write_camera_place(draft);
+}
+
+void write_filter(SceneDraft& draft) {
+  const std::string type = draft.further.pick<std::string>({"box", "box", "tent", "gaussian"});
+  draft.text.open("rfilter", fmt::format("type=\"{}\"", type));
+  if (type == "tent") draft.text.real("radius", draft.values.uniform(0.3, 2));
+  if (type == "gaussian") draft.text.real("stddev", draft.values.uniform(0.2, 1));
+  draft.text.close("rfilter");
+}
+
+void write_sensor(SceneDraft& draft) {
+  RandomNumbers& values = draft.values;
+  SceneText& text = draft.text;
+  const std::string type =
+      draft.further.pick<std::string>({"perspective", "perspective", "thinlens", "orthographic"});
+  text.open("sensor", fmt::format("type=\"{}\"", type));
+  if (type != "orthographic") write_field_of_view(draft);
+  if (type == "thinlens") {
+    text.real("aperture_radius", draft.scale * values.uniform(0.02, 0.15));
+    text.real("focus_distance", draft.scale * values.uniform(1, 3));
+  }
+  write_camera_place(draft, type == "orthographic");
   text.open("sampler", "type=\"independent\"");
   text.integer("sample_count", 4);
   text.close("sampler");
   text.open("film", "type=\"hdrfilm\"");
   text.integer("width", 4 + values.below(11));
   text.integer("height", 4 + values.below(9));
-  text.line("<rfilter type=\"box\"/>");
+  write_filter(draft);
   text.close("film");
   text.close("sensor");
 }
@@ -99,13 +124,13 @@ RandomScene random_scene(const SceneNumber& number, const std::optional<Twin>& t
   materials.write();
   lights.write();
   RandomShapes(draft, walls, materials, lights).write();
-  return {draft.text.text(), std::move(draft.meshes)};
+  return {draft.text.text(), std::move(draft.files)};
 }
 
 std::filesystem::path write_scene(const RandomScene& scene, const std::filesystem::path& folder,
                                   const std::string& name) {
   std::filesystem::create_directories(folder);
-  for (const auto& [file, bytes] : scene.meshes) std::ofstream(folder / file, std::ios::binary) << bytes;
+  for (const auto& [file, bytes] : scene.files) std::ofstream(folder / file, std::ios::binary) << bytes;
   const std::filesystem::path path = folder / (name + ".xml");
   std::ofstream(path) << scene.xml;
   return path;

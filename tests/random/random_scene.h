@@ -27,7 +27,7 @@ struct Twin {
 
 struct RandomScene {
   std::string xml;
-  std::map<std::string, std::string> meshes; ///< bytes by file name
+  std::map<std::string, std::string> files; ///< bytes of meshes and images by file name
 };
 
 /// Upper bound of the exponents of a family.
@@ -36,7 +36,7 @@ struct RandomScene {
 [[nodiscard]] std::string name_of(const SceneNumber& number);
 [[nodiscard]] RandomScene random_scene(const SceneNumber& number, const std::optional<Twin>& twin = {});
 
-/// Writes NAME.xml and its meshes; returns the scene's path.
+/// Writes NAME.xml and its other files; returns the scene's path.
 std::filesystem::path write_scene(const RandomScene& scene, const std::filesystem::path& folder,
                                   const std::string& name);
 /// Definitions for reading the file of the scene.

@@ -131,7 +131,7 @@ void RandomShapes::mesh(const std::string& type, int index) {
 }
 
 void RandomShapes::mesh_file(const std::string& name, const RandomMesh& mesh) {
-  draft_.meshes[name] =
+  draft_.files[name] =
       name.ends_with(".obj")
           ? obj_file(mesh)
           : ply_file(mesh,

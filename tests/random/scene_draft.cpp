@@ -19,7 +19,7 @@ std::uint64_t stream_of(const SceneNumber& number) {
 } // namespace
 
 SceneDraft::SceneDraft(const SceneNumber& number, const std::optional<Twin>& twin_of)
-    : structure(number.family), values(stream_of(number)), twin(twin_of),
+    : structure(number.family), values(stream_of(number)), further(~(number.family << 32)), twin(twin_of),
       text(structure.pick<std::string>({"0.5.0", "0.6.0", "2.0.0", "3.0.0"}), values) {
   if (twin && twin->places > 0)
     places_.emplace(stream_of(number) + (static_cast<std::uint64_t>(twin->places) << 48));

@@ -19,9 +19,10 @@ public:
   SceneDraft(const SceneNumber& number, const std::optional<Twin>& twin);
 
   RandomNumbers structure, values;
+  RandomNumbers further; ///< of the structure as well; draws from it leave those of `structure` as they are
   std::optional<Twin> twin;
   SceneText text;
-  std::map<std::string, std::string> meshes; ///< bytes by file name
+  std::map<std::string, std::string> files; ///< bytes of meshes and images by file name
   double scale = 1;
   scene::Vec3 offset{0.0};
   bool closed = false; ///< a room about the camera

@@ -37,7 +37,7 @@ TEST_CASE("random scenes can be loaded, and together cover everything that a sce
     CHECK_NOTHROW(load_random_scene(number));
     const RandomScene scene = random_scene(number);
     all += scene.xml;
-    for (const auto& [name, bytes] : scene.meshes) all += bytes.substr(0, bytes.find("end_header"));
+    for (const auto& [name, bytes] : scene.files) all += bytes.substr(0, bytes.find("end_header"));
   }
   spdlog::set_level(level);
   for (const char* part : {"version=\"0.5",
@@ -88,6 +88,11 @@ TEST_CASE("random scenes can be loaded, and together cover everything that a sce
                            "\"beamWidth\"",
                            "type=\"directional\"",
                            "type=\"constant\"",
+                           "type=\"envmap\"",
+                           "type=\"thinlens\"",
+                           "type=\"orthographic\"",
+                           "rfilter type=\"tent\"",
+                           "rfilter type=\"gaussian\"",
                            "format ascii",
                            "binary_little",
                            "binary_big",

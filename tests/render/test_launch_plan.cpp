@@ -83,3 +83,21 @@ TEST_CASE("the vertices of a launch fit a buffer, where one group's do") {
   gpu.largest_buffer = 1 << 16;
   CHECK(Planner(gpu, parts_for(Integrator::bidir, 1), 0.05).plan(launch_of(10'000'000)).items == 64);
 }
+
+TEST_CASE("after a launch without memory, launches and their buffers are smaller, down to one group") {
+  Planner planner(processor(), parts_for(Integrator::bidir), 0.05);
+  planner.note_time(1'000'000, 0.05);
+  std::int64_t jobs = planner.wanted_jobs(many, samples_per_block);
+  LaunchPlan plan = planner.plan(launch_of(jobs));
+  int times = 0;
+  for (; planner.shrink(jobs); ++times) {
+    const std::int64_t fewer = planner.wanted_jobs(many, samples_per_block);
+    const LaunchPlan smaller = planner.plan(launch_of(fewer));
+    CHECK((fewer < jobs || smaller.items < plan.items));
+    CHECK(smaller.scratch_bytes <= plan.scratch_bytes);
+    jobs = fewer;
+    plan = smaller;
+  }
+  CHECK(times > 3);
+  CHECK(plan.items == plan.local_size);
+}

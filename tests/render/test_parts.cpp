@@ -36,6 +36,7 @@ TEST_CASE("the parts of each shipped scene are just what is in it") {
       {"mirror-ball", {"parallelograms", "spheres", "black", "light_planar", "conductor", "phong"}},
       {"point-light", {"parallelograms", "spheres", "light_point", "phong"}},
       {"two-phong-spheres", {"parallelograms", "spheres", "black", "light_planar", "phong"}},
+      {"textures", {}},
   };
   for (const std::string& name : shipped_names()) {
     CAPTURE(name);

@@ -1,6 +1,9 @@
 // Division of samples into launches, and resuming a schedule.
 #include "render/schedule.h"
 
+#include <bit>
+#include <map>
+
 #include <catch2/catch.hpp>
 
 using namespace phlux::render;
@@ -104,4 +107,44 @@ TEST_CASE("a schedule with another number of samples goes on without a gap and w
         CHECK((job.samples == samples_per_block || job.first_sample == position.sample ||
                job.first_sample % samples_per_block != 0 || job.first_sample + job.samples == after));
     }
+}
+
+TEST_CASE("point sets grow with the number of samples") {
+  Schedule schedule(1, 1100, {}, Blocks::of_point_sets);
+  std::int64_t next = 0;
+  std::map<int, int> counts; // of blocks, by length
+  double squares = 0.0;
+  for (std::int64_t done = 0; const auto launch = schedule.next([](std::int64_t, int) { return 1; });) {
+    CHECK(launch->first_sample == next);
+    const int length = 1 << point_bits(next);
+    CHECK(next % length == 0);
+    CHECK(launch->block_samples == std::min<std::int64_t>(length, 1100 - next));
+    next += launch->block_samples;
+    ++counts[launch->block_samples];
+    squares += launch->block_samples * launch->block_samples;
+    done = next;
+    if (std::has_single_bit(static_cast<std::uint64_t>(done)) && done >= 16)
+      CHECK(static_cast<double>(done * done) / squares >= 16.0); // blocks of equal length that tell as much
+  }
+  CHECK(next == 1100);
+  CHECK(counts == std::map<int, int>{{1, 16}, {2, 8}, {4, 8}, {8, 8}, {16, 8}, {32, 8}, {64, 9}, {12, 1}});
+}
+
+TEST_CASE("a schedule of point sets goes on where another stopped") {
+  for (const std::int64_t before : {5, 20, 32, 100, 600})
+    for (const std::int64_t after : {600, 1000})
+      for (int launches = 1; launches <= 40; ++launches) {
+        CAPTURE(before, after, launches);
+        Schedule first(pixels, before, {}, Blocks::of_point_sets);
+        std::vector<Job> jobs = jobs_of(first, 4, launches);
+        Schedule second(pixels, after, first.position(), Blocks::of_point_sets);
+        const std::vector<Job> rest = jobs_of(second, 5);
+        jobs.insert(jobs.end(), rest.begin(), rest.end());
+        const std::vector<int> once(static_cast<std::size_t>(after), 1);
+        CHECK(samples_in(jobs) == std::vector<std::vector<int>>(pixels, once));
+        for (const Job& job : rest) { // no block is in two sets
+          const int length = 1 << point_bits(job.first_sample);
+          CHECK(job.first_sample / length == (job.first_sample + job.samples - 1) / length);
+        }
+      }
 }

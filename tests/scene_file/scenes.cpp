@@ -31,17 +31,44 @@ private:
   std::shared_ptr<spdlog::logger> previous_;
 };
 
-std::string mesh_scene(const std::string& type, const std::string& properties) {
-  return with_sensor("<shape type=\"" + type + "\"><string name=\"filename\" value=\"mesh." + type + "\"/>" +
-                     properties + "</shape>");
+Files mesh_files(const std::string& type, const std::string& bytes, const std::string& properties = "") {
+  return {{"mesh." + type, bytes},
+          {"scene.xml", with_sensor("<shape type=\"" + type + "\"><string name=\"filename\" value=\"mesh." +
+                                    type + "\"/>" + properties + "</shape>")}};
 }
 
-scene::Scene load_quietly(const std::filesystem::path& file, const Definitions& definitions = {}) {
-  const CapturedLog quiet;
-  return scene_file::load(file, definitions);
+void write(const TemporaryFolder& folder, const Files& files) {
+  for (const auto& [name, text] : files) folder.write(name, text);
 }
 
 } // namespace
+
+scene::Scene load_files(const Files& files, const Definitions& definitions) {
+  const TemporaryFolder folder;
+  const CapturedLog quiet;
+  write(folder, files);
+  return scene_file::load(folder / "scene.xml", definitions);
+}
+
+std::string error_of_files(const Files& files, const Definitions& definitions) {
+  const TemporaryFolder folder;
+  const CapturedLog quiet;
+  write(folder, files);
+  try {
+    static_cast<void>(scene_file::load(folder / "scene.xml", definitions));
+  } catch (const SceneError& error) {
+    return without_folder(error.what(), folder);
+  }
+  return "";
+}
+
+std::string log_of_files(const Files& files) {
+  const TemporaryFolder folder;
+  const CapturedLog log;
+  write(folder, files);
+  static_cast<void>(scene_file::load(folder / "scene.xml"));
+  return without_folder(log.text(), folder);
+}
 
 std::string without_folder(std::string message, const TemporaryFolder& folder) {
   const std::string prefix = folder.path().string() + "/";
@@ -59,9 +86,7 @@ std::string with_sensor(const std::string& body, const std::string& version) {
 }
 
 scene::Scene load_text(const std::string& text, const Definitions& definitions) {
-  const TemporaryFolder folder;
-  folder.write("scene.xml", text);
-  return load_quietly(folder / "scene.xml", definitions);
+  return load_files({{"scene.xml", text}}, definitions);
 }
 
 scene::Scene load_body(const std::string& body, const std::string& version) {
@@ -69,14 +94,7 @@ scene::Scene load_body(const std::string& body, const std::string& version) {
 }
 
 std::string error_of(const std::string& text, const Definitions& definitions) {
-  const TemporaryFolder folder;
-  folder.write("scene.xml", text);
-  try {
-    static_cast<void>(load_quietly(folder / "scene.xml", definitions));
-  } catch (const SceneError& error) {
-    return without_folder(error.what(), folder);
-  }
-  return "";
+  return error_of_files({{"scene.xml", text}}, definitions);
 }
 
 std::string error_in(const std::string& body, const std::string& version) {
@@ -84,40 +102,20 @@ std::string error_in(const std::string& body, const std::string& version) {
 }
 
 std::string log_of(const std::string& text) {
-  const TemporaryFolder folder;
-  const CapturedLog log;
-  folder.write("scene.xml", text);
-  static_cast<void>(scene_file::load(folder / "scene.xml"));
-  return without_folder(log.text(), folder);
+  return log_of_files({{"scene.xml", text}});
 }
 
 scene::Mesh load_mesh(const std::string& type, const std::string& bytes, const std::string& properties) {
-  const TemporaryFolder folder;
-  folder.write("mesh." + type, bytes);
-  folder.write("scene.xml", mesh_scene(type, properties));
-  const auto scene = load_quietly(folder / "scene.xml");
+  const auto scene = load_files(mesh_files(type, bytes, properties));
   return scene.meshes.empty() ? scene::Mesh{} : scene.meshes.front();
 }
 
 std::string mesh_error(const std::string& type, const std::string& bytes) {
-  const TemporaryFolder folder;
-  folder.write("mesh." + type, bytes);
-  folder.write("scene.xml", mesh_scene(type, ""));
-  try {
-    static_cast<void>(load_quietly(folder / "scene.xml"));
-  } catch (const SceneError& error) {
-    return without_folder(error.what(), folder);
-  }
-  return "";
+  return error_of_files(mesh_files(type, bytes));
 }
 
 std::string mesh_log(const std::string& type, const std::string& bytes) {
-  const TemporaryFolder folder;
-  folder.write("mesh." + type, bytes);
-  folder.write("scene.xml", mesh_scene(type, ""));
-  const CapturedLog log;
-  static_cast<void>(scene_file::load(folder / "scene.xml"));
-  return without_folder(log.text(), folder);
+  return log_of_files(mesh_files(type, bytes));
 }
 
 } // namespace phlux::test

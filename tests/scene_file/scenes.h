@@ -16,6 +16,14 @@ std::string scene_text(const std::string& body, const std::string& version = "0.
 /// The same with a sensor on line 1, which every scene needs.
 std::string with_sensor(const std::string& body, const std::string& version = "0.6.0");
 
+/// Texts by the names of their files; scene.xml is the scene.
+using Files = std::map<std::string, std::string>;
+scene::Scene load_files(const Files& files, const Definitions& definitions = {});
+/// The SceneError of loading, without the name of the folder: "scene.xml:LINE: ..."; empty if there is none.
+std::string error_of_files(const Files& files, const Definitions& definitions = {});
+/// The log of loading, notes and warnings, one per line.
+std::string log_of_files(const Files& files);
+
 /// Loads text as the file scene.xml.
 scene::Scene load_text(const std::string& text, const Definitions& definitions = {});
 /// Loads with_sensor(body).

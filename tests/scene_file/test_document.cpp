@@ -1,6 +1,10 @@
 #include <catch2/catch.hpp>
 
+#include <filesystem>
+#include <sys/stat.h>
+
 #include "errors.h"
+#include "printable.h"
 #include "scene_file/load.h"
 #include "scene_file/scenes.h"
 
@@ -38,22 +42,27 @@ TEST_CASE("XML that is malformed or not a scene is an error at its line") {
   CHECK_THAT(error_in(deep), StartsWith("scene.xml:2: elements are nested too deeply"));
 }
 
-TEST_CASE("Versions 0.5, 0.6, 2 and 3 are read") {
-  for (const char* version : {"0.5.0", "0.6.0", "2.1.0", "3.0.0", "3.5.2"})
+TEST_CASE("Versions 0.4 to 0.6, 2 and 3 are read") {
+  for (const char* version : {"0.4.0", "0.5.0", "0.6.0", "2.1.0", "3.0.0", "3.5.2"})
     CHECK(error_in("", version).empty());
-  for (const char* version : {"0.4.0", "1.0", "4.0", "", "x", "0"})
+  for (const char* version : {"0.3.0", "0.7.0", "1.0", "4.0", "", "x", "0"})
     CHECK_THAT(error_in("", version),
-               StartsWith("scene.xml:1: ") && Contains("versions 0.5, 0.6, 2.x and 3.x"));
+               StartsWith("scene.xml:1: ") && Contains("versions 0.4, 0.5, 0.6, 2.x and 3.x"));
   CHECK_THAT(error_of("<scene/>"), StartsWith("scene.xml:1: the scene states no version"));
 }
 
 TEST_CASE("Unknown elements and attributes are errors that name what is supported") {
+  CHECK_THAT(error_in("\n<world/>"),
+             StartsWith("scene.xml:3: element <world> is not supported: supported are "
+                        "alias, blackbody, boolean, bsdf,"));
   CHECK_THAT(error_in("\n<medium type=\"homogeneous\"/>"),
-             StartsWith("scene.xml:3: element <medium> is not supported: supported are boolean, bsdf,"));
+             StartsWith("scene.xml:3: <medium type=\"homogeneous\"> inside <scene> is not supported"));
   CHECK_THAT(error_in("<bsdf type=\"diffuse\"><rgb name=\"reflectance\" vlaue=\"1\"/></bsdf>"),
              StartsWith("scene.xml:2: attribute 'vlaue' of <rgb> is not supported"));
-  CHECK_THAT(error_in("<bsdf type=\"diffuse\">\n<texture type=\"bitmap\" name=\"reflectance\"/></bsdf>"),
-             StartsWith("scene.xml:3: element <texture> is not supported"));
+  CHECK_THAT(
+      error_in("<bsdf type=\"diffuse\">\n<medium type=\"homogeneous\"/></bsdf>"),
+      StartsWith(
+          "scene.xml:3: <medium type=\"homogeneous\"> inside <bsdf type=\"diffuse\"> is not supported"));
   CHECK_THAT(error_in("<bsdf type=\"phong\">\n<shape type=\"disk\"/></bsdf>"),
              StartsWith("scene.xml:3: <shape type=\"disk\"> inside <bsdf type=\"phong\"> is not supported"));
   CHECK_THAT(error_in("<float name=\"a\" value=\"1\"><rgb name=\"b\" value=\"1\"/></float>"),
@@ -91,7 +100,7 @@ TEST_CASE("References: backward, forward, to nothing, to themselves, ids used tw
   CHECK_THAT(error_in("<bsdf type=\"diffuse\" id=\"a\"/>\n<shape type=\"disk\" id=\"a\"/>"),
              StartsWith("scene.xml:3: id 'a' is used twice: the first is on line 2"));
   CHECK_THAT(error_in("<shape type=\"disk\" id=\"d\"/>\n<shape type=\"disk\">\n<ref id=\"d\"/></shape>"),
-             StartsWith("scene.xml:4: <ref> inside <shape type=\"disk\"> is not supported"));
+             StartsWith("scene.xml:4: <shape type=\"disk\"> inside <shape type=\"disk\"> is not supported"));
 }
 
 TEST_CASE("Values: numbers, booleans, types") {
@@ -109,6 +118,51 @@ TEST_CASE("Values: numbers, booleans, types") {
              StartsWith("scene.xml:3: <shape type=\"disk\">: flipNormals: 'yes' is not a boolean"));
   CHECK_THAT(error_in("<integrator type=\"path\">\n<integer name=\"maxDepth\" value=\"5.0\"/></integrator>"),
              StartsWith("scene.xml:3: <integrator type=\"path\">: maxDepth: '5.0' is not an integer"));
+  // As in Mitsuba, 2 and later ignore case.
+  const std::string in_python =
+      "<shape type=\"disk\"><boolean name=\"flip_normals\" value=\"True\"/></shape>";
+  CHECK(load_body(in_python, "3.0.0").patches.front().edge_v.y == -1.0);
+  CHECK_THAT(error_in(in_python), Contains("'True' is not a boolean"));
+  CHECK(with_exponent("1e-400").empty());
+}
+
+TEST_CASE("Small files that would take all memory or time are refused") {
+  std::string laughs = "<default name=\"a0\" value=\"ha\"/>";
+  for (int i = 1; i < 20; ++i) {
+    const std::string before = "$a" + std::to_string(i - 1) + " ";
+    laughs +=
+        "<default name=\"a" + std::to_string(i) + "\" value=\"" + before + before + before + before + "\"/>";
+  }
+  CHECK_THAT(error_in(laughs), StartsWith("scene.xml:2: ") && Contains("is longer than 1000000 characters"));
+  std::string wide = "<default name=\"a\" value=\"" + std::string(900'000, '1') + "\"/>";
+  for (int i = 0; i < 100; ++i) wide += "<bsdf type=\"$a\"/>";
+  CHECK_THAT(error_in(wide), Contains("more than 64000000 characters are substituted"));
+  CHECK_THAT(error_in("<default name=\"" + std::string(300, 'a') + "\" value=\"\"/>"),
+             StartsWith("scene.xml:2: a <default> with a name of 300 characters"));
+  std::string chain;
+  for (int i = 0; i < 100'000; ++i)
+    chain += "<bsdf type=\"twosided\" id=\"" + std::to_string(i) + "\"><ref id=\"" + std::to_string(i + 1) +
+             "\"/></bsdf>";
+  CHECK_THAT(error_in(chain + "<bsdf type=\"diffuse\" id=\"100000\"/>"),
+             StartsWith("scene.xml:2: references are nested too deeply"));
+  CHECK(error_in("<bsdf type=\"" + std::string(100'000, 'x') + "\"/>").size() < 3000); // of one line
+}
+
+TEST_CASE("Messages contain nothing that controls a terminal") {
+  CHECK(phlux::printable("a\x1b[31m\x7f\n\xc2\x9b\xe2\x80\xae!") == "a?[31m????!");
+  CHECK(phlux::printable("Gr\xc3\xbc\xc3\x9f\x65 \xe2\x82\xac \xf0\x9f\x99\x82") ==
+        "Gr\xc3\xbc\xc3\x9f\x65 \xe2\x82\xac \xf0\x9f\x99\x82");
+  CHECK(phlux::printable("\xff\xc3(\xc0\x80\xed\xa0\x80\xe2\x82") == "??(???????"); // not UTF-8
+  CHECK(phlux::printable("a\n\tb\r", true) == "a\n\tb?");
+}
+
+TEST_CASE("A device or a pipe in the place of a file is refused at once") {
+  const TemporaryFolder folder;
+  REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
+  std::filesystem::create_symlink("loop", folder / "loop");
+  for (const std::filesystem::path file :
+       {folder / "pipe", folder / "loop", std::filesystem::path("/dev/zero")})
+    CHECK_THROWS_WITH(phlux::scene_file::load(file), Contains(": cannot be read: "));
 }
 
 TEST_CASE("A file that is missing or a folder is an error") {

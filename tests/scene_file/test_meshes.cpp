@@ -140,9 +140,10 @@ TEST_CASE("A mesh cut short anywhere is an error, never a crash") {
 }
 
 TEST_CASE("OBJ: every form of face, negative indices, comments, continued lines, several groups") {
-  for (const char* face : {"f 1 2 3 4", "f -4 -3 -2 -1", "f 1/1 2/1 3/1 4/1", "f 1//1 2//1 3//1 4//1",
-                           "f 1/1/1 2/1/1 3/1/1 4/1/1", "f 1 2 \\\n 3 4",
-                           "g a\nf 1 2 3\nusemtl b\no c\nf 1 3 4", "  f\t1  2 3 4 # quad"}) {
+  for (const char* face :
+       {"f 1 2 3 4", "f -4 -3 -2 -1", "f 1/1 2/1 3/1 4/1", "f 1//1 2//1 3//1 4//1", "f 1// 2// 3// 4//",
+        "f 1/1/ 2/1/ 3/1/ 4/1/", "f 1/1/1 2/1/1 3/1/1 4/1/1", "f 1 2 \\\n 3 4",
+        "g a\nf 1 2 3\nusemtl b\no c\nf 1 3 4", "  f\t1  2 3 4 # quad"}) {
     INFO(face);
     const std::string lines = "# square\n" + square + "vt 0 0\nvn 0 0 1\n" + face + "\n";
     const Mesh mesh = load_mesh("obj", lines);
@@ -175,7 +176,59 @@ TEST_CASE("OBJ: broken lines are errors with their number") {
 TEST_CASE("Triangles without area are dropped, and a warning counts them") {
   const std::string bytes = square + "v 2 0 0\nf 1 2 3\nf 1 1 2\nf 1 2 5\nf 1 2\n";
   CHECK(load_mesh("obj", bytes).triangles.size() == 1);
-  CHECK_THAT(mesh_log("obj", bytes), Contains("warning: mesh.obj: 3 zero-area triangles are dropped"));
+  CHECK_THAT(mesh_log("obj", bytes),
+             Contains("warning: mesh.obj: 2 zero-area triangles are dropped") &&
+                 Contains("warning: mesh.obj: 1 faces with fewer than three corners"));
+}
+
+TEST_CASE("Text files may begin with the mark of UTF-8; in UTF-16 they are refused") {
+  const std::string mark = "\xEF\xBB\xBF", ply = ply_header("ascii", 4, 1) + ascii_square + "4 0 1 2 3\n";
+  CHECK(load_mesh("obj", mark + square + "f 1 2 3 4\n").positions.front() == Vec3(0, 0, 0));
+  CHECK(area(load_mesh("ply", mark + ply)) == Approx(1.0));
+  CHECK(area(load_mesh("ply", mark + binary_square(false))) == Approx(1.0));
+  CHECK(error_of(mark + with_sensor("")).empty());
+  CHECK_THAT(mesh_error("obj", std::string("\xFF\xFEv\0 \0", 6)), Contains("' is in UTF-16"));
+  CHECK_THAT(error_of("\xFE\xFF"), StartsWith("scene.xml:1: is in UTF-16"));
+}
+
+TEST_CASE("OBJ: a backslash inside a line is part of a word, and is an error in a face") {
+  CHECK_THAT(mesh_error("obj", square + "f 1 3\\4\n"), StartsWith("mesh.obj:5: '3\\4' is no index"));
+  CHECK_THAT(mesh_error("obj", square + "f 1 3 \\ \n4\n"), StartsWith("mesh.obj:5: '\\' is no index"));
+  CHECK(load_mesh("obj", square + "usemtl a\\b\nf 1 2 3\\\n4\n").triangles.size() == 2);
+}
+
+TEST_CASE("OBJ: lines of other kinds than polygons are passed over, with one warning") {
+  CHECK_THAT(
+      mesh_log("obj", square + "f 1 2 3\ncurv 0 1 1 2\nxyz\nl 1 2\n"),
+      Contains("warning: mesh.obj:6: 'curv' is no line of a polygon mesh: 2 such lines are passed over"));
+  CHECK_THAT(mesh_log("obj", square + "g a\no b\ns 1\nusemtl c\nl 1 2\np 1\n# d\n\nf 1 2 3\n"),
+             !Contains("mesh.obj"));
+}
+
+TEST_CASE("Numbers: a plus sign, and less than the smallest double, which is 0") {
+  for (const std::string zero : {"+0", "1e-400", "-1e-400", "0.000e-99999"}) {
+    CHECK(load_mesh("obj", "v " + zero + " 0 0\nv +1 0 0\nv 0 +1e0 0\nf 1 2 3\n").positions.front() ==
+          Vec3(0));
+    CHECK(load_mesh("ply", ply_header("ascii", 3, 1) + zero + " 0 0\n+1 0 0\n0 +1e0 0\n+3 0 1 2\n")
+              .positions.front() == Vec3(0));
+  }
+  CHECK_THAT(mesh_error("obj", "v 1e400 0 0\n"), StartsWith("mesh.obj:1: vertex with '1e400'"));
+  CHECK_THAT(mesh_error("ply", ply_header("ascii", 1, 1) + "1e400 0 0\n3 0 0 0\n"),
+             StartsWith("mesh.ply:11: vertex 0 is not finite"));
+}
+
+TEST_CASE("PLY: the length of a list is a whole number of 0 or more") {
+  for (const std::string count : {"-3", "2.5", "nan", "inf"})
+    CHECK_THAT(mesh_error("ply", ply_header("ascii", 4, 1) + ascii_square + count + " 0 1 2\n"),
+               StartsWith("mesh.ply:15: a list of "));
+}
+
+TEST_CASE("OBJ: many vertices at one position take linear time") {
+  std::string lines = square;
+  constexpr int count = 100'000; // with a chain per position 5e9 steps
+  for (int i = 1; i <= count; ++i) lines += "vn " + std::to_string(i) + " 0 1\n";
+  for (int i = 1; i <= count; ++i) lines += "f 1//" + std::to_string(i) + " 2//1 3//1\n";
+  CHECK(load_mesh("obj", lines).positions.size() == count + 2);
 }
 
 TEST_CASE("Normals of the file are used, interpolated; faceNormals leaves them out") {
@@ -228,9 +281,12 @@ TEST_CASE("The front side of meshes under flipNormals and mirroring") {
       };
       check("", 1.0);
       check(flipped, -1.0);
-      check(mirrored, -1.0);
-      check(mirrored + flipped, 1.0);
-      check(R"(<transform name="toWorld"><scale x="-1"/></transform>)", 1.0);
+      // As in Mitsuba: normals of the file keep their side, and without them the front follows the order of
+      // the transformed vertices, which a mirror reverses as seen from a fixed side.
+      const bool by_normals = face.starts_with("vn") && shading.empty();
+      check(mirrored, by_normals ? -1.0 : 1.0);
+      check(mirrored + flipped, by_normals ? 1.0 : -1.0);
+      check(R"(<transform name="toWorld"><scale x="-1"/></transform>)", by_normals ? 1.0 : -1.0);
     }
 }
 

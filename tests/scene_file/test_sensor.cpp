@@ -117,10 +117,8 @@ TEST_CASE("Integrators") {
   CHECK(named("ptracer") == "light");
   CHECK(named("bdpt") == "bidir");
   CHECK(load_body(integrator("path", "<integer name=\"maxDepth\" value=\"-1\"/>")).defaults.max_depth == -1);
-  CHECK_THAT(
-      error_in(integrator("volpath")),
-      StartsWith(
-          "scene.xml:2: <integrator type=\"volpath\"> is not supported: supported are path, ptracer, bdpt"));
+  CHECK_THAT(error_in(integrator("ao")), StartsWith("scene.xml:2: <integrator type=\"ao\"> is not supported: "
+                                                    "supported are path, ptracer, bdpt"));
   for (const char* name : {"maxDepth", "rrDepth"})
     for (const char* value : {"0", "-2"})
       CHECK_THAT(error_in(integrator("path", "<integer name=\"" + std::string(name) + "\" value=\"" + value +
@@ -131,6 +129,21 @@ TEST_CASE("Integrators") {
   CHECK(error_in(integrator("path", "<boolean name=\"hideEmitters\" value=\"false\"/>")).empty());
 }
 
+TEST_CASE("Methods of Mitsuba for the same radiance are replaced, with a note") {
+  const auto defaults = load_body(integrator("direct", "<integer name=\"emitterSamples\" value=\"4\"/>"
+                                                       "<integer name=\"bsdfSamples\" value=\"2\"/>"))
+                            .defaults;
+  CHECK(defaults.integrator == "path");
+  CHECK(defaults.max_depth == 2);
+  CHECK(load_body(integrator("volpath", "<integer name=\"max_depth\" value=\"9\"/>"), "3.0.0")
+            .defaults.max_depth == 9);
+  CHECK(load_body(integrator("pssmlt")).defaults.integrator == "bidir");
+  const std::string nested = integrator("aov", "<integrator type=\"ptracer\"/>");
+  CHECK(load_body(nested, "3.0.0").defaults.integrator == "light");
+  CHECK_THAT(log_of(with_sensor(integrator("photonmapper"))),
+             Contains("info: scene.xml:2: <integrator type=\"photonmapper\"> is replaced by path"));
+}
+
 TEST_CASE("Films: sizes, crops, filters") {
   for (const auto& [width, height] :
        {std::pair{0, 0}, std::pair{5, 0}, std::pair{-3, 5}, std::pair{32769, 1}})
@@ -139,12 +152,37 @@ TEST_CASE("Films: sizes, crops, filters") {
   CHECK_THAT(error_of(sensor(film(8, 8, "\n<integer name=\"cropWidth\" value=\"4\"/>"))),
              StartsWith("scene.xml:4: ") && Contains("crop windows are not supported"));
   CHECK(error_of(sensor(film(8, 8, "<integer name=\"cropWidth\" value=\"8\"/>"))).empty());
-  CHECK_THAT(error_of(sensor("<film type=\"ldrfilm\"/>")),
-             StartsWith("scene.xml:3: <film type=\"ldrfilm\"> is not supported"));
+  CHECK_THAT(error_of(sensor("<film type=\"paper\"/>")),
+             StartsWith("scene.xml:3: <film type=\"paper\"> is not supported"));
+  const std::string ldr = "<film type=\"ldrfilm\"><integer name=\"width\" value=\"7\"/>\n"
+                          "<float name=\"gamma\" value=\"2.2\"/></film>";
+  CHECK(load_text(sensor(ldr)).camera.width == 7);
+  CHECK_THAT(log_of(sensor(ldr)), Contains("info: scene.xml:3: <film type=\"ldrfilm\"> is read as hdrfilm") &&
+                                      Contains("info: scene.xml:4: 'gamma' cannot change the image"));
   const std::string gaussian =
       film(8, 8, "\n<rfilter type=\"gaussian\"><float name=\"stddev\" value=\"1\"/></rfilter>");
-  CHECK_THAT(log_of(sensor(gaussian)),
-             Contains("warning: scene.xml:4: <rfilter type=\"gaussian\"> is not supported; box is used"));
+  using Kind = phlux::scene::Filter::Kind;
+  CHECK(load_text(sensor(gaussian)).camera.filter.kind == Kind::gaussian);
+  CHECK(load_text(sensor(gaussian)).camera.filter.size == 1.0);
+  const auto filter = [](const std::string& type, const std::string& inside = "") {
+    return sensor(film(8, 8, "\n<rfilter type=\"" + type + "\">" + inside + "</rfilter>"));
+  };
+  CHECK(load_text(filter("gaussian")).camera.filter.size == 0.5);
+  CHECK(load_text(filter("tent")).camera.filter.kind == Kind::tent);
+  CHECK(load_text(filter("tent")).camera.filter.size == 1.0);
+  CHECK(load_text(filter("tent", "<float name=\"radius\" value=\"2\"/>")).camera.filter.size == 2.0);
+  CHECK(load_text(filter("box")).camera.filter.kind == Kind::box);
+  for (const char* type : {"mitchell", "catmullrom", "lanczos"}) {
+    CHECK_THAT(log_of(filter(type)),
+               Contains("warning: scene.xml:4: <rfilter type=\"" + std::string(type) +
+                        "\"> has negative lobes, which cannot be sampled; box is used"));
+    CHECK(load_text(filter(type)).camera.filter.kind == Kind::box);
+  }
+  for (const char* radius : {"0", "-1", "1001"})
+    CHECK_THAT(error_of(filter("tent", "<float name=\"radius\" value=\"" + std::string(radius) + "\"/>")),
+               StartsWith("scene.xml:4: ") && Contains("more than 0 and at most 1000"));
+  CHECK_THAT(error_of(filter("box", "<float name=\"radius\" value=\"2\"/>")),
+             Contains("the box filter is one pixel wide"));
   CHECK_THAT(error_of(sensor(film(8, 8, "<rfilter type=\"blocks\"/>"))),
              StartsWith("scene.xml:3: <rfilter type=\"blocks\"> is not supported"));
   CHECK_THAT(log_of(sensor(film(8, 8, "\n<boolean name=\"banner\" value=\"false\"/>"))),
@@ -155,12 +193,52 @@ TEST_CASE("Samplers and sensors of other kinds") {
   CHECK_THAT(
       log_of(sensor("<sampler type=\"sobol\"/>")),
       Contains("warning: scene.xml:3: <sampler type=\"sobol\"> is not supported; independent is used"));
-  CHECK_THAT(error_of(sensor("<sampler type=\"dice\"/>")),
-             StartsWith("scene.xml:3: <sampler type=\"dice\"> is not supported"));
+  CHECK(load_text(sensor("<sampler type=\"blue\"><integer name=\"sampleCount\" value=\"9\"/></sampler>"))
+            .defaults.samples_per_pixel == 9);
   CHECK_THAT(
       error_of(sensor("<sampler type=\"independent\"><integer name=\"sampleCount\" value=\"0\"/></sampler>")),
       StartsWith("scene.xml:3: ") && Contains("is out of range"));
   CHECK_THAT(
-      error_of(scene_text("<sensor type=\"thinlens\"/>")),
-      StartsWith("scene.xml:2: <sensor type=\"thinlens\"> is not supported: supported is perspective"));
+      error_of(scene_text("<sensor type=\"spherical\"/>")),
+      StartsWith("scene.xml:2: <sensor type=\"spherical\"> is not supported: supported are perspective, "
+                 "thinlens and orthographic"));
+}
+
+TEST_CASE("A thin lens has a radius and a distance in focus") {
+  const auto lens = [](const std::string& inside) {
+    return scene_text("<sensor type=\"thinlens\"><float name=\"fov\" value=\"40\"/>\n" + inside +
+                      "</sensor>");
+  };
+  const std::string radius = "<float name=\"apertureRadius\" value=\"0.25\"/>";
+  const std::string focus = "<float name=\"focusDistance\" value=\"3\"/>";
+  const auto camera = load_text(lens(radius + focus)).camera;
+  CHECK(camera.aperture_radius == 0.25);
+  CHECK(camera.focus_distance == 3.0);
+  CHECK(camera.tan_half_fov_x ==
+        load_text(sensor("<float name=\"fov\" value=\"40\"/>")).camera.tan_half_fov_x);
+  CHECK(load_text(lens(radius)).camera.focus_distance == 1e4);
+  CHECK(load_text(lens(radius + "<float name=\"farClip\" value=\"50\"/>")).camera.focus_distance == 50.0);
+  CHECK_THAT(error_of(lens(focus)), Contains("apertureRadius: it is missing"));
+  CHECK_THAT(error_of(lens("<float name=\"apertureRadius\" value=\"-1\"/>")),
+             StartsWith("scene.xml:3: ") && Contains("apertureRadius: it is negative"));
+  CHECK_THAT(error_of(lens(radius + "\n<float name=\"focusDistance\" value=\"0\"/>")),
+             StartsWith("scene.xml:4: ") && Contains("focusDistance: it is not positive"));
+}
+
+TEST_CASE("An orthographic camera takes the width of its film from the scale of toWorld") {
+  const auto sized = [](const std::string& transform) {
+    return scene_text("<sensor type=\"orthographic\">\n<transform name=\"toWorld\">" + transform +
+                      "</transform></sensor>");
+  };
+  const auto camera =
+      load_text(sized("<scale x=\"3\" y=\"3\"/><lookat origin=\"0 0 5\" target=\"0 0 0\" up=\"0 1 0\"/>"))
+          .camera;
+  CHECK(camera.orthographic);
+  CHECK(camera.tan_half_fov_x == Approx(3.0));
+  CHECK(camera.forward == Vec3(0, 0, -1));
+  CHECK(camera.position == Vec3(0, 0, 5));
+  CHECK(glm::length(camera.left) == Approx(1.0));
+  CHECK_THAT(error_of(sized("<scale x=\"3\" y=\"2\"/>")),
+             StartsWith("scene.xml:3: ") && Contains("scales x and y differently"));
+  CHECK_THAT(error_of(sized("<matrix value=\"1 0 0 0 0 1 1 0 0 0 1 0 0 0 0 1\"/>")), Contains("it shears"));
 }

@@ -1,6 +1,9 @@
 #include <catch2/catch.hpp>
 
+#include <cmath>
+
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 #include "scene_file/scenes.h"
 
@@ -92,12 +95,44 @@ TEST_CASE("Spheres: centre, radius, a toWorld of uniform scale") {
 }
 
 TEST_CASE("Shapes that are not supported, or wrongly given") {
-  CHECK_THAT(error_in("\n" + shape("cylinder")),
-             StartsWith("scene.xml:3: <shape type=\"cylinder\"> is not supported: supported are rectangle, "
-                        "cube, disk, sphere, obj, ply"));
+  CHECK_THAT(error_in("\n" + shape("torus")),
+             StartsWith("scene.xml:3: <shape type=\"torus\"> is not supported: supported are cube, cylinder, "
+                        "disk, instance, obj, ply, rectangle, "));
   CHECK_THAT(error_in(shape("disk", "<float name=\"radius\" value=\"2\"/>")),
              StartsWith("scene.xml:3: 'radius' is not a property"));
   CHECK_THAT(error_in(shape("ply")), StartsWith("scene.xml:2: <shape type=\"ply\"> without a filename"));
   CHECK_THAT(error_in(shape("obj", "<string name=\"filename\" value=\"absent.obj\"/>")),
              StartsWith("scene.xml:3: mesh file '") && Contains("absent.obj' cannot be read"));
+}
+
+TEST_CASE("Cylinders: exact area, vertices near the surface, normals outwards") {
+  const std::string tilted = R"(<point name="p0" value="1 2 3"/><point name="p1" value="1 4 3"/>
+    <float name="radius" value=".5"/><transform name="toWorld"><rotate x="1" angle="30"/></transform>)";
+  for (const bool flip : {false, true}) {
+    const std::string sides =
+        "<boolean name=\"flipNormals\" value=\"" + std::string(flip ? "true" : "false") + "\"/>";
+    const auto mesh = load_body(shape("cylinder", tilted + sides)).meshes.at(0);
+    const Vec3 axis = glm::normalize(mesh.positions.at(1) - mesh.positions.at(0));
+    CHECK(axis.y == Approx(std::cos(glm::radians(30.0))));
+    Vec3 middle(0.0);
+    for (const Vec3& p : mesh.positions) middle += p / static_cast<double>(mesh.positions.size());
+    double area = 0.0;
+    for (const auto& [a, b, c] : mesh.triangles) {
+      const Vec3 cross =
+          glm::cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]);
+      area += glm::length(cross) / 2.0;
+      CHECK((glm::dot(cross, mesh.positions[a] - middle) > 0.0) != flip);
+    }
+    CHECK(area == Approx(2.0 * std::acos(-1.0) * .5 * 2.0).epsilon(1e-12));
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+      const Vec3 from_middle = mesh.positions[i] - middle;
+      const Vec3 outwards = from_middle - axis * glm::dot(axis, from_middle);
+      CHECK(std::abs(glm::length(outwards) - .5) < .5 * 6e-5);
+      CHECK(glm::length(glm::normalize(outwards) * (flip ? -1.0 : 1.0) - Vec3(mesh.normals.at(i))) < 1e-6);
+    }
+  }
+  CHECK_THAT(error_in(shape("cylinder", "<point name=\"p1\" x=\"0\" y=\"0\" z=\"0\"/>")),
+             Contains("p1: it is the same point as p0"));
+  CHECK_THAT(error_in(shape("cylinder", "<float name=\"radius\" value=\"0\"/>")),
+             Contains("0.000000 is not positive"));
 }

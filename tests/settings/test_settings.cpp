@@ -19,17 +19,27 @@ Choices chosen(const std::map<std::string, std::string>& texts) {
 }
 
 // For each setting a valid value that is not the default, as text.
-const std::map<std::string, std::string> other_texts = {
-    {"integrator", "bidir"},      {"strategy", "cosine"},
-    {"connect", "light"},         {"weights", "power"},
-    {"light-selection", "power"}, {"connections", "0"},
-    {"contributions", "DIR"},     {"ambient", "0.1"},
-    {"clamp", "1e-30"},           {"max-depth", "12"},
-    {"rr-depth", "-1"},           {"roulette", "kd-ks"},
-    {"spp", "2147483647"},        {"time", "0.3"},
-    {"error", "1e+20"},           {"seed", "18446744073709551615"},
-    {"first-sample", "7"},        {"width", "16"},
-    {"precision", "double"},      {"traversal", "bvh"}};
+const std::map<std::string, std::string> other_texts = {{"integrator", "bidir"},
+                                                        {"strategy", "cosine"},
+                                                        {"connect", "light"},
+                                                        {"weights", "power"},
+                                                        {"light-selection", "power"},
+                                                        {"connections", "0"},
+                                                        {"contributions", "DIR"},
+                                                        {"ambient", "0.1"},
+                                                        {"clamp", "1e-30"},
+                                                        {"max-depth", "12"},
+                                                        {"rr-depth", "-1"},
+                                                        {"roulette", "kd-ks"},
+                                                        {"sampler", "lattice"},
+                                                        {"spp", "2147483647"},
+                                                        {"time", "0.3"},
+                                                        {"error", "1e+20"},
+                                                        {"seed", "18446744073709551615"},
+                                                        {"first-sample", "7"},
+                                                        {"width", "16"},
+                                                        {"precision", "double"},
+                                                        {"traversal", "bvh"}};
 
 } // namespace
 
@@ -64,7 +74,7 @@ TEST_CASE("An invalid value of a setting is refused with the name of the setting
   CHECK(refusal("connect", "mos") == "`connect` mos: did you mean mis? It must be one of none, light, mis");
   CHECK(refusal("width", "3") == "`width` 3: must be one of 1, 4, 8, 16");
   CHECK(refusal("rr-depth", "0") == "`rr-depth` 0: must be a whole number of 1 or more, or -1 for unbounded");
-  CHECK(refusal("clamp", "0") == "`clamp` 0: must be a number above 0");
+  CHECK(refusal("clamp", "0") == "`clamp` 0: must be a number from 1e-30 to 1e+30");
   CHECK_THROWS_WITH(named("exposure"), "`exposure`: there is no such setting");
 }
 

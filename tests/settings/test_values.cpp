@@ -14,7 +14,7 @@ TEST_CASE("Texts become values") {
         std::numeric_limits<std::uint64_t>::max());
   CHECK(settings::whole_number("--spp", "010", 1, 100) == 10);
   CHECK(settings::depth("--max-depth", "-1") == -1);
-  CHECK(settings::positive_number("--error", "1e-2") == 0.01);
+  CHECK(settings::number_within("--error", "1e-2", 0, 1) == 0.01);
   CHECK(settings::size("--size", "640x480") == std::array{640, 480});
   CHECK(settings::definition("-D", "a=b=c") == std::pair<std::string, std::string>{"a", "b=c"});
   CHECK(settings::definition("-D", "a=").second.empty());
@@ -25,7 +25,7 @@ TEST_CASE("An invalid value is a UsageError") {
   CHECK_THROWS_AS(settings::whole_number("--seed", "0x10", 0, 100), UsageError);
   CHECK_THROWS_AS(settings::whole_number("--seed", "", 0, 100), UsageError);
   CHECK_THROWS_AS(settings::whole_number("--seed", "18446744073709551616", 0, 100), UsageError);
-  CHECK_THROWS_AS(settings::positive_number("--time", "1s"), UsageError);
+  CHECK_THROWS_AS(settings::number_within("--time", "1s", 0, 1), UsageError);
   CHECK_THROWS_AS(settings::size("--size", "16384x16385"), UsageError);
   CHECK_THROWS_AS(settings::size("--size", "x"), UsageError);
   CHECK_THROWS_AS(settings::definition("-D", "=b"), UsageError);

@@ -1,0 +1,228 @@
+#include "render/dispatch.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <new>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "errors.h"
+
+namespace phlux::render {
+namespace {
+
+// A failure while a launch is added to the film, which then has a part of it.
+struct FilmLost : Error {
+  explicit FilmLost(const std::string& why)
+      : Error(4, fmt::format("the film is lost: {}: go on from an earlier checkpoint", why)) {}
+};
+
+// Whether the error of a call may be due to too little memory.
+bool is_memory_short(cl_int code) {
+  return code == CL_MEM_OBJECT_ALLOCATION_FAILURE || code == CL_OUT_OF_RESOURCES ||
+         code == CL_OUT_OF_HOST_MEMORY || code == CL_INVALID_BUFFER_SIZE;
+}
+
+void add(const Counts& counts, Counts& to) {
+  to.paths += counts.paths;
+  to.rays += counts.rays;
+  to.shadow_rays += counts.shadow_rays;
+  to.nonfinite += counts.nonfinite;
+  if (!to.first_nonfinite) to.first_nonfinite = counts.first_nonfinite;
+}
+
+} // namespace
+
+std::optional<Failure> current_failure() {
+  try {
+    throw;
+  } catch (const MemoryShort& error) {
+    return Failure{error.what(), true};
+  } catch (const DeviceError& error) {
+    return Failure{error.what(), false};
+  } catch (const cl::Error& error) {
+    return Failure{device::describe(error), is_memory_short(error.err())};
+  } catch (const std::bad_alloc&) {
+    return Failure{"no memory left for the results of a launch", true};
+  } catch (...) {
+    return std::nullopt;
+  }
+}
+
+std::string name_of(const device::DeviceInfo& device) {
+  return fmt::format("OpenCL device {}:{} ({})", device.platform_index, device.device_index, device.name);
+}
+
+void pause(const Settings& settings) {
+  std::this_thread::sleep_for(std::chrono::duration<double>(settings.pause_seconds));
+}
+
+DispatchLoop::DispatchLoop(const Settings& settings, film::Film& film, const Events& events,
+                           const RenderState& from)
+    : settings_(settings), film_(film), events_(events), begin_(Clock::now()),
+      seconds_before_(from.seconds_render), open_ended_(settings.time_limit || settings.target_error),
+      schedule_(static_cast<std::int64_t>(film.pixels().size()),
+                open_ended_ ? std::nullopt : std::optional<std::int64_t>(settings.samples_per_pixel),
+                from.position, samples_point_sets(settings) ? Blocks::of_point_sets : Blocks::of_independent),
+      counts_(from), started_paths_(from.paths) {
+  if (settings.target_error) target_.emplace(*settings.target_error, film.pixels().size());
+  ended_ = from.paths > 0 && precise_enough();
+}
+
+void DispatchLoop::run(const std::vector<Launcher*>& launchers) {
+  std::vector<std::exception_ptr> exceptions(launchers.size());
+  const auto run_one = [&](std::size_t i) {
+    try {
+      run(*launchers[i]);
+    } catch (...) {
+      exceptions[i] = std::current_exception();
+      end();
+    }
+  };
+  {
+    std::vector<std::jthread> others; // the first device is for this thread
+    for (std::size_t i = 1; i < launchers.size(); ++i) others.emplace_back(run_one, i);
+    run_one(0);
+  }
+  for (const std::exception_ptr& exception : exceptions)
+    if (exception) std::rethrow_exception(exception);
+  if (given_up_ == launchers.size() && !is_over()) failure_ = last_failure_ + ": no device is left";
+}
+
+// Runs one device.
+void DispatchLoop::run(Launcher& launcher) {
+  bool begun = false;
+  int failures = 0; // in a row
+  while (true) {
+    try {
+      if (!begun) launcher.begin(settings_);
+      begun = true;
+      if (!step(launcher)) return;
+      failures = 0;
+    } catch (...) {
+      const std::optional<Failure> failure = current_failure();
+      if (!failure) throw;
+      if (!recover(launcher, *failure, ++failures)) return;
+    }
+  }
+}
+
+// Keeps the device busy and adds one launch to the film. False when the work is done or ended.
+bool DispatchLoop::step(Launcher& launcher) {
+  do {
+    while (launcher.in_flight() < launcher.most_in_flight() && take(launcher)) {
+    }
+  } while (launcher.in_flight() == 0 && wait_for_more());
+  if (launcher.in_flight() == 0) return false;
+  launcher.settle();
+  const std::lock_guard lock(mutex_);
+  try {
+    launcher.collect(film_);
+  } catch (const std::exception& error) {
+    throw FilmLost(error.what());
+  }
+  add(launcher.take_counts(), counts_);
+  in_flight_[&launcher].pop_front();
+  if (!ended_) ended_ = precise_enough() || !report();
+  changed_.notify_all();
+  return true;
+}
+
+bool DispatchLoop::take(Launcher& launcher) {
+  const std::lock_guard lock(mutex_);
+  if (is_over()) return false;
+  if (target_ && launcher.in_flight() > 0 && paths_left() <= 0) return false;
+  auto launch = schedule_.next([&](std::int64_t left, int samples) {
+    if (target_) left = std::clamp<std::int64_t>(paths_left() / samples, 1, left);
+    return launcher.wanted_jobs(left, samples);
+  });
+  if (!launch) return false;
+  started_paths_ += static_cast<std::uint64_t>(launch->jobs * launch->block_samples);
+  in_flight_[&launcher].push_back(*launch);
+  launch->first_sample += settings_.first_sample;
+  launcher.enqueue(*launch);
+  return true;
+}
+
+// When nothing is left to start: whether a device that failed has given launches back.
+bool DispatchLoop::wait_for_more() {
+  std::unique_lock lock(mutex_);
+  const auto all_idle = [&] {
+    return std::ranges::all_of(in_flight_, [](const auto& device) { return device.second.empty(); });
+  };
+  changed_.wait(lock, [&] { return is_over() || schedule_.has_missing() || all_idle(); });
+  return !is_over() && schedule_.has_missing();
+}
+
+// Whether the device is to try again.
+bool DispatchLoop::recover(Launcher& launcher, const Failure& failure, int failures) {
+  constexpr int most_tries = 10; // with smaller and smaller launches
+  launcher.abandon();
+  const bool smaller = failure.memory_is_short && launcher.shrink();
+  const bool again = failures == 1 || (smaller && failures < most_tries);
+  const std::string what = fmt::format("{}: {}", name_of(launcher.device()), failure.text);
+  {
+    const std::lock_guard lock(mutex_);
+    give_back(launcher);
+    if (!again) {
+      ++given_up_;
+      last_failure_ = what;
+    }
+    if (events_.warning && failures == 1)
+      events_.warning(fmt::format("{}: its work is repeated after a pause{}", what,
+                                  smaller ? ", with fewer work-items" : ""));
+    else if (events_.warning && !again)
+      events_.warning(fmt::format("{}: the device is given up", what));
+  }
+  changed_.notify_all();
+  if (failures == 1) pause(settings_);
+  return again;
+}
+
+void DispatchLoop::give_back(const Launcher& launcher) {
+  std::deque<Launch>& launches = in_flight_[&launcher];
+  for (const Launch& launch : launches)
+    started_paths_ -= static_cast<std::uint64_t>(launch.jobs * launch.block_samples);
+  schedule_.give_back(launches);
+  launches.clear();
+}
+
+// Ends the render on every device.
+void DispatchLoop::end() {
+  const std::lock_guard lock(mutex_);
+  ended_ = true;
+  changed_.notify_all();
+}
+
+RenderState DispatchLoop::state() const {
+  RenderState state{counts_, schedule_.position(), seconds()};
+  std::vector<Launch>& missing = state.position.missing;
+  for (const auto& [launcher, launches] : in_flight_)
+    missing.insert(missing.begin(), launches.begin(), launches.end());
+  return state;
+}
+
+bool DispatchLoop::report() const {
+  if (!events_.progress) return true;
+  Progress progress;
+  progress.samples_done = static_cast<double>(counts_.paths) / static_cast<double>(film_.pixels().size());
+  if (!open_ended_) progress.samples_total = settings_.samples_per_pixel;
+  progress.seconds = seconds();
+  progress.paths = counts_.paths;
+  progress.state = [this] { return state(); };
+  return events_.progress(progress);
+}
+
+bool DispatchLoop::is_over() const {
+  return ended_ || (settings_.time_limit && seconds() >= *settings_.time_limit);
+}
+
+// Until the requested error, as far as is known.
+std::int64_t DispatchLoop::paths_left() const {
+  return static_cast<std::int64_t>(std::ceil(target_->wanted_paths() - static_cast<double>(started_paths_)));
+}
+
+} // namespace phlux::render

@@ -1,0 +1,81 @@
+// Shares the work of a render among devices, and repeats what a failed device has not finished.
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "clock.h"
+#include "render/error_target.h"
+#include "render/launcher.h"
+
+namespace phlux::render {
+
+/// A failure of a device, after which its launches are repeated.
+struct Failure {
+  std::string text;
+  bool memory_is_short = false; ///< smaller launches may succeed
+};
+
+/// Of the exception that is being handled; nothing if it is another one.
+[[nodiscard]] std::optional<Failure> current_failure();
+
+/// "OpenCL device P:D (NAME)".
+[[nodiscard]] std::string name_of(const device::DeviceInfo& device);
+
+/// Waits for Settings::pause_seconds: a driver may be resetting the device.
+void pause(const Settings& settings);
+
+/// A device that fails is tried again, once after a pause, and with ever smaller launches where memory is
+/// short; then it is given up. In both cases other devices may take its launches. On one device the launches
+/// are added to the film in the same order as without the failure, so that the film is the same, bit for bit.
+class DispatchLoop {
+public:
+  DispatchLoop(const Settings& settings, film::Film& film, const Events& events, const RenderState& from);
+
+  /// Runs the devices, each in a thread, until the work is done or ended, or all have failed. Reports
+  /// progress after each launch. @throws what is no failure of a device, such as an exception of `events`
+  void run(const std::vector<Launcher*>& launchers);
+
+  /// The state that belongs to the film.
+  [[nodiscard]] RenderState state() const;
+  /// Why all devices are given up, with work left; empty if they are not.
+  [[nodiscard]] const std::string& failure() const { return failure_; }
+
+private:
+  void run(Launcher& launcher);
+  bool step(Launcher& launcher);
+  bool take(Launcher& launcher);
+  bool wait_for_more();
+  bool recover(Launcher& launcher, const Failure& failure, int failures);
+  void give_back(const Launcher& launcher);
+  void end();
+  [[nodiscard]] bool report() const;
+  [[nodiscard]] bool precise_enough() { return target_ && target_->reached(film_, counts_.paths); }
+  [[nodiscard]] bool is_over() const;
+  [[nodiscard]] std::int64_t paths_left() const;
+  [[nodiscard]] double seconds() const { return seconds_before_ + seconds_since(begin_); }
+
+  const Settings& settings_;
+  film::Film& film_;
+  const Events& events_;
+  Clock::time_point begin_;
+  double seconds_before_;
+  bool open_ended_;
+  std::optional<ErrorTarget> target_;
+  std::mutex mutex_; // of the members below and the film
+  std::condition_variable changed_;
+  Schedule schedule_;
+  std::map<const Launcher*, std::deque<Launch>> in_flight_;
+  Counts counts_;
+  std::uint64_t started_paths_;
+  bool ended_ = false;
+  std::size_t given_up_ = 0; // devices
+  std::string last_failure_, failure_;
+};
+
+} // namespace phlux::render

@@ -1,0 +1,30 @@
+// Reads image files for textures and environment maps.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "scene_file/location.h"
+
+namespace phlux::scene_file {
+
+/// Pixels row by row from the top, in one of the two lists.
+struct ImageFile {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> bytes; ///< R, G, B, 255 per pixel, of files with at most 8 bits a channel
+  std::vector<float> floats;       ///< R, G, B per pixel, finite
+  bool is_encoded = false;         ///< values are sRGB-encoded, from 0 to 1 (255); otherwise linear
+};
+
+/// Most pixels of an image: 16384 x 16384.
+inline constexpr std::uint64_t most_image_pixels = std::uint64_t{1} << 28;
+
+/// Reads PNG, JPEG, BMP and TGA (8 or 16 bits a channel), HDR (RGBE) and OpenEXR (channels R, G, B or Y).
+/// Grey becomes three equal channels; alpha is ignored. The size that the file claims is checked before
+/// memory is allocated.
+/// @throws SceneError at `named_at` if the file cannot be read; "FILE: ..." if it is damaged, cut short, too
+/// large, of another format, or has a pixel that is not finite
+[[nodiscard]] ImageFile read_image(const std::filesystem::path& file, const Location& named_at);
+
+} // namespace phlux::scene_file

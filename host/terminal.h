@@ -1,0 +1,27 @@
+// Text for the user. What a full disk, a closed terminal or a pipe without a reader does not take is lost,
+// and ends nothing.
+#pragma once
+
+#include <cstdio>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace phlux {
+
+/// Prints to standard output. cli::run() reports a failure at the end.
+template<class... Values>
+void say(fmt::format_string<Values...> format, Values&&... values) {
+  const std::string text = fmt::format(format, std::forward<Values>(values)...);
+  static_cast<void>(std::fwrite(text.data(), 1, text.size(), stdout));
+}
+
+/// Prints to standard error.
+template<class... Values>
+void tell(fmt::format_string<Values...> format, Values&&... values) {
+  const std::string text = fmt::format(format, std::forward<Values>(values)...);
+  static_cast<void>(std::fwrite(text.data(), 1, text.size(), stderr));
+}
+
+} // namespace phlux

@@ -1,0 +1,176 @@
+#include "faults/device.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <limits>
+#include <map>
+#include <mutex>
+#include <sstream>
+#include <vector>
+
+#include <dlfcn.h>
+
+#define CL_TARGET_OPENCL_VERSION 120
+#define CL_USE_DEPRECATED_OPENCL_1_2_APIS
+#include <CL/cl.h>
+
+namespace faults {
+namespace {
+
+class Plan {
+public:
+  Plan() {
+    const char* text = std::getenv("PHLUX_DEVICE_FAULT");
+    if (text == nullptr) return;
+    std::istringstream words(text);
+    words >> call_ >> first_ >> count_ >> code_;
+    if (!(words >> queue_)) queue_ = -1;
+  }
+  void set(const std::string& call, long first, long count, int code, int queue) {
+    const std::lock_guard lock(mutex_);
+    call_ = call;
+    first_ = first;
+    count_ = count;
+    code_ = code;
+    queue_ = queue;
+    struck_ = 0;
+    calls_.clear();
+  }
+  // The error that a call is to return; CL_SUCCESS: none.
+  cl_int error_of(const std::string& call, cl_command_queue queue = nullptr) {
+    const std::lock_guard lock(mutex_);
+    if (queue != nullptr && std::ranges::find(queues_, queue) == queues_.end()) queues_.push_back(queue);
+    if (queue_ >= 0 && (queue == nullptr || std::ranges::find(queues_, queue) - queues_.begin() != queue_))
+      return CL_SUCCESS;
+    const long number = calls_[call]++;
+    if (call != call_ || number < first_ || number - first_ >= count_) return CL_SUCCESS;
+    ++struck_;
+    return code_;
+  }
+  long calls(const std::string& call) {
+    const std::lock_guard lock(mutex_);
+    return calls_[call];
+  }
+  long struck() {
+    const std::lock_guard lock(mutex_);
+    return struck_;
+  }
+
+private:
+  std::mutex mutex_;
+  std::string call_;
+  long first_ = 0, count_ = 0, struck_ = 0;
+  int code_ = 0, queue_ = -1;
+  std::map<std::string, long> calls_;
+  std::vector<cl_command_queue> queues_;
+};
+
+// Never destroyed: drivers make calls while the process ends.
+Plan& plan() {
+  static Plan& only = *new Plan;
+  return only;
+}
+
+std::mutex mapped_mutex;
+long mapped = 0;
+
+void count_mapped(long change) {
+  const std::lock_guard lock(mapped_mutex);
+  mapped += change;
+}
+
+template<class Function>
+Function* loader(const char* name) {
+  return reinterpret_cast<Function*>(::dlsym(RTLD_NEXT, name));
+}
+
+} // namespace
+
+void plan_device_fault(const std::string& call, long first, long count, int code, int queue) {
+  plan().set(call, first, count, code, queue);
+}
+
+long device_calls(const std::string& call) {
+  return plan().calls(call);
+}
+
+long device_faults() {
+  return plan().struck();
+}
+
+long mapped_buffers() {
+  const std::lock_guard lock(mapped_mutex);
+  return mapped;
+}
+
+} // namespace faults
+
+using faults::loader;
+using faults::plan;
+
+// A function that returns its error, and one that returns an object and writes the error to its last
+// parameter.
+#define RETURNS_ERROR(name, queue, parameters, arguments)                                                    \
+  extern "C" cl_int name parameters {                                                                        \
+    static auto* const driver = loader<cl_int parameters>(#name);                                            \
+    if (const cl_int error = plan().error_of(#name, queue); error != CL_SUCCESS) return error;               \
+    return driver arguments;                                                                                 \
+  }
+#define RETURNS_OBJECT(type, name, parameters, arguments)                                                    \
+  extern "C" type name parameters {                                                                          \
+    static auto* const driver = loader<type parameters>(#name);                                              \
+    if (const cl_int code = plan().error_of(#name); code != CL_SUCCESS) {                                    \
+      if (error != nullptr) *error = code;                                                                   \
+      return nullptr;                                                                                        \
+    }                                                                                                        \
+    return driver arguments;                                                                                 \
+  }
+
+RETURNS_ERROR(clEnqueueNDRangeKernel, queue,
+              (cl_command_queue queue, cl_kernel kernel, cl_uint dimensions, const size_t* offset,
+               const size_t* size, const size_t* local, cl_uint count, const cl_event* events,
+               cl_event* event),
+              (queue, kernel, dimensions, offset, size, local, count, events, event))
+RETURNS_ERROR(clEnqueueReadBuffer, queue,
+              (cl_command_queue queue, cl_mem buffer, cl_bool blocking, size_t offset, size_t bytes, void* to,
+               cl_uint count, const cl_event* events, cl_event* event),
+              (queue, buffer, blocking, offset, bytes, to, count, events, event))
+RETURNS_ERROR(clWaitForEvents, nullptr, (cl_uint count, const cl_event* events), (count, events))
+RETURNS_ERROR(clGetEventInfo, nullptr,
+              (cl_event event, cl_event_info what, size_t bytes, void* to, size_t* needed),
+              (event, what, bytes, to, needed))
+RETURNS_ERROR(clGetEventProfilingInfo, nullptr,
+              (cl_event event, cl_profiling_info what, size_t bytes, void* to, size_t* needed),
+              (event, what, bytes, to, needed))
+RETURNS_ERROR(clSetKernelArg, nullptr, (cl_kernel kernel, cl_uint index, size_t bytes, const void* value),
+              (kernel, index, bytes, value))
+RETURNS_ERROR(clFlush, queue, (cl_command_queue queue), (queue))
+RETURNS_ERROR(clFinish, queue, (cl_command_queue queue), (queue))
+RETURNS_OBJECT(cl_mem, clCreateBuffer,
+               (cl_context context, cl_mem_flags flags, size_t bytes, void* host, cl_int* error),
+               (context, flags, bytes, host, error))
+RETURNS_OBJECT(cl_kernel, clCreateKernel, (cl_program program, const char* name, cl_int* error),
+               (program, name, error))
+
+extern "C" void* clEnqueueMapBuffer(cl_command_queue queue, cl_mem buffer, cl_bool blocking,
+                                    cl_map_flags flags, size_t offset, size_t bytes, cl_uint count,
+                                    const cl_event* events, cl_event* event, cl_int* error) {
+  static auto* const driver = loader<decltype(clEnqueueMapBuffer)>("clEnqueueMapBuffer");
+  if (const cl_int code = plan().error_of("clEnqueueMapBuffer", queue); code != CL_SUCCESS) {
+    if (error != nullptr) *error = code;
+    return nullptr;
+  }
+  void* const memory = driver(queue, buffer, blocking, flags, offset, bytes, count, events, event, error);
+  if (memory != nullptr) faults::count_mapped(1);
+  return memory;
+}
+
+extern "C" cl_int clEnqueueUnmapMemObject(cl_command_queue queue, cl_mem buffer, void* memory, cl_uint count,
+                                          const cl_event* events, cl_event* event) {
+  static auto* const driver = loader<decltype(clEnqueueUnmapMemObject)>("clEnqueueUnmapMemObject");
+  if (const cl_int error = plan().error_of("clEnqueueUnmapMemObject", queue); error != CL_SUCCESS)
+    return error;
+  const cl_int result = driver(queue, buffer, memory, count, events, event);
+  if (result == CL_SUCCESS) faults::count_mapped(-1);
+  return result;
+}

@@ -1,0 +1,80 @@
+#include <catch2/catch.hpp>
+
+#include "scene/digest.h"
+#include "scene_file/scenes.h"
+
+using namespace phlux::test;
+using Catch::Contains;
+using Catch::StartsWith;
+
+namespace {
+
+const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+
+std::string mesh(const std::string& transform) {
+  return "<shape type=\"obj\"><string name=\"filename\" value=\"m.obj\"/><ref id=\"red\"/><transform "
+         "name=\"toWorld\">" +
+         transform + "</transform></shape>";
+}
+std::string ball(const std::string& transform, const std::string& centre = "1 2 3") {
+  return "<shape type=\"sphere\"><point name=\"center\" value=\"" + centre +
+         "\"/><emitter type=\"area\"/><transform name=\"toWorld\">" + transform + "</transform></shape>";
+}
+std::string cube(const std::string& transform) {
+  return "<shape type=\"cube\"><transform name=\"toWorld\">" + transform + "</transform></shape>";
+}
+std::string instance(const std::string& transform) {
+  return "<shape type=\"instance\"><ref id=\"group\"/><transform name=\"toWorld\">" + transform +
+         "</transform></shape>";
+}
+
+const std::string red =
+    "<bsdf type=\"diffuse\" id=\"red\"><rgb name=\"reflectance\" value=\".5 0 0\"/></bsdf>";
+const std::string own = "<rotate y=\"1\" angle=\"40\"/><translate x=\"1\"/>";
+const std::string twice = "<scale value=\"2\"/>",
+                  turned = "<scale value=\"-.5\"/><rotate x=\"1\" angle=\"70\"/>";
+
+phlux::scene::Scene scene_of(const std::string& body, const std::string& version = "0.6.0") {
+  return load_files({{"scene.xml", with_sensor(red + body, version)}, {"m.obj", obj}});
+}
+
+} // namespace
+
+TEST_CASE("Instances are the scene of copies made by hand, bit for bit") {
+  const std::string group =
+      "<shape type=\"shapegroup\" id=\"group\">" + mesh(own) + cube(own) + ball(own) + "</shape>";
+  const auto instances = scene_of(group + instance(twice) + instance(turned));
+  const auto copies =
+      scene_of(mesh(own + twice) + cube(own + twice) + ball(own + twice) + mesh(own + turned) +
+               cube(own + turned) + ball(own + turned, "2 4 6")); // 0.6 scales the centre's inverse
+  REQUIRE(instances.meshes.size() == 2);
+  CHECK(instances.meshes[1].positions == copies.meshes.at(1).positions);
+  CHECK(instances.meshes[1].normals == copies.meshes[1].normals);
+  CHECK(instances.spheres.at(0).radius == copies.spheres.at(0).radius);
+  CHECK(instances.area_emitters.size() == 2);
+  const auto instances3 = scene_of(group + instance(twice) + instance(turned), "3.0.0");
+  const auto copies3 = scene_of(mesh(own + twice) + cube(own + twice) + ball(own + twice) +
+                                    mesh(own + turned) + cube(own + turned) + ball(own + turned),
+                                "3.0.0");
+  CHECK(phlux::scene::digest(instances3) == phlux::scene::digest(copies3));
+}
+
+TEST_CASE("Instances: what is wrong with them, and the memory of copies") {
+  CHECK_THAT(error_in("<shape type=\"instance\"/>"),
+             StartsWith("scene.xml:2: <shape type=\"instance\"> without a reference"));
+  CHECK_THAT(error_in("<shape type=\"sphere\" id=\"group\"/>\n" + instance(twice)),
+             StartsWith("scene.xml:3: "));
+  CHECK_THAT(error_in("<shape type=\"shapegroup\" id=\"inner\"/><shape type=\"shapegroup\" "
+                      "id=\"group\">\n<shape type=\"instance\">"
+                      "<ref id=\"inner\"/></shape></shape>" +
+                      instance(twice)),
+             StartsWith("scene.xml:3: <shape type=\"instance\"> inside a shapegroup"));
+  CHECK_THAT(error_in("<shape type=\"shapegroup\" id=\"group\">\n<shape type=\"torus\"/></shape>" +
+                      instance(twice) + instance(turned)),
+             StartsWith("scene.xml:3: <shape type=\"torus\"> is not supported: supported"));
+  CHECK(scene_of("<shape type=\"shapegroup\" id=\"group\">" + mesh("") + "</shape>").meshes.empty());
+  const std::string group = "<shape type=\"shapegroup\" id=\"group\">" + mesh("") + "</shape>";
+  CHECK_THAT(log_of_files({{"scene.xml", with_sensor(red + group + instance(twice) + instance(turned))},
+                           {"m.obj", obj}}),
+             Contains("instances are copies: 8 triangles, about 0 MB"));
+}
