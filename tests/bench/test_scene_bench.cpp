@@ -2,7 +2,6 @@
 
 #include <catch2/catch.hpp>
 
-#include "bench/common/methods/ranking.h"
 #include "bench/common/methods/scene_bench.h"
 #include "bench/common/methods/timed_render.h"
 #include "errors.h"
@@ -130,30 +129,6 @@ TEST_CASE("A mean that differs from that of the reference is a bias, and the err
     CHECK_THAT(result.reason, Catch::Contains("off the reference's"));
     CHECK(result.convergence.back().relmse == Approx(0.04 / (2.2 * 2.2)).epsilon(0.05));
   }
-}
-
-// Half of the samples thrown away: each costs twice as much. The rounds of the two have different seeds.
-TEST_CASE("A method made worse by two is slower, never tied") {
-  const scene::Scene scene = shipped("cornell-box", 16);
-  MethodRenderer renderer(scene, settings_of(mis, scene.defaults));
-  const auto measured = [&](const Method& method, std::uint64_t first_seed, double seconds) {
-    std::vector<ImageEstimate> images;
-    for (std::uint64_t i = 0; i < 5; ++i)
-      images.push_back(estimate_of(renderer.render_samples(first_seed + i, 64, {}).film));
-    MethodResult result;
-    result.method = method;
-    const std::vector<double> variances = variances_per_sample(images, pooled_reference(images, 16));
-    for (const double variance : variances) result.rounds.push_back({variance, seconds, seconds});
-    result.variance = mean_of(variances);
-    return result;
-  };
-  const std::vector<MethodResult> results = {measured(mis, 1, 1), measured({"path", "fold", "mis"}, 101, 2)};
-  const auto costs = rank(results, CostClock::processor);
-  CAPTURE(costs[1].ratio, costs[1].low, costs[1].high);
-  CHECK(costs[0].rank == Rank::best);
-  CHECK(costs[1].rank == Rank::slower);
-  CHECK_THAT(answer_of(results, costs, 2),
-             Catch::StartsWith("-i path --connect mis needs the least time") && !Catch::Contains("tied"));
 }
 
 TEST_CASE("A scene that no method can render has no reference") {
