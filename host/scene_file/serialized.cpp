@@ -157,7 +157,6 @@ public:
     for (std::uint64_t i = 0; i < vertices; ++i) part.mesh.positions.push_back(vector(content, is_double));
     if (flags & has_normals)
       for (std::uint64_t i = 0; i < vertices; ++i) part.mesh.normals.emplace_back(vector(content, is_double));
-    if (flags & has_texture) read_texture_coordinates(content, is_double, vertices, part.mesh);
     if (flags & has_texture)
       for (std::uint64_t i = 0; i < vertices; ++i) add_texture_coordinates(content, is_double, part.mesh);
     if (flags & has_colours)
@@ -178,17 +177,6 @@ private:
       fail(file_.where(), "a mesh of " + std::to_string(number) + " vertices or triangles",
            "less than 2^32, and no more than a file of its size can hold");
     return number;
-  }
-
-  void read_texture_coordinates(Inflated& content, bool is_double, std::uint64_t vertices,
-                                scene::Mesh& mesh) {
-    for (std::uint64_t i = 0; i < vertices; ++i) {
-      const double u = content.real(is_double), v = content.real(is_double);
-      if (!request_.texture_coordinates) continue;
-      if (!std::isfinite(u) || !std::isfinite(v))
-        fail(file_.where(), "a texture coordinate is not finite", "finite numbers");
-      mesh.texture_coordinates.emplace_back(u, request_.flip_tex_coords ? 1.0 - v : v);
-    }
   }
 
   scene::Vec3 vector(Inflated& content, bool is_double) {
