@@ -22,15 +22,18 @@ MeshPart cylinder(const scene::Vec3& p0, const scene::Vec3& p1, double radius) {
   // The polygon through these points is as long as the circle: 2 facets r' sin(half_angle) = 2 pi r.
   const double corner_radius = radius * half_angle / std::sin(half_angle);
   MeshPart part;
-  for (std::uint32_t i = 0; i < facets; ++i) {
-    const scene::Vec3 normal = std::cos(2.0 * half_angle * i) * u + std::sin(2.0 * half_angle * i) * v;
-    for (const scene::Vec3& end : {p0, p1}) {
-      part.mesh.positions.push_back(end + corner_radius * normal);
+  for (std::uint32_t i = 0; i <= facets; ++i) { // the last column is the first with u = 1
+    const double angle = 2.0 * half_angle * (i % facets);
+    const scene::Vec3 normal = std::cos(angle) * u + std::sin(angle) * v;
+    for (const int end : {0, 1}) {
+      part.mesh.positions.push_back((end == 0 ? p0 : p1) + corner_radius * normal);
       part.mesh.normals.emplace_back(normal);
+      part.mesh.texture_coordinates.emplace_back(static_cast<double>(i) / facets, end);
     }
-    const std::uint32_t low = 2 * i, next_low = 2 * ((i + 1) % facets);
-    part.mesh.triangles.push_back({low, next_low, next_low + 1});
-    part.mesh.triangles.push_back({low, next_low + 1, low + 1});
+  }
+  for (std::uint32_t low = 0; low < 2 * facets; low += 2) {
+    part.mesh.triangles.push_back({low, low + 2, low + 3});
+    part.mesh.triangles.push_back({low, low + 3, low + 1});
   }
   return part;
 }

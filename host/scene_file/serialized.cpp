@@ -158,8 +158,10 @@ public:
     if (flags & has_normals)
       for (std::uint64_t i = 0; i < vertices; ++i) part.mesh.normals.emplace_back(vector(content, is_double));
     if (flags & has_texture) read_texture_coordinates(content, is_double, vertices, part.mesh);
-    const std::uint64_t unused = (flags & has_colours) ? 3 * vertices : 0;
-    for (std::uint64_t i = 0; i < unused; ++i) static_cast<void>(content.real(is_double));
+    if (flags & has_texture)
+      for (std::uint64_t i = 0; i < vertices; ++i) add_texture_coordinates(content, is_double, part.mesh);
+    if (flags & has_colours)
+      for (std::uint64_t i = 0; i < 3 * vertices; ++i) static_cast<void>(content.real(is_double));
     for (std::uint64_t i = 0; i < triangles; ++i) {
       std::array<std::uint32_t, 3> triangle{};
       for (auto& corner : triangle) corner = index(content, vertices);
@@ -197,6 +199,15 @@ private:
         fail(file_.where(), "a vertex or normal is not finite", "numbers within single precision");
     }
     return result;
+  }
+
+  void add_texture_coordinates(Inflated& content, bool is_double, scene::Mesh& mesh) {
+    const double u = content.real(is_double), v = content.real(is_double);
+    if (!request_.texture_coordinates) return;
+    const glm::vec2 uv(u, request_.flip_tex_coords ? 1.0 - v : v);
+    if (!std::isfinite(uv.x + uv.y))
+      fail(file_.where(), "a texture coordinate is not finite", "finite numbers");
+    mesh.texture_coordinates.push_back(uv);
   }
 
   std::uint32_t index(Inflated& content, std::uint64_t vertices) {

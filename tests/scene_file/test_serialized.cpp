@@ -37,8 +37,9 @@ std::string triangle(std::uint16_t version, std::uint32_t flags, double size, st
   for (const double x : {0., 0., 0., size, 0., 0., 0., size, 0.}) content += real(x, is_double);
   if (flags & normals)
     for (const double x : {0., 0., 1., 0., 0., 1., 0., 0., 1.}) content += real(x, is_double);
-  for (int i = 0; i < ((flags & texture) ? 6 : 0) + ((flags & colours) ? 9 : 0); ++i)
-    content += real(.5, is_double);
+  if (flags & texture)
+    for (const double x : {.5, .25, .5, .25, .5, .25}) content += real(x, is_double);
+  for (int i = 0; i < ((flags & colours) ? 9 : 0); ++i) content += real(.5, is_double);
   for (const std::uint32_t i : {0U, 1U, last_index}) content += little(i);
   std::string packed(compressBound(content.size()), '\0');
   uLongf length = packed.size();
@@ -75,8 +76,20 @@ TEST_CASE("Serialized meshes: both versions, precisions, and every combination o
         CHECK(mesh.positions[1] == Vec3(3, 0, 0));
         CHECK(mesh.triangles == std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}});
         CHECK(mesh.normals.size() == ((contents & flat) ? 0 : 3));
+        CHECK(mesh.texture_coordinates.empty()); // the material needs none
         for (const auto& normal : mesh.normals) CHECK(normal == glm::vec3(0, 0, 1));
       }
+}
+
+TEST_CASE("Texture coordinates of serialized meshes") {
+  const std::string anisotropic = "<bsdf type=\"anisotropicphong\"/>";
+  for (const std::uint32_t precision : {in_single, in_double}) {
+    const std::string file = file_of({triangle(4, precision | normals | texture | colours, 1.0)});
+    const auto mesh = load_mesh("serialized", file, anisotropic);
+    CHECK(mesh.texture_coordinates == std::vector<glm::vec2>(3, glm::vec2(.5f, .25f)));
+    CHECK(mesh.triangles.size() == 1);
+  }
+  CHECK(load_mesh("serialized", triangle(4, in_single, 1.0), anisotropic).texture_coordinates.empty());
 }
 
 TEST_CASE("shapeIndex chooses a mesh of a serialized file") {
