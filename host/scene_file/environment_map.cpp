@@ -1,12 +1,12 @@
 #include "scene_file/environment_map.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/gtx/component_wise.hpp>
 
+#include "scene_file/color.h"
 #include "scene_file/image_file.h"
 #include "scene_file/transform.h"
 
@@ -14,16 +14,12 @@ namespace phlux::scene_file {
 
 namespace {
 
-/// The linear value of an sRGB-encoded one (IEC 61966-2-1), both from 0 to 1.
-float decoded(float value) {
-  return value <= 0.04045F ? value / 12.92F : std::pow((value + 0.055F) / 1.055F, 2.4F);
-}
-
 void set_texels(ImageFile image, scene::EnvironmentMap& map) {
   if (image.floats.empty())
     for (std::size_t i = 0; i < image.bytes.size(); ++i)
       if (i % 4 != 3) image.floats.push_back(static_cast<float>(image.bytes[i]) / 255);
-  if (image.is_encoded) std::ranges::transform(image.floats, image.floats.begin(), decoded);
+  if (image.is_encoded)
+    for (float& value : image.floats) value = static_cast<float>(decode_srgb(static_cast<double>(value)));
   map.width = image.width;
   map.height = image.height;
   map.texels.reserve(image.floats.size() / 3);

@@ -63,6 +63,9 @@ TEST_CASE("The digest of a scene changes with all that its light depends on") {
       [](Scene& s) { s.spot_lights[0].beam_width = 0.1; },
       [](Scene& s) { s.directional_lights[0].irradiance.b = 0; },
       [](Scene& s) { s.constant_radiance = Rgb(0); },
+      [](Scene& s) { s.environment.emplace(); },
+      [](Scene& s) { s.camera.aperture_radius = 1; },
+      [](Scene& s) { s.camera.filter.kind = phlux::scene::Filter::Kind::tent; },
       [](Scene& s) {
         s.camera.forward = {1, 0, 0};
       },
