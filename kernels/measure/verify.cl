@@ -18,8 +18,11 @@ static inline void vec_to_planes(__global Real* to, int first, Vec3 v) {
   to[PLANE(first + 2)] = v.z;
 }
 
-// Directions are given and returned with z along the front's normal; models have z on the side of `fixed`.
-static inline Vec3 seen_from(Vec3 fixed, Vec3 v) { return vec3(v.x, v.y, fixed.z < 0.0f ? -v.z : v.z); }
+// Directions are given and returned with z along the front's normal; models that transmit have z on the
+// side of `fixed`, and others do nothing below the surface.
+static inline Vec3 seen_from(Vec3 fixed, Vec3 v) {
+  return HAS_TRANSMISSION ? vec3(v.x, v.y, fixed.z < 0.0f ? -v.z : v.z) : v;
+}
 
 static inline MaterialSample sample_on_its_side(Material m, Vec3 fixed, RandomDraws random, int roulette) {
   MaterialSample s =

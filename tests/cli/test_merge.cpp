@@ -49,7 +49,7 @@ TEST_CASE("Renders of the two halves of a seed's samples merge to the render of 
   const Outcome twice = merge({"a.exr", "b.exr", "all.exr", "-o", "none.exr"});
   CHECK(twice.exit_code == 3);
   CHECK(twice.is_one_line_error());
-  CHECK_THAT(twice.err, Contains("all.exr: has samples 0 to 31 of seed 0, and a.exr has samples 0 to 15"));
+  CHECK_THAT(twice.err, Contains("all.exr: has samples 0 to 31 of seed 0, and b.exr has samples 16 to 31"));
   CHECK(merge({"a.exr", "-o", "none.exr"}).exit_code == 2);
   CHECK(merge({"a.exr", "b.exr"}).exit_code == 2);
   CHECK(merge({"a.exr", "scene.xml", "-o", "none.exr"}).exit_code == 3);

@@ -59,12 +59,22 @@ TEST_CASE("materials: a model with more parameters than the Phong model stands b
   }
 }
 
+// The reflectance of unpolarized light for the sines of the angles of incidence and refraction (Fresnel): the
+// mean of sin^2(a - b) / sin^2(a + b) and tan^2(a - b) / tan^2(a + b).
+static double fresnel(double sine, double bent) {
+  if (sine == bent && sine > 0) return 0; // equal media
+  const double a = std::asin(sine), b = std::asin(bent);
+  const double s = std::sin(a - b) / std::sin(a + b), p = std::tan(a - b) / std::tan(a + b);
+  return (s * s + p * p) / 2;
+}
+
+// Within 4.5 standard errors: 66 shares, false alarm 5e-4.
 TEST_CASE("materials: a dielectric bends light by Snell's law from either side, and equal media do not") {
   for (const Variant v : {Variant{1}, Variant{16}})
     for (const double index : {1.5, 0.7, 1.0}) {
       const auto model = device_model(v, {phlux::lobes::dielectric(index)}, "exact");
       for (const double side : {1.0, -1.0})
-        for (const double sine : {0.0, 1e-3, 0.3, 0.66, 0.9, 0.99999}) {
+        for (const double sine : {1e-4, 1e-3, 0.3, 0.66, 0.9, 0.99999}) {
           CAPTURE(v, index, side, sine);
           const glm::dvec3 fixed(0.6 * sine, 0.8 * sine, side * std::sqrt(1 - sine * sine));
           const double bent = sine * (side > 0 ? 1 / index : index); // of the refracted direction
@@ -78,9 +88,9 @@ TEST_CASE("materials: a dielectric bends light by Snell's law from either side, 
             CHECK(s.direction.x == Approx(scale * fixed.x).margin(1e-7));
             CHECK(s.direction.y == Approx(scale * fixed.y).margin(1e-7));
           }
-          if (bent >= 1) CHECK(through == 0);
-          if (index == 1) CHECK(through == 400);
-          if (index != 1 && bent < 0.9) CHECK((through > 300 && through < 400));
+          const double transmitted = bent < 1 ? 1 - fresnel(sine, bent) : 0;
+          CHECK(std::abs(through / 400.0 - transmitted) <=
+                4.5 * std::sqrt(transmitted * (1 - transmitted) / 400) + 1e-6);
         }
     }
 }

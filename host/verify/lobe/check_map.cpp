@@ -52,6 +52,18 @@ bool is_covered_twice(const std::vector<Sample>& grid, int side, const NumberPai
   return false;
 }
 
+// The same point with other values of the words that directions do not depend on elsewhere: a part that is
+// chosen with a small probability may still be there, and the density is then that of a choice.
+std::vector<Words> chosen_otherwise(const NumberPair& point, std::size_t first, std::size_t second) {
+  std::vector<Words> list;
+  for (const double u : {0.01, 0.99}) {
+    list.push_back({word_for(u), word_for(u), word_for(u), word_for(u)});
+    list.back()[first] = word_for(point.u1);
+    list.back()[second] = word_for(point.u2);
+  }
+  return list;
+}
+
 // Relative error of the density, or nothing where differences of different steps show that the map is not
 // smooth.
 std::optional<double> density_error(const LobeSubject& subject, const Sample* stencil) {
@@ -76,6 +88,8 @@ void check_map(const LobeSubject& subject, const LobeCase& one) {
   std::vector<Words> words;
   for (const NumberPair& p : inner_points()) append_stencil(words, p, others, first, second);
   const std::size_t stencils = words.size() / stencil_size;
+  for (const NumberPair& p : inner_points())
+    for (const Words& other : chosen_otherwise(p, first, second)) words.push_back(other);
   constexpr int side = 48;
   for (int i = 0; i < side * side; ++i) {
     words.push_back(others);
@@ -88,8 +102,11 @@ void check_map(const LobeSubject& subject, const LobeCase& one) {
   std::size_t smooth = 0;
   for (std::size_t i = 0; i < stencils; ++i) {
     const Sample* stencil = &samples[i * stencil_size];
+    const Sample* otherwise = &samples[stencils * stencil_size + 2 * i];
+    const bool is_chosen = std::max(glm::length(otherwise[0].direction - stencil->direction),
+                                    glm::length(otherwise[1].direction - stencil->direction)) > moved;
     const auto error = density_error(subject, stencil);
-    if (!error) continue;
+    if (!error || is_chosen) continue;
     const double spacing = std::sqrt(jacobian(stencil)) / side;
     if (*error > jacobian_error && is_covered_twice(grid, side, inner_points()[i], *stencil, spacing)) return;
     worst = std::max(worst, *error);
