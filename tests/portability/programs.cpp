@@ -54,8 +54,13 @@ Parts without(Parts parts, const std::string& name) {
   return parts;
 }
 
-Parts without_textures(const Parts& parts) {
-  return without(without(without(parts, "checkerboards"), "byte_textures"), "float_textures");
+// Without textures and the models of smooth and rough glass, metal and plastic, which have programs of their
+// own: no scene has them all.
+Parts ordinary(Parts parts) {
+  for (const char* name : {"checkerboards", "byte_textures", "float_textures", "conductor", "dielectric",
+                           "thindielectric", "roughconductor", "roughdielectric", "plastic", "roughplastic"})
+    parts = without(parts, name);
+  return parts;
 }
 
 // With a phong in the scene, a diffuse material is a phong without a lobe. No scene has both an ambient term
@@ -144,8 +149,8 @@ Program of_model(const std::string& file, const std::string& model, const std::s
 
 const std::vector<SceneProgram>& scene_programs() {
   static const std::vector<SceneProgram> list = {
-      {"everything", without_textures(everything())},
-      {"everything-brute-force", without(without_textures(everything()), "hierarchy")},
+      {"everything", ordinary(everything())},
+      {"everything-brute-force", without(ordinary(everything()), "hierarchy")},
       {"diffuse-box", parts_of(diffuse, "cosine")},
       {"few-in-diffuse-box", few_of_all(parts_of(diffuse, "cosine"))},
       {"glossy-spheres", parts_of(glossy, "exact")},
@@ -155,13 +160,13 @@ const std::vector<SceneProgram>& scene_programs() {
       {"textured", parts_of(textured, "exact")},
       {"textured-mesh-bidir", by(Integrator::bidir, parts_of(textured_mesh, "exact"))},
       {"sphere-in-sky", connecting(parts_of(sky, "mixture"), Connect::none)},
-      {"everything-light", by(Integrator::light, without_textures(everything()))},
+      {"everything-light", by(Integrator::light, ordinary(everything()))},
       {"diffuse-box-light", by(Integrator::light, parts_of(diffuse, "cosine"))},
       {"glossy-spheres-light", by(Integrator::light, parts_of(glossy, "exact"))},
       {"glossy-spheres-light-roulette",
        with_roulette(by(Integrator::light, parts_of(glossy, "exact")), Roulette::throughput)},
       {"sky-light", with_techniques(by(Integrator::light, parts_of(sky, "mixture")))},
-      {"everything-bidir", by(Integrator::bidir, without_textures(everything()))},
+      {"everything-bidir", by(Integrator::bidir, ordinary(everything()))},
       {"diffuse-box-bidir", by(Integrator::bidir, parts_of(diffuse, "cosine"))},
       {"glossy-spheres-bidir",
        with_roulette_of_connections(by(Integrator::bidir, parts_of(glossy, "exact"), Weights::power))},
@@ -220,7 +225,7 @@ std::vector<Program> programs() {
     list.push_back(of_model("arithmetic", "phong", "exact", width));
     list.back().name = fmt::format("arithmetic-native.{}", width);
     list.back().source.defines["PHLUX_NATIVE"] = "1";
-    list.push_back(program_of({"rays", without_textures(everything())}, width));
+    list.push_back(program_of({"rays", ordinary(everything())}, width));
     list.back().source.root = "measure/rays.cl";
   }
   return list;
@@ -237,6 +242,8 @@ std::vector<Ablation> ablations() {
   path.ambient = true;
   add("path-exact", path);
   path.strategy = "mixture";
+  path.roulette =
+      Roulette::reflectivity; // which needs functions that are otherwise of the ambient term alone
   add("path-mixture", path);
   add("light-exact", everything(Integrator::light));
   add("bidir-exact", everything(Integrator::bidir));
