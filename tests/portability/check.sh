@@ -24,11 +24,11 @@ complain() {
   failed=1
 }
 
-# most NAME: the limit on registers. The program with every part, and that with three
-# rough models or an environment map, a lens and a filter, may use more than others do, and double precision, which is
-# for comparison and not for speed, all that a thread can have.
+# most NAME: the limit on registers. The program with every part, which no scene has, and double precision, which is for
+# comparison and not for speed, may use all that a thread can have; those with three rough models, or with an environment
+# map, a lens and a filter, more than others do.
 most() {
-  case $1 in *-double.*) echo 255 ;; everything* | rough-* | map-*) echo 232 ;; *) echo 192 ;; esac
+  case $1 in *-double.* | everything*) echo 256 ;; rough-* | map-*) echo 232 ;; *) echo 192 ;; esac
 }
 
 # most_stack NAME: the limit on bytes of private memory. A traversal of the hierarchy needs STACK_SIZE (66) distances and
@@ -40,7 +40,7 @@ most_stack() {
   case $1 in
   *-double.*) echo $((2 * (4 * 528 + others))) ;;
   everything-brute-force.*) echo $others ;;
-  everything-bidir.* | mesh-bidir.*) echo $((4 * 528 + others)) ;;
+  everything-bidir.* | *mesh-bidir.*) echo $((4 * 528 + others)) ;;
   everything-light.*) echo $((2 * 528 + others)) ;;
   everything.* | mesh.* | rays.*) echo $((528 + others)) ;;
   *) echo $others ;;

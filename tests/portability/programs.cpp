@@ -124,6 +124,7 @@ constexpr char glossy[] = "parallelograms spheres phong light_planar";
 constexpr char ambient[] = "parallelograms spheres phong black light_sphere ambient";
 constexpr char mirrors[] = "parallelograms spheres phong mirror light_planar";
 constexpr char glass[] = "parallelograms spheres two_sided phong dielectric light_planar light_constant";
+constexpr char smooth[] = "parallelograms two_sided conductor thindielectric plastic light_planar";
 constexpr char rough[] = "parallelograms two_sided roughdielectric roughconductor roughplastic light_planar";
 constexpr char triangles[] = "hierarchy triangles smooth_normals phong light_planar light_choice light_tree";
 constexpr char textured[] = "parallelograms spheres phong light_planar byte_textures";
@@ -187,6 +188,7 @@ const std::vector<SceneProgram>& scene_programs() {
       {"glossy-spheres-bidir-lattice",
        with_sampler(by(Integrator::bidir, parts_of(glossy, "exact")), render::Sampler::lattice)},
       {"glass-bidir", by(Integrator::bidir, parts_of(glass, "exact"))},
+      {"smooth-light", by(Integrator::light, parts_of(smooth, "exact"))},
       {"rough-path", parts_of(rough, "exact")},
       // With every part, double precision needs more registers than a thread can have.
       {"brushed-double", in_double(parts_of("parallelograms anisotropicphong light_planar", "exact"))},
