@@ -86,7 +86,7 @@ std::vector<Words> set_words(const Program& program, std::size_t count, std::uin
 // Whether the points are a (0, m, 2)-net in two dimensions, m = log2(count): each elementary interval of
 // area 1 / count has one.
 bool is_net(const Words* points, std::size_t count, std::size_t x, std::size_t y) {
-  const int bits = std::bit_width(count) - 1;
+  const int bits = static_cast<int>(std::bit_width(count)) - 1;
   for (int x_bits = 0; x_bits <= bits; ++x_bits) {
     std::set<std::uint64_t> intervals;
     for (std::size_t i = 0; i < count; ++i) {
