@@ -31,7 +31,8 @@ inline constexpr film::Technique longer_paths{-1, -1};
 /// "(1, 3)"; "longer paths".
 [[nodiscard]] std::string name_of(const film::Technique& technique);
 
-/// What one technique brings and costs. Shares are of the image's.
+/// The contribution, the variance and the cost of one technique. A share is a fraction of that of the whole
+/// image.
 struct TechniqueShare {
   film::Technique technique;
   Estimate light;

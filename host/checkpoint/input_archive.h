@@ -11,8 +11,9 @@
 
 namespace phlux::checkpoint {
 
-/// Of at most `bytes` bytes of a stream. A length above the number of bytes that are left is refused before
-/// memory is taken for it. @throws cereal::Exception for a stream that ends early or is not of this kind
+/// Reads at most `bytes` bytes of a stream. A length above the number of bytes that are left is refused
+/// before memory is taken for it. @throws cereal::Exception for a stream that ends early or is not of this
+/// kind
 class InputArchive : public cereal::InputArchive<InputArchive, cereal::AllowEmptyClassElision> {
 public:
   InputArchive(std::istream& stream, std::uint64_t bytes)

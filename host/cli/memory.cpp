@@ -15,7 +15,7 @@
 namespace phlux::cli {
 namespace {
 
-// Of bidir one for each number of light vertices, of light one per number of edges.
+// The number of techniques that are stored: for each path length of e edges, e + 1 by bidir and 1 by light.
 int techniques(const settings::Settings& settings) {
   if (!settings.techniques) return 0;
   const int edges = settings.max_depth < 0 ? film::most_technique_edges

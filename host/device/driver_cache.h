@@ -10,7 +10,7 @@
 
 namespace phlux::device {
 
-/// What PoCL keeps for a program.
+/// A program in PoCL's cache.
 struct DriverRecord {
   std::string mark;                           ///< a symbol of the program alone, which its file contains
   std::string folder;                         ///< below the cache's

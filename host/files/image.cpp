@@ -68,8 +68,8 @@ Rows rows_of(const film::Film& film, bool moments) {
   rows.fill = [&film, reliability](int row, std::size_t channel, float* to) {
     const auto width = static_cast<std::size_t>(film.width()), first = static_cast<std::size_t>(row) * width;
     for (std::size_t pixel = first; pixel < first + width; ++pixel)
-      *to++ = channel < 3   ? static_cast<float>(film.mean(pixel)[channel])
-              : channel < 6 ? static_cast<float>(film.variance_of_mean(pixel)[channel - 3])
+      *to++ = channel < 3   ? static_cast<float>(film.mean(pixel, channel))
+              : channel < 6 ? static_cast<float>(film.variance_of_mean(pixel, channel - 3))
                             : (*reliability)[pixel];
   };
   return rows;

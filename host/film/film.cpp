@@ -51,7 +51,7 @@ void Film::add(std::size_t pixel, const BlockSum& block, std::uint32_t samples) 
     sums.sum[channel] += sum;
     sums.sum_of_squares[channel] += sum_of_squares;
     const double mean = sums.sum[channel] / static_cast<double>(sums.samples);
-    if (blocks_of_pixels_.empty())
+    if (!dependent_samples())
       square += std::max(0.0, sum_of_squares - 2.0 * mean * sum + samples * mean * mean);
     else
       square += (sum - samples * mean) * (sum - samples * mean);
@@ -136,7 +136,7 @@ Film::Spread Film::spread(std::size_t pixel) const {
 double Film::squared_deviations(std::size_t pixel, std::size_t channel) const {
   const Pixel& own = pixels_[pixel];
   const double n = static_cast<double>(own.samples), sum = own.sum[channel];
-  if (blocks_of_pixels_.empty()) return std::max(0.0, own.sum_of_squares[channel] - sum * sum / n);
+  if (!dependent_samples()) return std::max(0.0, own.sum_of_squares[channel] - sum * sum / n);
   const BlockMoments& blocks = blocks_of_pixels_[pixel];
   const double mean = sum / n;
   return std::max(0.0, blocks.squares[channel] - 2.0 * mean * blocks.weighted[channel] +
@@ -145,17 +145,17 @@ double Film::squared_deviations(std::size_t pixel, std::size_t channel) const {
 
 bool Film::has_variance(std::size_t pixel) const {
   const double n = static_cast<double>(pixels_[pixel].samples);
-  return blocks_of_pixels_.empty() ? n >= 2.0 : n * n > blocks_of_pixels_[pixel].squared_samples;
+  return dependent_samples() ? n * n > blocks_of_pixels_[pixel].squared_samples : n >= 2.0;
 }
 
-// Of the mean over a pixel's own samples; 0 if it has fewer than two independent values. For blocks of n_b
-// samples, sum N, with sums S_b and mean m = sum(S_b) / N, it is sum((S_b - n_b m)^2) / (N^2 - sum(n_b^2)),
-// unbiased if the variances of the S_b are in proportion to n_b.
+// The variance of the mean over a pixel's own samples; 0 with fewer than two independent values. For blocks
+// of n_b samples, sum N, with sums S_b and mean m = sum(S_b) / N, it is sum((S_b - n_b m)^2) / (N^2 -
+// sum(n_b^2)), unbiased if the variances of the S_b are in proportion to n_b.
 double Film::variance_of_own(std::size_t pixel, std::size_t channel) const {
   const Pixel& own = pixels_[pixel];
   const double n = static_cast<double>(own.samples);
   if (!has_variance(pixel)) return 0.0;
-  if (blocks_of_pixels_.empty()) return variance_of_mean_of(own.sum[channel], own.sum_of_squares[channel], n);
+  if (!dependent_samples()) return variance_of_mean_of(own.sum[channel], own.sum_of_squares[channel], n);
   return squared_deviations(pixel, channel) / (n * n - blocks_of_pixels_[pixel].squared_samples);
 }
 
@@ -190,15 +190,14 @@ double Film::variance_in_units(std::size_t pixel, std::size_t channel) const {
 
 std::array<double, 3> Film::mean(std::size_t pixel) const {
   std::array<double, 3> result;
-  for (std::size_t channel = 0; channel < channel_count; ++channel)
-    result[channel] = unit_ * mean_in_units(pixel, channel);
+  for (std::size_t channel = 0; channel < channel_count; ++channel) result[channel] = mean(pixel, channel);
   return result;
 }
 
 std::array<double, 3> Film::variance_of_mean(std::size_t pixel) const {
   std::array<double, 3> result;
   for (std::size_t channel = 0; channel < channel_count; ++channel)
-    result[channel] = unit_ * unit_ * variance_in_units(pixel, channel);
+    result[channel] = variance_of_mean(pixel, channel);
   return result;
 }
 
@@ -255,9 +254,9 @@ std::string Film::contradiction(const std::function<std::uint64_t(std::size_t pi
 }
 
 bool Film::has_variance() const {
-  bool own_samples_suffice = true;
-  for (std::size_t pixel = 0; pixel < pixels_.size(); ++pixel) own_samples_suffice &= has_variance(pixel);
-  if (own_samples_suffice) return true;
+  std::size_t pixel = 0;
+  while (pixel < pixels_.size() && has_variance(pixel)) ++pixel;
+  if (pixel == pixels_.size()) return true;
   const bool only_splats =
       std::ranges::all_of(pixels_, [](const Pixel& pixel) { return pixel.samples == 0; });
   return only_splats && splatting_paths_per_pixel() >= 2.0;

@@ -139,8 +139,14 @@ public:
 
   /// Mean radiance of a pixel; 0 without samples.
   [[nodiscard]] std::array<double, 3> mean(std::size_t pixel) const;
+  [[nodiscard]] double mean(std::size_t pixel, std::size_t channel) const {
+    return unit_ * mean_in_units(pixel, channel);
+  }
   /// Unbiased variance of that mean, per channel; 0 with fewer than two samples. Never negative.
   [[nodiscard]] std::array<double, 3> variance_of_mean(std::size_t pixel) const;
+  [[nodiscard]] double variance_of_mean(std::size_t pixel, std::size_t channel) const {
+    return unit_ * unit_ * variance_in_units(pixel, channel);
+  }
   /// Whether every pixel has at least two samples, its own or splatting paths.
   [[nodiscard]] bool has_variance() const;
 
@@ -197,7 +203,8 @@ private:
   void count_splat(std::size_t pixel, double square, double sum);
   [[nodiscard]] double splatting_paths_per_pixel() const;
   [[nodiscard]] double equal_blocks_per_pixel() const;
-  // Of independent values, sum over them of (value - number of samples x mean of the pixel)^2.
+  // The sum over a pixel's independent values (samples or blocks) of (value - number of samples x mean of the
+  // pixel)^2.
   [[nodiscard]] double squared_deviations(std::size_t pixel, std::size_t channel) const;
   [[nodiscard]] double variance_of_own(std::size_t pixel, std::size_t channel) const;
   [[nodiscard]] bool has_variance(std::size_t pixel) const;

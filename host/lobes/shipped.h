@@ -33,8 +33,9 @@ struct ShippedModel {
 #define PHLUX_SHIPPED_MODELS(MODEL)                                                                          \
   MODEL(diffuse)                                                                                             \
   MODEL(phong)                                                                                               \
-  MODEL(anisotropicphong) MODEL(mirror) MODEL(conductor) MODEL(dielectric) MODEL(thindielectric)             \
-      MODEL(roughconductor) MODEL(roughdielectric) MODEL(plastic) MODEL(roughplastic)
+  MODEL(anisotropicphong)                                                                                    \
+  MODEL(mirror) MODEL(conductor) MODEL(dielectric) MODEL(thindielectric) MODEL(roughconductor)               \
+      MODEL(roughdielectric) MODEL(plastic) MODEL(roughplastic)
 
 #define PHLUX_DECLARE_MODEL(name) extern const ShippedModel name##_model;
 PHLUX_SHIPPED_MODELS(PHLUX_DECLARE_MODEL)

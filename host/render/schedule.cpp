@@ -11,8 +11,8 @@ namespace {
 // More samples than any render takes; fits the kernels' int.
 constexpr std::int64_t endless = std::numeric_limits<std::int32_t>::max() / 2;
 
-// Of eight sets in an octave of samples.
-constexpr int octave_bits = 3, most_point_bits = 6;
+// log2 of the number of point sets in an octave of samples.
+constexpr int octave_bits = 3;
 
 } // namespace
 
@@ -23,7 +23,8 @@ int point_bits(std::int64_t sample) {
 
 Schedule::Schedule(std::int64_t pixels, std::optional<std::int64_t> samples, const SchedulePosition& from,
                    Blocks blocks)
-    : pixels_(pixels), end_(samples.value_or(endless)), blocks_(blocks), short_blocks_first_(!samples),
+    : pixels_(pixels), end_(samples.value_or(endless)), blocks_(blocks),
+      short_blocks_first_(!samples && blocks == Blocks::of_independent),
       missing_(from.missing.begin(), from.missing.end()), phase_end_(from.sample) {
   assert(from.end() <= end_ && from.pixel < pixels);
   if (from.pixel == 0) return;
@@ -50,7 +51,7 @@ void Schedule::start_phase(std::int64_t first_sample) {
   const Whole whole = whole_blocks(first_sample);
   const std::int64_t left = end_ - first_sample;
   std::int64_t block = whole.length - first_sample % whole.length;
-  if (blocks_ == Blocks::of_independent && short_blocks_first_ && first_sample < samples_per_block &&
+  if (short_blocks_first_ && first_sample < samples_per_block &&
       (first_sample == 0 || std::has_single_bit(static_cast<std::uint64_t>(first_sample))))
     block = std::max<std::int64_t>(first_sample, 1);
   block = std::min(block, left);

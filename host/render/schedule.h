@@ -13,8 +13,9 @@ namespace phlux::render {
 /// sums' precision, enough that their transfer takes little time. The image depends on it, so that it is the
 /// same for every device, launch length and number of threads.
 inline constexpr int samples_per_block = 16;
-/// Of a point set, see point_bits().
-inline constexpr int most_block_samples = 64;
+/// log2 of the number of samples in the longest point set, see point_bits(), and that number: the most that
+/// any block has.
+inline constexpr int most_point_bits = 6, most_block_samples = 1 << most_point_bits;
 
 /// How a pixel's samples form blocks. The length of blocks of independent samples does not matter. Samples of
 /// a point set depend on each other, and different sets do not: such a set is a block, and variances are
@@ -50,8 +51,8 @@ struct SchedulePosition {
 
 /// The sequence of launches. With `samples` given, every pixel gets exactly that many, in blocks of
 /// samples_per_block and a last one of the rest. Otherwise it never ends, and the first blocks are short (1,
-/// 1, 2, 4, 8 samples), so that a render that is stopped early has samples in every pixel. Of point
-/// sets, the last may be incomplete.
+/// 1, 2, 4, 8 samples), so that a render that is stopped early has samples in every pixel. The last
+/// point set of a pixel may be incomplete.
 class Schedule {
 public:
   /// Continues `from` a position, whose end() is at most `samples`: first its missing launches, then the

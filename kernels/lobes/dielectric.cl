@@ -20,7 +20,7 @@ static inline LobeValue dielectric_evaluate(Dielectric m, Vec3 fixed, Vec3 gener
 
 static inline Vec3 dielectric_reflectivity(Dielectric m, Vec3 fixed) {
   const Real reflected = refraction(fixed, DIELECTRIC_INDEX(m)).reflectance;
-  return vec_along(vec_scale(reflected, m.specular_reflectance), 1.0f - reflected, m.specular_transmittance);
+  return reflected_and_transmitted(reflected, m.specular_reflectance, m.specular_transmittance);
 }
 
 static inline LobeSample dielectric_sample(Dielectric m, Vec3 fixed, Real choice, RandomDraws random, Mask active) {

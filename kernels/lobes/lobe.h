@@ -111,6 +111,11 @@ static inline LobeSample delta_sample(Vec3 direction, Vec3 weight) {
   return s;
 }
 
+// All light that leaves a surface which reflects the part `reflectance` and transmits the rest, times their factors.
+static inline Vec3 reflected_and_transmitted(Real reflectance, Vec3 reflected, Vec3 transmitted) {
+  return vec_along(vec_scale(reflectance, reflected), 1.0f - reflectance, transmitted);
+}
+
 // The choice, by a uniform number, between reflection of a part of the light and transmission of the rest, in proportion
 // to these and the largest channels of their factors.
 typedef struct {

@@ -74,7 +74,7 @@ static inline LobeValue roughdielectric_evaluate(Roughdielectric m, Vec3 fixed, 
 // their light survive.
 static inline Vec3 roughdielectric_reflectivity(Roughdielectric m, Vec3 fixed) {
   const Real reflected = smaller(refraction(fixed, ROUGHDIELECTRIC_INDEX(m)).reflectance, 1.0f - 0.25f * m.alpha);
-  return vec_along(vec_scale(reflected, m.specular_reflectance), 1.0f - reflected, m.specular_transmittance);
+  return reflected_and_transmitted(reflected, m.specular_reflectance, m.specular_transmittance);
 }
 
 static inline LobeSample roughdielectric_sample(Roughdielectric m, Vec3 fixed, Real choice, RandomDraws random,

@@ -26,7 +26,7 @@ static inline Real plate_reflectance(Thindielectric m, Vec3 fixed) {
 
 static inline Vec3 thindielectric_reflectivity(Thindielectric m, Vec3 fixed) {
   const Real reflected = plate_reflectance(m, fixed);
-  return vec_along(vec_scale(reflected, m.specular_reflectance), 1.0f - reflected, m.specular_transmittance);
+  return reflected_and_transmitted(reflected, m.specular_reflectance, m.specular_transmittance);
 }
 
 static inline LobeSample thindielectric_sample(Thindielectric m, Vec3 fixed, Real choice, RandomDraws random,

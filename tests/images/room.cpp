@@ -19,19 +19,6 @@ scene::Material brushed_metal() {
   return lobes::anisotropic_phong(Rgb(0.3, 0.2, 0.1), Rgb(0.3, 0.4, 0.5), 10, 30);
 }
 
-// An octahedron with the interpolated normals of a sphere.
-scene::Mesh smooth_ball(const Vec3& center, double radius, int material) {
-  scene::Mesh mesh;
-  for (const Vec3& p :
-       {Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 1, 0), Vec3(0, -1, 0), Vec3(0, 0, 1), Vec3(0, 0, -1)}) {
-    mesh.positions.push_back(center + radius * p);
-    mesh.normals.emplace_back(p);
-  }
-  mesh.triangles = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
-  mesh.surface = {material, -1};
-  return mesh;
-}
-
 void add_shapes(scene::Scene& scene) {
   scene.patches = {square({0, 0, 0}, {0, 0, 1}, {1, 0, 0}, 3, {floor_material, -1})};
   // Also seen from behind: it reflects light to what is above it.

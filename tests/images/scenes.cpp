@@ -77,6 +77,18 @@ scene::Patch square(const Vec3& center, const Vec3& edge_u, const Vec3& edge_v, 
   return {scene::Patch::Region::parallelogram, center, half * edge_u, half * edge_v, surface};
 }
 
+scene::Mesh smooth_ball(const Vec3& center, double radius, int material) {
+  scene::Mesh mesh;
+  for (const Vec3& p :
+       {Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 1, 0), Vec3(0, -1, 0), Vec3(0, 0, 1), Vec3(0, 0, -1)}) {
+    mesh.positions.push_back(center + radius * p);
+    mesh.normals.emplace_back(p);
+  }
+  mesh.triangles = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+  mesh.surface = {material, -1};
+  return mesh;
+}
+
 scene::Scene placed(scene::Scene scene, double scale, const Vec3& offset) {
   const auto place = [&](Vec3& position) { position = scale * position + offset; };
   for (scene::Patch& patch : scene.patches) {

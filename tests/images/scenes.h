@@ -38,6 +38,9 @@ using lobes::phong;
 [[nodiscard]] scene::Patch square(const scene::Vec3& center, const scene::Vec3& edge_u,
                                   const scene::Vec3& edge_v, double half, scene::Surface surface);
 
+/// An octahedron with the interpolated normals of a sphere, its front outside.
+[[nodiscard]] scene::Mesh smooth_ball(const scene::Vec3& center, double radius, int material);
+
 /// Scales everything about the world's origin and then moves it; lights keep the irradiance of surfaces.
 [[nodiscard]] scene::Scene placed(scene::Scene scene, double scale, const scene::Vec3& offset);
 

@@ -77,19 +77,6 @@ void add_cube(scene::Scene& scene, const Vec3& center, double half, int material
   }
 }
 
-// An octahedron with the interpolated normals of a sphere, its front outside.
-scene::Mesh smooth_octahedron(const Vec3& center, double radius, int material) {
-  scene::Mesh mesh;
-  for (const Vec3& p :
-       {Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 1, 0), Vec3(0, -1, 0), Vec3(0, 0, 1), Vec3(0, 0, -1)}) {
-    mesh.positions.push_back(center + radius * p);
-    mesh.normals.emplace_back(p);
-  }
-  mesh.triangles = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
-  mesh.surface = {material, -1};
-  return mesh;
-}
-
 // A glossy floor that the camera looks down on. Out of view: a lamp in a ball of glass, a ball and a smooth
 // mesh of other glasses, and a cut cube of which `cube` and `cut` are made, at `center`.
 enum RoomMaterials { floor_material, glass, dense, of_cube, of_cut };
@@ -102,7 +89,7 @@ scene::Scene glass_room(const scene::Material& cube, const scene::Material& cut,
   scene.spheres = {{{0.9, 1.9, 0}, 0.35, false, {floor_material, 0}},
                    {{0.9, 1.9, 0}, 0.55, false, {glass, -1}},
                    {{-0.6, 0.9, 0.1}, 0.3, false, {glass, -1}}};
-  scene.meshes = {smooth_octahedron({0.45, 0.8, 0.1}, 0.35, dense)};
+  scene.meshes = {smooth_ball({0.45, 0.8, 0.1}, 0.35, dense)};
   add_cube(scene, center, 0.3, of_cube);
   constexpr double within = 0.2999;
   scene.patches.push_back({scene::Patch::Region::parallelogram,

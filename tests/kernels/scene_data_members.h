@@ -1,8 +1,9 @@
 // Every member of every struct shared by host and kernels, to compare its offset in both compilers.
 #define SHARED_STRUCTS(STRUCT)                                                                               \
   STRUCT(PrimitiveRecord)                                                                                    \
-  STRUCT(LightRecord) STRUCT(LightNodeRecord) STRUCT(CameraRecord) STRUCT(TextureRecord)                     \
-  STRUCT(EnvironmentRecord) STRUCT(EnvironmentTexel)
+  STRUCT(LightRecord)                                                                                        \
+  STRUCT(LightNodeRecord) STRUCT(CameraRecord) STRUCT(TextureRecord) STRUCT(EnvironmentRecord)               \
+      STRUCT(EnvironmentTexel)
 
 #define SHARED_MEMBERS(MEMBER)                                                                               \
   MEMBER(PrimitiveRecord, material)                                                                          \

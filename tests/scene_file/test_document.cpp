@@ -149,10 +149,13 @@ TEST_CASE("Small files that would take all memory or time are refused") {
 }
 
 TEST_CASE("Messages contain nothing that controls a terminal") {
-  CHECK(phlux::printable("a\x1b[31m\x7f\n\xc2\x9b\xe2\x80\xae!") == "a?[31m???" "?!");
+  CHECK(phlux::printable("a\x1b[31m\x7f\n\xc2\x9b\xe2\x80\xae!") == "a?[31m???"
+                                                                    "?!");
   CHECK(phlux::printable("Gr\xc3\xbc\xc3\x9f\x65 \xe2\x82\xac \xf0\x9f\x99\x82") ==
         "Gr\xc3\xbc\xc3\x9f\x65 \xe2\x82\xac \xf0\x9f\x99\x82");
-  CHECK(phlux::printable("\xff\xc3(\xc0\x80\xed\xa0\x80\xe2\x82") == "?" "?(" "???????"); // not UTF-8
+  CHECK(phlux::printable("\xff\xc3(\xc0\x80\xed\xa0\x80\xe2\x82") == "?"
+                                                                     "?("
+                                                                     "???????"); // not UTF-8
   CHECK(phlux::printable("a\n\tb\r", true) == "a\n\tb?");
 }
 
