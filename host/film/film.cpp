@@ -254,9 +254,9 @@ std::string Film::contradiction(const std::function<std::uint64_t(std::size_t pi
 }
 
 bool Film::has_variance() const {
-  std::size_t pixel = 0;
-  while (pixel < pixels_.size() && has_variance(pixel)) ++pixel;
-  if (pixel == pixels_.size()) return true;
+  std::size_t known = 0;
+  while (known < pixels_.size() && has_variance(known)) ++known;
+  if (known == pixels_.size()) return true;
   const bool only_splats =
       std::ranges::all_of(pixels_, [](const Pixel& pixel) { return pixel.samples == 0; });
   return only_splats && splatting_paths_per_pixel() >= 2.0;
