@@ -95,7 +95,7 @@ std::vector<RouletteCost> measure(const scene::Scene& scene, const std::string& 
                                   const RouletteOptions& options,
                                   const std::function<void(const RouletteVariant&)>& report) {
   std::vector<RouletteCost> costs;
-  std::vector<double> first; // costs of the defaults
+  std::vector<double> first; // costs of the first variant
   for (const RouletteVariant& variant : roulette_variants(options)) {
     report(variant);
     const Renders renders = render(scene, settings_of(variant, integrator, scene, options), options);

@@ -28,7 +28,7 @@ struct RouletteOptions : CommonOptions {
 /// One way to render: a strategy with a roulette that begins at an edge, or none (-1).
 struct RouletteVariant {
   std::string strategy = render::Settings().strategy;
-  render::Roulette roulette = render::Settings().roulette;
+  render::Roulette roulette = render::Roulette::strategy;
   int rr_depth = render::Settings().rr_depth;
 
   /// As options of `phlux render`: "--roulette kd-ks --rr-depth 1".
@@ -36,11 +36,11 @@ struct RouletteVariant {
   bool operator==(const RouletteVariant&) const = default;
 };
 
-/// The default settings first, with which the others are compared; then, for every strategy, each roulette
-/// from edges 1 and 5, and none.
+/// The strategy's own roulette first, with which the others are compared; then, for every strategy, each
+/// roulette from edges 1 and 5, and none.
 [[nodiscard]] std::vector<RouletteVariant> roulette_variants(const RouletteOptions& options);
 
-/// Variance x rays per sample of a variant on one scene by one integrator, relative to the defaults.
+/// Variance x rays per sample of a variant on one scene by one integrator, relative to the first.
 struct RouletteCost {
   std::string scene, integrator;
   RouletteVariant variant;

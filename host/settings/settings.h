@@ -34,9 +34,9 @@ struct Settings {
   LightSelection light_selection = LightSelection::contribution; ///< path, bidir
   int connections = 2;     ///< bidir: mean number of connections made per path length, by roulette; 0: all
   bool techniques = false; ///< light, bidir: the film also records each technique's contributions
-  Roulette roulette = Roulette::strategy; ///< survival probability of Russian roulette
-  Sampler sampler = Sampler::independent; ///< path, bidir
-  std::optional<double> ambient;          ///< path: radiance of a control variate (CW 197, 2.2, reference 15)
+  Roulette roulette = Roulette::efficiency; ///< survival probability of Russian roulette
+  Sampler sampler = Sampler::independent;   ///< path, bidir
+  std::optional<double> ambient;      ///< path: radiance of a control variate (CW 197, 2.2, reference 15)
   std::optional<double> clamp;        ///< largest contribution of a path to a pixel, a radiance; causes bias
   int samples_per_pixel = 4;          ///< ignored with a time limit or target error
   std::optional<double> time_limit;   ///< seconds of rendering
@@ -151,9 +151,10 @@ struct Settings {
           .or_scene(&Settings::rr_depth, &scene::RenderDefaults::rr_depth),
       Setting(
           "roulette", A::estimate, &Settings::roulette, OneOf{roulette_names()}, "NAME",
-          "what the probability to survive Russian roulette is: strategy (as the sampling strategy has it: "
-          "exact, the reflectivity; lobe-ks, kd + ks), reflectivity, kd-ks, throughput (as Mitsuba and "
-          "pbrt: survivors have throughput 1) or efficiency (twice the throughput)")
+          "what the probability to survive Russian roulette is: efficiency (2 x throughput x reflectivity, "
+          "at "
+          "most 1), throughput (as Mitsuba and pbrt: survivors have throughput 1), reflectivity, kd-ks, or "
+          "strategy (as the sampling strategy has it: exact, the reflectivity; lobe-ks, kd + ks)")
           .only_where([](const Settings& s) { return s.rr_depth >= 0; },
                       ": with `rr-depth` -1 there is no roulette: leave out one of the two"),
       Setting("spp", A::amount, &Settings::samples_per_pixel, Whole{1, most_samples}, "N",
