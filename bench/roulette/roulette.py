@@ -47,7 +47,7 @@ def draw(rows, theme):
         axes.set_ylim(len(scenes) - 0.5, -0.5)
         axes.grid(True, axis="x")
         axes.set_title(integrator, loc="left")
-    panels[-1, 0].set_xlabel("variance x rays, relative to the defaults")
+    panels[-1, 0].set_xlabel("variance x rays, relative to --roulette strategy --rr-depth 5")
     known = {}
     for axes in panels[:, 0]:
         for handle, label in zip(*axes.get_legend_handles_labels()):
@@ -71,7 +71,7 @@ def summary(folder, rows):
             line.append(math.exp(sum(math.log(ratio) for ratio in ratios) / len(ratios)))
         lines.append(line)
     return {"text": style.read_verdict(folder, "roulette"), "columns": ["roulette", *integrators], "rows": lines,
-            "note": "Variance x rays relative to the default settings, geometric mean over the scenes."}
+            "note": "Variance x rays relative to `--roulette strategy --rr-depth 5`, geometric mean over the scenes."}
 
 
 def main():
@@ -80,8 +80,8 @@ def main():
     style.save_all(folder, [("roulette", partial(draw, rows))])
     style.section(
         folder, "roulette", title="Russian roulette in whole renders", order=56,
-        text=["Variance of one sample times the rays that it costs, relative to the default settings, from renders with the same "
-              "seeds. Rays are counted, so that other programs on the machine change nothing. Standard errors come from the "
+        text=["Variance of one sample times the rays that it costs, relative to --roulette strategy --rr-depth 5, from renders with "
+              "the same seeds. Rays are counted, so that other programs on the machine change nothing. Standard errors come from the "
               "jackknife over the rounds."],
         summary=summary(folder, rows),
         charts=[{"svg": "roulette.svg", "title": "Variance x rays of each roulette",
