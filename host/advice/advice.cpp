@@ -5,46 +5,15 @@
 
 #include <fmt/format.h>
 
+#include "advice/automatic.h"
 #include "advice/light_shares.h"
-#include "errors.h"
 #include "scene/image_size.h"
 
 namespace phlux::advice {
 namespace {
 
-constexpr int longest_side = 64;       // pixels of a trial's image
 constexpr double least_gain = 2.0;     // in efficiency, for a suggestion
 constexpr double dominant_share = 0.8; // of the variance
-// Predicted coverage down to which the corrected error is 0.7 to 1.6 times the right one in 90% of the
-// renders of tests/images/coverage_table.cpp; far below, it is a lower bound.
-constexpr double comparable_coverage = 0.5;
-
-// The settings that choose a method and differ from their defaults.
-std::string method_of(const render::Settings& of) {
-  std::string text = "`integrator` " + of.integrator;
-  for (const settings::Setting& setting : settings::all())
-    if (!setting.conditions.empty() && setting.value(of) != setting.value({}))
-      text += fmt::format(" {} {}", settings::quoted(setting.name), setting.text(of));
-  return text;
-}
-
-Trial try_method(const scene::Scene& scene, const render::Settings& settings, const std::string& method) try {
-  film::Film film(scene.camera.width, scene.camera.height);
-  const render::Statistics statistics = render::render(scene, settings, film, {});
-  const film::Reliability reliability = film::reliability_of(film);
-  const double error = reliability.relative_standard_error;
-  return {.method = method,
-          .refusal = {},
-          .cost = error * error * statistics.seconds_render,
-          .reliability = reliability};
-} catch (const UsageError& error) {
-  return {.method = method, .refusal = error.what(), .cost = 0.0, .reliability = {}};
-}
-
-bool is_comparable(const Trial& trial) {
-  return trial.cost > 0.0 && trial.reliability.coverage >= comparable_coverage &&
-         trial.reliability.variance_error <= film::largest_variance_error;
-}
 
 // One significant digit: short trials are no more accurate.
 double rounded(double x) {
@@ -82,10 +51,7 @@ std::string words_for(const std::vector<LightShare>& shares) {
 
 // Light that no sample of the method carries, which no trial shows.
 std::string unfound_light(const scene::Scene& scene, const render::Settings& settings) {
-  const bool delta = std::ranges::any_of(scene.materials, [](const auto& m) { return m.model->has_delta; });
-  const bool points =
-      !scene.point_lights.empty() || !scene.spot_lights.empty() || !scene.directional_lights.empty();
-  if (delta && points && settings.integrator == "path")
+  if (settings.integrator == "path" && misses_light(scene, settings::integrator_named("path")))
     return "; path finds no light of point, spot and directional emitters by way of mirrors and smooth "
            "glass: "
            "bidir does";
@@ -99,21 +65,17 @@ std::size_t trials_of(const scene::Scene& scene) {
 }
 
 Advice advise(scene::Scene scene, const render::Settings& settings, double seconds) {
-  scene::shrink_image(scene.camera, longest_side);
-  render::Settings trial = settings;
+  scene::shrink_image(scene.camera, trial_side);
+  render::Settings trial = trial_settings(settings);
   trial.time_limit = seconds;
-  trial.target_error.reset();
-  trial.clamp.reset();
-  trial.techniques = false;
   const render::Settings own = trial;
   Advice advice;
-  advice.trials.push_back(try_method(scene, own, method_of(own)));
+  advice.trials.push_back(try_method(scene, own));
   for (const settings::Setting& setting : settings::all())
     if (!setting.conditions.empty()) setting.copy({}, trial);
   for (const settings::IntegratorInfo& info : settings::integrators) {
     trial.integrator = info.name;
-    if (const std::string method = method_of(trial); method != method_of(own))
-      advice.trials.push_back(try_method(scene, trial, method));
+    if (method_of(trial) != method_of(own)) advice.trials.push_back(try_method(scene, trial));
   }
   conclude(advice, seconds);
   advice.words += unfound_light(scene, settings);

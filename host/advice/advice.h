@@ -4,18 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "film/reliability.h"
-#include "render/render.h"
+#include "advice/trial.h"
 
 namespace phlux::advice {
-
-/// A render of a small image of the scene by one method.
-struct Trial {
-  std::string method;  ///< the settings that choose it, such as "`integrator` bidir"
-  std::string refusal; ///< why it cannot render the scene; the rest is empty then
-  double cost = 0.0;   ///< Reliability::relative_standard_error^2 x seconds of the trial
-  film::Reliability reliability;
-};
 
 struct Advice {
   std::vector<Trial> trials; ///< the render's own method first

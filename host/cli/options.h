@@ -27,6 +27,8 @@ struct RenderOptions : settings::Choices {
   std::filesystem::path checkpoint;    ///< empty: that of `resume`, if any
   std::optional<double> checkpoint_seconds;
   bool moments = false, advise = false, quiet = false, verbose = false;
+  std::string
+      choice; ///< why `--integrator auto` stands for the integrator in `texts`; empty: it was not auto
 };
 
 struct CompareOptions {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "advice/automatic.h"
 #include "cli/attempts.h"
 #include "cli/checkpoints.h"
 #include "cli/commands.h"
@@ -54,12 +55,22 @@ private:
   std::chrono::steady_clock::time_point next_{};
 };
 
-render::Settings settings_of(const RenderOptions& options, const scene::RenderDefaults& scene) {
+render::Settings defaults_of(const RenderOptions& options) {
   render::Settings defaults;
   defaults.techniques = !options.contributions.empty();
   defaults.devices = options.devices;
   defaults.kernel_dir = options.kernel_dir;
-  return settings::settings_of(options, scene, defaults);
+  return defaults;
+}
+
+// Replaces `--integrator auto` by a method.
+void choose_integrator(RenderOptions& options, const scene::Scene& scene) {
+  const auto integrator = options.texts.find("integrator");
+  if (integrator == options.texts.end() || integrator->second != "auto") return;
+  const advice::MethodChoice choice = advice::choose_method(scene, options, defaults_of(options));
+  for (const auto& [name, text] : choice.texts) options.texts.insert_or_assign(name, text);
+  options.choice = with_options(choice.words);
+  if (!options.quiet) say("auto: {}\n", printable(options.choice));
 }
 
 // Adds the file name, which the renderer does not know, to its errors.
@@ -104,14 +115,15 @@ render::Statistics run(const scene::Scene& scene, const render::Settings& settin
   return statistics;
 }
 
-files::RenderInfo info_of(const checkpoint::Session& session, const film::Film& film,
-                          const render::Statistics& statistics) {
+files::RenderInfo info_of(const checkpoint::Session& session, const std::string& choice,
+                          const film::Film& film, const render::Statistics& statistics) {
   const render::Settings& settings = session.settings;
   return {
       .version = PHLUX_VERSION,
       .scene = session.scene,
       .scene_digest = session.scene_digest,
       .settings = files::stored(settings),
+      .choice = choice,
       .samples = film.samples_per_pixel(),
       .seed = settings.seed,
       .ranges = {{settings.seed, settings.first_sample, settings.first_sample + statistics.position.end()}},
@@ -168,7 +180,7 @@ void write_all(const Outputs& outputs, const RenderOptions& options, const check
                film::Film& film, const render::Statistics& statistics, scene::Scene&& scene,
                Checkpoints& checkpoints, Attempts& attempts) {
   const render::Settings& settings = session.settings;
-  const files::RenderInfo info = info_of(session, film, statistics);
+  const files::RenderInfo info = info_of(session, options.choice, film, statistics);
   std::filesystem::path image_file, checkpoint_file;
   attempts(outputs.image, [&] {
     if (options.moments && !film.has_variance())
@@ -209,10 +221,12 @@ int render(const RenderOptions& given) {
       scene_file::load(options.scene_file, options.definitions, options.size, lobes::Library(options.lobes));
   reject_inputs(outputs, options, scene);
   const scene::Camera& camera = scene.camera;
+  choose_integrator(options, scene);
   const checkpoint::Session session{.scene = options.scene_file.string(),
                                     .scene_digest = scene::digest(scene),
                                     .choices = options,
-                                    .settings = settings_of(options, scene.defaults),
+                                    .settings =
+                                        settings::settings_of(options, scene.defaults, defaults_of(options)),
                                     .state = {}};
   if (earlier) check_same(*earlier, session, camera, options.resume);
   if (!earlier) require_memory(camera, session.settings, outputs);

@@ -64,6 +64,8 @@ nlohmann::ordered_json statistics_json(const render::Statistics& statistics, con
                                        const Diagnosis& diagnosis) {
   nlohmann::ordered_json json = {{"version", info.version}, {"scene", info.scene}};
   add_settings(settings, json);
+  json["choice"] =
+      info.choice.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(info.choice);
   json.update({{"device", statistics.device},
                {"driver", statistics.driver},
                {"lanes", statistics.lanes},

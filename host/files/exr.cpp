@@ -122,6 +122,7 @@ void insert_attributes(Imf::Header& header, const RenderInfo& info) {
   header.insert("driver", Imf::StringAttribute(info.driver));
   header.insert("seconds", Imf::DoubleAttribute(info.seconds));
   insert_settings(header, info);
+  if (!info.choice.empty()) header.insert("choice", Imf::StringAttribute(info.choice));
   if (!info.text("clamp").empty()) {
     header.insert("clampedShare", Imf::DoubleAttribute(info.clamped_share));
     header.insert("bias", Imf::StringAttribute("clamped"));
@@ -143,6 +144,7 @@ RenderInfo find_attributes(const Imf::Header& header) {
   find_attribute(header, "version", info.version);
   find_attribute(header, "scene", info.scene);
   find_attribute(header, "sceneDigest", info.scene_digest);
+  find_attribute(header, "choice", info.choice);
   find_attribute(header, "samples", info.samples);
   std::string seed;
   find_attribute(header, "seed", seed);

@@ -30,6 +30,7 @@ struct RenderInfo {
   /// By name, those that affect the image's expectation or its estimate; lists such as "path, bidir" where
   /// the sources of a merged image differ.
   std::map<std::string, settings::Value> settings;
+  std::string choice;              ///< why a render by `integrator` auto has these; else empty
   double samples = 0.0;            ///< per pixel; the mean if pixels differ
   std::uint64_t seed = 0;          ///< of the first range
   std::vector<SampleRange> ranges; ///< several in a merged image

@@ -27,7 +27,7 @@ enum class Roulette { strategy, reflectivity, kd_ks, throughput, efficiency };
 enum class Traversal { automatic, brute_force, bvh };
 
 struct Settings {
-  std::string integrator = "path";    ///< path, light or bidir
+  std::string integrator = "path";    ///< path, light or bidir; auto before advice::choose_method()
   std::string strategy = "exact";     ///< of sampling directions: a name, or a user's FILE.cl
   Connect connect = Connect::mis;     ///< path
   Weights weights = Weights::balance; ///< bidir
@@ -90,6 +90,13 @@ struct Settings {
   return names;
 }
 
+/// integrator_names(), and auto.
+[[nodiscard]] inline std::vector<std::string> integrator_choices() {
+  std::vector<std::string> names = integrator_names();
+  names.emplace_back("auto");
+  return names;
+}
+
 /// The settings that can be given as texts, in the order of the help.
 [[nodiscard]] inline std::vector<Setting> declared_settings() {
   using A = Affects;
@@ -97,8 +104,9 @@ struct Settings {
   const auto from_eye_alone = [](const Settings& s) { return !integrator_named(s.integrator).light_paths; };
   const auto bidirectional = [](const Settings& s) { return integrator_named(s.integrator).bidirectional(); };
   return {
-      Setting("integrator", A::estimate, &Settings::integrator, OneOf{integrator_names()}, "NAME",
-              "path, light or bidir")
+      Setting(
+          "integrator", A::estimate, &Settings::integrator, OneOf{integrator_choices()}, "NAME",
+          "path, light or bidir, or auto: the one with the least error in trials that take 3% of the time")
           .or_scene(&Settings::integrator, &scene::RenderDefaults::integrator),
       Setting("strategy", A::estimate, &Settings::strategy, StrategyOrFile{}, "NAME|FILE.cl",
               "how directions of the phong model are sampled: " + joined(strategy_names()) +

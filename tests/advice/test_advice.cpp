@@ -2,7 +2,9 @@
 #include <catch2/catch.hpp>
 
 #include "advice/advice.h"
+#include "advice/automatic.h"
 #include "advice/light_shares.h"
+#include "errors.h"
 #include "images/scenes.h"
 
 using namespace phlux;
@@ -48,4 +50,39 @@ TEST_CASE("the light that causes the variance is named") {
   CHECK(scene.point_lights[1].intensity == before.point_lights[1].intensity);
   scene.point_lights.assign(advice::most_lights, lamp); // one too many
   CHECK(advice::light_shares(scene, with).empty());
+}
+
+namespace {
+
+advice::MethodChoice choice_for(scene::Scene scene, int samples,
+                                std::map<std::string, std::string> texts = {}) {
+  settings::Choices choices;
+  choices.texts = std::move(texts);
+  choices.texts["integrator"] = "auto";
+  choices.texts["spp"] = std::to_string(samples);
+  return advice::choose_method(std::move(scene), choices, settings_for(1));
+}
+
+} // namespace
+
+TEST_CASE("integrator auto: the method with the least error, the same each time") {
+  const advice::MethodChoice caustic = choice_for(shipped("caustic", 64, 48), 20'000);
+  CHECK(caustic.texts.at("integrator") != "path");
+  CHECK_THAT(caustic.words, Catch::StartsWith("`integrator` " + caustic.texts.at("integrator")));
+  CHECK(choice_for(shipped("caustic", 64, 48), 20'000).words == caustic.words);
+  const advice::MethodChoice near_light = choice_for(shipped("stability/near-light", 64, 48), 20'000);
+  CHECK(near_light.texts.at("integrator") == "path");
+}
+
+TEST_CASE(
+    "integrator auto: no trials for short renders, none of integrators that are excluded or miss light") {
+  CHECK(choice_for(shipped("caustic", 64, 48), 16).words ==
+        "`integrator` path: the render is too short for trials");
+  CHECK(choice_for(shipped("caustic", 64, 48), 16, {{"weights", "power"}}).words ==
+        "`integrator` bidir `weights` power: no other method can render this");
+  CHECK_THROWS_AS(choice_for(shipped("caustic", 64, 48), 16, {{"weights", "power"}, {"connect", "light"}}),
+                  UsageError);
+  scene::Scene mirror = shipped("mirror-ball", 32, 32);
+  mirror.point_lights.push_back({{0, 1, 0}, scene::Rgb(1)});
+  CHECK(choice_for(std::move(mirror), 16).texts.at("integrator") == "bidir");
 }

@@ -1,0 +1,183 @@
+#include "advice/automatic.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "errors.h"
+#include "scene/image_size.h"
+
+namespace phlux::advice {
+namespace {
+
+using Texts = std::map<std::string, std::string>;
+
+constexpr double share_for_trials = 0.03; // of the render's time
+constexpr int first_samples = 16, most_samples = 512;
+constexpr double path_seconds =
+    150e-9; // of a path by `integrator` path, for a render's time before any trial
+
+// Seconds of one core per ray on the shipped scenes (PoCL, 16 lanes), of which only ratios matter: tracing it
+// through a few shapes or a hierarchy, and the integrator's work on what it finds.
+double seconds_per_ray(const scene::Scene& scene, const std::string& traversal,
+                       settings::Integrator integrator) {
+  std::size_t shapes = scene.patches.size() + scene.spheres.size();
+  for (const scene::Mesh& mesh : scene.meshes) shapes += mesh.triangles.size();
+  const double tracing = traversal == "bvh" ? 12e-9 * std::log2(static_cast<double>(shapes)) : 8e-9;
+  switch (integrator) {
+  case settings::Integrator::path:
+    return tracing + 16e-9;
+  case settings::Integrator::light:
+    return tracing + 12e-9;
+  case settings::Integrator::bidir:
+    break;
+  }
+  return tracing + 30e-9;
+}
+
+// A method that is tried.
+struct Candidate {
+  Texts texts;
+  render::Settings settings;
+  Trial trial;
+  double sample_seconds = 0.0; // by its rays
+};
+
+class Trials {
+public:
+  Trials(scene::Scene scene, const settings::Choices& choices, const render::Settings& defaults)
+      : scene_(std::move(scene)), choices_(choices), defaults_(defaults) {}
+
+  // Nothing if the choices exclude the method; `refusal` is why.
+  std::optional<Candidate> candidate(const Texts& texts) {
+    settings::Choices with = choices_;
+    for (const auto& [name, text] : texts) with.texts.insert_or_assign(name, text);
+    try {
+      render::Settings settings = settings::settings_of(with, scene_.defaults, defaults_);
+      return Candidate{.texts = texts, .settings = std::move(settings), .trial = {}};
+    } catch (const UsageError& error) {
+      refusal = error.what();
+      return std::nullopt;
+    }
+  }
+
+  void run(Candidate& c, int samples) const {
+    render::Settings with = trial_settings(c.settings);
+    with.samples_per_pixel = samples;
+    c.trial = try_method(scene_, with);
+    const render::Statistics& s = c.trial.statistics;
+    if (!c.trial.refusal.empty() || s.paths == 0) return;
+    const double rays = static_cast<double>(s.rays + s.shadow_rays) / static_cast<double>(s.paths);
+    const auto integrator = settings::integrator_named(with.integrator).integrator;
+    c.sample_seconds = rays * seconds_per_ray(scene_, s.traversal, integrator);
+    const double error = c.trial.reliability.relative_standard_error;
+    c.trial.cost = error * error * samples * c.sample_seconds;
+  }
+
+  [[nodiscard]] double pixels() const {
+    return static_cast<double>(scene_.camera.width) * scene_.camera.height;
+  }
+
+  std::string refusal;
+
+private:
+  scene::Scene scene_;
+  const settings::Choices& choices_;
+  const render::Settings& defaults_;
+};
+
+// Methods that can be compared before those that cannot; then by their costs, or by how little their errors
+// mislead.
+bool is_better(const Candidate& a, const Candidate& b) {
+  const bool a_comparable = is_comparable(a.trial), b_comparable = is_comparable(b.trial);
+  if (a_comparable != b_comparable) return a_comparable;
+  if (a_comparable) return a.trial.cost < b.trial.cost;
+  return a.trial.reliability.coverage > b.trial.reliability.coverage;
+}
+
+// Seconds of one core that the render takes by the best of the candidates, as far as is known.
+double seconds_of_render(const render::Settings& settings, double pixels,
+                         const std::vector<Candidate>& tried) {
+  if (settings.time_limit) return *settings.time_limit;
+  const auto best = std::ranges::min_element(tried, is_better);
+  if (!settings.target_error) {
+    const double each = best == tried.end() ? path_seconds : best->sample_seconds;
+    return settings.samples_per_pixel * pixels * each;
+  }
+  if (best == tried.end()) return std::numeric_limits<double>::infinity();
+  return pixels * best->trial.cost / (*settings.target_error * *settings.target_error);
+}
+
+std::string words_for(const std::vector<Candidate>& sorted) {
+  const Candidate& best = sorted.front();
+  if (!is_comparable(best.trial)) return fmt::format("{}: trials were too noisy to tell", best.trial.method);
+  if (sorted.size() == 1) return fmt::format("{}: no other method can render this", best.trial.method);
+  if (!is_comparable(sorted[1].trial))
+    return fmt::format("{}: in trials, the error of no other method could be trusted", best.trial.method);
+  return fmt::format("{}: in trials {:.2g} times as efficient as {}", best.trial.method,
+                     sorted[1].trial.cost / best.trial.cost, sorted[1].trial.method);
+}
+
+} // namespace
+
+bool misses_light(const scene::Scene& scene, const settings::IntegratorInfo& integrator) {
+  const bool delta = std::ranges::any_of(scene.materials, [](const auto& m) { return m.model->has_delta; });
+  const bool points =
+      !scene.point_lights.empty() || !scene.spot_lights.empty() || !scene.directional_lights.empty();
+  return delta && (integrator.eye_paths ? points && !integrator.light_paths : true);
+}
+
+MethodChoice choose_method(scene::Scene scene, const settings::Choices& choices,
+                           const render::Settings& defaults) {
+  const double pixels = static_cast<double>(scene.camera.width) * scene.camera.height;
+  std::vector<const settings::IntegratorInfo*> complete;
+  for (const settings::IntegratorInfo& info : settings::integrators)
+    if (!misses_light(scene, info)) complete.push_back(&info);
+  scene::shrink_image(scene.camera, trial_side);
+  Trials trials(std::move(scene), choices, defaults);
+  std::vector<Candidate> candidates;
+  for (const settings::IntegratorInfo* info : complete)
+    if (auto candidate = trials.candidate({{"integrator", info->name}})) candidates.push_back(*candidate);
+  if (candidates.empty()) throw UsageError(trials.refusal);
+
+  const double first_seconds =
+      first_samples * trials.pixels() * path_seconds * 2.0 * static_cast<double>(candidates.size());
+  const render::Settings& settings = candidates.front().settings;
+  if (candidates.size() == 1 || share_for_trials * seconds_of_render(settings, pixels, {}) < first_seconds)
+    return {.texts = candidates.front().texts,
+            .words = fmt::format("{}: {}", method_of(candidates.front().settings),
+                                 candidates.size() == 1 ? "no other method can render this"
+                                                        : "the render is too short for trials"),
+            .trials = {}};
+  for (Candidate& c : candidates) trials.run(c, first_samples);
+  std::erase_if(candidates, [](const Candidate& c) { return !c.trial.refusal.empty(); });
+  if (candidates.empty()) throw UsageError("no integrator can render this scene");
+
+  // Each of the trials to come may take as long: one for each integrator, and one for a variant of the best.
+  const double seconds = share_for_trials * seconds_of_render(settings, pixels, candidates) - first_seconds;
+  const auto samples_for = [&](const Candidate& c) {
+    const double each = seconds / static_cast<double>(candidates.size() + 1);
+    return static_cast<int>(std::min(each / (trials.pixels() * c.sample_seconds), double{most_samples}));
+  };
+  for (Candidate& c : candidates)
+    if (const int samples = samples_for(c); samples >= 2 * first_samples) trials.run(c, samples);
+  std::ranges::sort(candidates, is_better);
+
+  const Candidate& best = candidates.front();
+  Texts variant = best.texts;
+  if (best.settings.integrator == "bidir" && !choices.has("weights")) variant["weights"] = "power";
+  if (best.settings.integrator == "path" && !choices.has("connect")) variant["connect"] = "light";
+  if (variant != best.texts)
+    if (auto candidate = trials.candidate(variant)) {
+      trials.run(*candidate, std::max(samples_for(best), first_samples));
+      if (candidate->trial.refusal.empty()) candidates.push_back(*candidate);
+    }
+  std::ranges::sort(candidates, is_better);
+  MethodChoice choice{.texts = candidates.front().texts, .words = words_for(candidates), .trials = {}};
+  for (Candidate& c : candidates) choice.trials.push_back(std::move(c.trial));
+  return choice;
+}
+
+} // namespace phlux::advice

@@ -1,0 +1,33 @@
+// The method of a render that leaves it open: `integrator` auto.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "advice/trial.h"
+#include "settings/choices.h"
+
+namespace phlux::advice {
+
+struct MethodChoice {
+  std::map<std::string, std::string> texts; ///< the settings of the method, by name
+  std::string words;                        ///< the method and why, in one line
+  std::vector<Trial> trials; ///< the last ones of each method; empty if the render is too short for them
+};
+
+/// Whether the integrator cannot find some of the scene's light at all, so that its error estimate lacks it:
+/// path, that of point, spot and directional emitters by way of delta events; light, what is seen by way of
+/// delta events.
+[[nodiscard]] bool misses_light(const scene::Scene& scene, const settings::IntegratorInfo& integrator);
+
+/// Chooses among path, light and bidir, and then among the variants of the best: the least variance x cost in
+/// trial renders, of those whose error estimates can be trusted. The trials take about 3% of the render's
+/// time; a render that is too short for them is by path. Costs are computed from the numbers of rays, not
+/// measured, so that a seed always leads to the same method. `choices` may fix other settings; `integrator`
+/// among them is ignored.
+/// @throws UsageError if the choices exclude every integrator, DeviceError
+[[nodiscard]] MethodChoice choose_method(scene::Scene scene, const settings::Choices& choices,
+                                         const render::Settings& defaults);
+
+} // namespace phlux::advice

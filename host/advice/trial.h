@@ -1,0 +1,35 @@
+// Short renders of a small image, by which methods are compared.
+#pragma once
+
+#include <string>
+
+#include "film/reliability.h"
+#include "render/render.h"
+
+namespace phlux::advice {
+
+/// Longer side of a trial's image, in pixels.
+inline constexpr int trial_side = 64;
+
+struct Trial {
+  std::string method;  ///< the settings that choose it, such as "`integrator` bidir"
+  std::string refusal; ///< why it cannot render the scene; the rest is empty then
+  double cost =
+      0.0; ///< Reliability::relative_standard_error^2 x what the trial took, in seconds or by its rays
+  film::Reliability reliability;
+  render::Statistics statistics;
+};
+
+/// The settings that choose a method and differ from their defaults.
+[[nodiscard]] std::string method_of(const render::Settings& settings);
+
+/// Renders the scene as the settings say; cost is in seconds. @throws DeviceError
+[[nodiscard]] Trial try_method(const scene::Scene& scene, const render::Settings& settings);
+
+/// Whether the cost is known well enough for a comparison.
+[[nodiscard]] bool is_comparable(const Trial& trial);
+
+/// The settings for trials of a render: without clamping, limits of time and error, and techniques.
+[[nodiscard]] render::Settings trial_settings(render::Settings settings);
+
+} // namespace phlux::advice
