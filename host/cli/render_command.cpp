@@ -218,7 +218,7 @@ int render(const RenderOptions& given) {
   film::Film film = earlier ? std::move(earlier->film) : film::Film(camera.width, camera.height);
   Checkpoints checkpoints(outputs.checkpoint, options, session);
   const InterruptGuard interrupt; // until everything is written
-  team.start(options, session.scene_digest);
+  team.start(options, session.scene_digest, [&] { return interrupt.requested(); });
   Attempts attempts;
   const render::Statistics statistics =
       run(scene, session.settings, film, outputs, options, checkpoints,

@@ -18,8 +18,8 @@ using render::LaunchResult;
 // A worker, as process 0 sees it. The generation of a launch tells whether it was abandoned.
 class Worker final : public render::Processor {
 public:
-  Worker(Group& group, int rank, std::string scene_digest)
-      : group_(group), rank_(rank), scene_digest_(std::move(scene_digest)),
+  Worker(Group& group, int rank, std::string scene_digest, const std::function<bool()>& is_ending)
+      : group_(group), rank_(rank), scene_digest_(std::move(scene_digest)), is_ending_(is_ending),
         name_(fmt::format("process {}", rank)) {}
 
   void begin(const settings::Settings&) override { group_.send(rank_, packed(Kind::begin)); }
@@ -43,7 +43,13 @@ public:
   [[nodiscard]] std::size_t most_in_flight() const override { return 3; }
 
   void settle() override {
-    while (results_.empty()) handle(group_.receive(rank_, 1.0));
+    constexpr double patience = 0.25; // seconds
+    while (results_.empty()) {
+      const bool was_ending = is_ending_();
+      const std::optional<Message> message = group_.receive(rank_, patience);
+      if (!message && was_ending) lose("no answer while the render ends");
+      handle(message);
+    }
   }
   [[nodiscard]] LaunchResult& result() override { return results_.front(); }
   void release() noexcept override {
@@ -116,7 +122,9 @@ private:
 
   Group& group_;
   int rank_;
-  std::string scene_digest_, name_, lost_; // why it is lost
+  std::string scene_digest_;
+  const std::function<bool()>& is_ending_;
+  std::string name_, lost_; // why it is lost
   bool ready_ = false, became_smaller_ = false;
   render::Pace pace_;
   std::uint64_t generation_ = 0;
@@ -136,10 +144,12 @@ Team::~Team() {
   for (int rank = 1; rank < group_.size(); ++rank) group_.send(rank, packed(Kind::end));
 }
 
-void Team::start(const settings::Choices& choices, const std::string& scene_digest) {
+void Team::start(const settings::Choices& choices, const std::string& scene_digest,
+                 std::function<bool()> is_ending) {
+  is_ending_ = std::move(is_ending);
   for (int rank = 1; rank < group_.size(); ++rank) {
     group_.send(rank, packed(Kind::choices, [&](Packer& to) { add(choices, to); }));
-    workers_.push_back(std::make_unique<Worker>(group_, rank, scene_digest));
+    workers_.push_back(std::make_unique<Worker>(group_, rank, scene_digest, is_ending_));
   }
 }
 

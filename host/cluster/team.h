@@ -1,6 +1,7 @@
 // Process 0 renders with the help of the others, its workers. Each has one device.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -23,13 +24,17 @@ public:
   Team(const Team&) = delete;
   Team& operator=(const Team&) = delete;
 
-  /// Lets the workers load and build a scene. One whose scene has another digest is left out.
-  void start(const settings::Choices& choices, const std::string& scene_digest);
+  /// Lets the workers load and build a scene. One whose scene has another digest is left out. Once
+  /// `is_ending`, the work of one that does not answer is given up: mpirun, when a process has died, leaves
+  /// the others a second.
+  void start(const settings::Choices& choices, const std::string& scene_digest,
+             std::function<bool()> is_ending);
   /// Valid as long as the team.
   [[nodiscard]] std::vector<render::Processor*> workers() const;
 
 private:
   Group& group_;
+  std::function<bool()> is_ending_;
   std::vector<std::unique_ptr<render::Processor>> workers_;
 };
 
