@@ -11,6 +11,7 @@
 #include <thread>
 
 #include <fmt/format.h>
+#include <malloc.h>
 #include <sched.h>
 
 #include "clock.h"
@@ -157,7 +158,13 @@ Group::Group() {
   MPI_Comm_size(machine, &local_size_);
   cores_ = gather_cores(machine, local_size_);
   MPI_Comm_free(&machine);
-  if (size_ > 1) connection_ = std::make_unique<Connection>(rank_, size_);
+  if (size_ > 1) {
+    // Messages of megabytes come and go; returning their memory to the system takes longer than to fill it.
+    constexpr int kept = 1 << 30; // bytes
+    ::mallopt(M_MMAP_THRESHOLD, kept);
+    ::mallopt(M_TRIM_THRESHOLD, kept);
+    connection_ = std::make_unique<Connection>(rank_, size_);
+  }
 }
 
 Group::~Group() {
@@ -169,9 +176,16 @@ Group::~Group() {
 }
 
 void Group::send(int to, const Message& message) {
-  const std::lock_guard lock(connection_->mpi);
-  MPI_Send(message.bytes.get(), static_cast<int>(message.size / sizeof(std::uint64_t)), MPI_UINT64_T, to,
-           message_tag, MPI_COMM_WORLD);
+  MPI_Request request = MPI_REQUEST_NULL;
+  int is_done = 0;
+  std::unique_lock lock(connection_->mpi);
+  MPI_Isend(message.bytes.get(), static_cast<int>(message.size / sizeof(std::uint64_t)), MPI_UINT64_T, to,
+            message_tag, MPI_COMM_WORLD, &request);
+  while (MPI_Test(&request, &is_done, MPI_STATUS_IGNORE) == MPI_SUCCESS && is_done == 0) {
+    lock.unlock();
+    std::this_thread::sleep_for(std::chrono::microseconds(200));
+    lock.lock();
+  }
 }
 
 std::optional<Message> Group::receive(int from, double most_seconds) {
