@@ -16,7 +16,8 @@ void add(const std::map<std::string, std::string>& texts, Packer& to) {
 
 std::map<std::string, std::string> take_texts(Unpacker& from) {
   std::map<std::string, std::string> texts;
-  for (auto left = from.take<std::uint64_t>(); left > 0; --left) {
+  const auto count = from.take<std::uint64_t>();
+  for (std::uint64_t i = 0; i < count; ++i) {
     const std::string name = from.take_text();
     texts[name] = from.take_text();
   }

@@ -72,8 +72,9 @@ struct Rendered {
   std::string failure;
 };
 
-// By processors of these probabilities of failure, until `launches` are on the film.
-void render_by(const std::vector<double>& failures, Rendered& rendered, int launches = 1 << 20) {
+// By processors of these probabilities of failure, until `launches` are on the film. Returns a checkpoint
+// from then, when others are in flight.
+Rendered render_by(const std::vector<double>& failures, Rendered& rendered, int launches = 1 << 20) {
   Settings settings;
   settings.samples_per_pixel = 40 * samples_per_block;
   settings.pause_seconds = 0.0;
@@ -85,11 +86,17 @@ void render_by(const std::vector<double>& failures, Rendered& rendered, int laun
     processors.push_back(fakes.back().get());
   }
   Events events;
-  events.progress = [&](const Progress&) { return --launches > 0; };
+  std::optional<Rendered> checkpoint;
+  events.progress = [&](const Progress& progress) {
+    if (--launches > 0) return true;
+    if (!checkpoint) checkpoint = Rendered{rendered.film, progress.state(), {}};
+    return false;
+  };
   DispatchLoop loop(settings, rendered.film, events, rendered.state);
   loop.run(processors);
   rendered.state = loop.state();
   rendered.failure = loop.failure();
+  return checkpoint.value_or(Rendered());
 }
 
 bool same(const film::Film& a, const film::Film& b) {
@@ -121,12 +128,14 @@ TEST_CASE("a render by several processors that was ended goes on to the same fil
   render_by({0.0}, one);
   for (const int launches : {1, 10, 50}) {
     Rendered parts;
-    render_by({0.0, 0.0, 1.0}, parts, launches);
-    CHECK(parts.state.paths < one.state.paths);
-    render_by({0.0}, parts, 5);
-    render_by({0.0, 0.0, 0.0, 0.0}, parts);
-    CHECK(parts.state.paths == one.state.paths);
-    CHECK(same(parts.film, one.film));
+    Rendered checkpoint = render_by({0.0, 0.0, 1.0}, parts, launches);
+    for (Rendered* const from : {&parts, &checkpoint}) {
+      CHECK(from->state.paths < one.state.paths);
+      render_by({0.0}, *from, 5);
+      render_by({0.0, 0.0, 0.0, 0.0}, *from);
+      CHECK(from->state.paths == one.state.paths);
+      CHECK(same(from->film, one.film));
+    }
   }
 }
 
