@@ -18,6 +18,7 @@
 #include "cli/progress.h"
 #include "cli/spelling.h"
 #include "cli/statistics.h"
+#include "cli/work.h"
 #include "errors.h"
 #include "files/contributions.h"
 #include "files/exr.h"
@@ -55,19 +56,11 @@ private:
   std::chrono::steady_clock::time_point next_{};
 };
 
-render::Settings defaults_of(const RenderOptions& options) {
-  render::Settings defaults;
-  defaults.techniques = !options.contributions.empty();
-  defaults.devices = options.devices;
-  defaults.kernel_dir = options.kernel_dir;
-  return defaults;
-}
-
 // Replaces `--integrator auto` by a method.
-void choose_integrator(RenderOptions& options, const scene::Scene& scene) {
+void choose_integrator(RenderOptions& options, const scene::Scene& scene, const cluster::Group& group) {
   const auto integrator = options.texts.find("integrator");
   if (integrator == options.texts.end() || integrator->second != "auto") return;
-  const advice::MethodChoice choice = advice::choose_method(scene, options, defaults_of(options));
+  const advice::MethodChoice choice = advice::choose_method(scene, options, defaults_of(options, group));
   for (const auto& [name, text] : choice.texts) options.texts.insert_or_assign(name, text);
   options.choice = with_options(choice.words);
   if (!options.quiet) say("auto: {}\n", printable(options.choice));
@@ -76,8 +69,9 @@ void choose_integrator(RenderOptions& options, const scene::Scene& scene) {
 // Adds the file name, which the renderer does not know, to its errors.
 render::Statistics render_scene(const scene::Scene& scene, const render::Settings& settings, film::Film& film,
                                 const render::Events& events, const render::RenderState& from,
+                                const std::vector<render::Processor*>& workers,
                                 const std::filesystem::path& file) try {
-  return render::render(scene, settings, film, events, from);
+  return render::render(scene, settings, film, events, from, workers);
 } catch (const SceneError& error) {
   throw SceneError(fmt::format("{}: {}", file.string(), error.what()));
 }
@@ -85,7 +79,8 @@ render::Statistics render_scene(const scene::Scene& scene, const render::Setting
 // Renders. Failing devices end a render early, as an interruption does, and are added to `attempts`.
 render::Statistics run(const scene::Scene& scene, const render::Settings& settings, film::Film& film,
                        const Outputs& outputs, const RenderOptions& options, Checkpoints& checkpoints,
-                       const render::RenderState& from, const InterruptGuard& interrupt, Attempts& attempts) {
+                       const render::RenderState& from, const cluster::Team& team,
+                       const InterruptGuard& interrupt, Attempts& attempts) {
   ProgressDisplay display(options.quiet, settings.time_limit, settings.target_error);
   PreviewRefresher preview(outputs.preview);
   ErrorSoFar error(film);
@@ -105,7 +100,7 @@ render::Statistics run(const scene::Scene& scene, const render::Settings& settin
   };
   render::Statistics statistics;
   try {
-    statistics = render_scene(scene, settings, film, events, from, options.scene_file);
+    statistics = render_scene(scene, settings, film, events, from, team.workers(), options.scene_file);
   } catch (const render::DevicesFailed& failure) {
     attempts.failed(failure);
     statistics = failure.statistics;
@@ -212,6 +207,10 @@ void write_all(const Outputs& outputs, const RenderOptions& options, const check
 } // namespace
 
 int render(const RenderOptions& given) {
+  cluster::Group group;
+  group.divide_cores();
+  if (group.rank() > 0) return work(group, given);
+  cluster::Team team(group);
   if (given.verbose) spdlog::set_level(spdlog::level::info);
   const Outputs outputs = outputs_of(given);
   check_writable(outputs);
@@ -221,22 +220,23 @@ int render(const RenderOptions& given) {
       scene_file::load(options.scene_file, options.definitions, options.size, lobes::Library(options.lobes));
   reject_inputs(outputs, options, scene);
   const scene::Camera& camera = scene.camera;
-  choose_integrator(options, scene);
-  const checkpoint::Session session{.scene = options.scene_file.string(),
-                                    .scene_digest = scene::digest(scene),
-                                    .choices = options,
-                                    .settings =
-                                        settings::settings_of(options, scene.defaults, defaults_of(options)),
-                                    .state = {}};
+  choose_integrator(options, scene, group);
+  const checkpoint::Session session{
+      .scene = options.scene_file.string(),
+      .scene_digest = scene::digest(scene),
+      .choices = options,
+      .settings = settings::settings_of(options, scene.defaults, defaults_of(options, group)),
+      .state = {}};
   if (earlier) check_same(*earlier, session, camera, options.resume);
   if (!earlier) require_memory(camera, session.settings, outputs);
   film::Film film = earlier ? std::move(earlier->film) : film::Film(camera.width, camera.height);
   Checkpoints checkpoints(outputs.checkpoint, options, session);
   const InterruptGuard interrupt; // until everything is written
+  team.start(options, session.scene_digest, [&] { return interrupt.requested(); });
   Attempts attempts;
   const render::Statistics statistics =
       run(scene, session.settings, film, outputs, options, checkpoints,
-          earlier ? earlier->session.state : render::RenderState(), interrupt, attempts);
+          earlier ? earlier->session.state : render::RenderState(), team, interrupt, attempts);
   if (film.samples_per_pixel() == 0.0) // an older image is worth more than a black one
     spdlog::warn("interrupted before the first sample: nothing is written");
   else

@@ -20,6 +20,7 @@
 #include "cli/command_line.h"
 #include "cli/interrupt.h"
 #include "cli/spelling.h"
+#include "cluster/group.h"
 #include "errors.h"
 #include "printable.h"
 
@@ -50,6 +51,7 @@ void set_up_log() {
 
 // Prints an error; lines after the first, such as a compiler's log, only with --verbose.
 int report(const std::string& error, int exit_code) {
+  if (cluster::started().rank > 0) return exit_code; // the first of several processes says it
   print_error(error);
   if (const std::size_t end = error.find('\n'); end != std::string::npos)
     spdlog::info("{}", with_options(error.substr(end + 1)));
@@ -62,7 +64,19 @@ void keep_standard_streams() {
     if (::fcntl(stream, F_GETFD) < 0) ::open("/dev/null", O_RDONLY); // takes the smallest free number
 }
 
+// Several processes would write the same files.
+void require_one_process(int argc, char** argv) {
+  const cluster::Started started = cluster::started();
+  const std::string command = argc > 1 ? argv[1] : "";
+  for (const char* const alone : {"bench", "merge", "verify", "compare", "devices"})
+    if (started.processes > 1 && command == alone)
+      throw UsageError(
+          fmt::format("{} has started {} processes, and phlux {} is for one: {} is for phlux render",
+                      started.by, started.processes, command, started.by));
+}
+
 int run_command(int argc, char** argv) {
+  require_one_process(argc, argv);
   const std::optional<Command> command = parse(argc, argv);
   const int exit_code = command ? (*command)() : 0;
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return exit_code;

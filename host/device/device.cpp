@@ -137,8 +137,12 @@ const Found& some_found() {
 }
 
 Choice choice_of(const std::vector<std::string>& specifications, const Found& found) {
+  std::vector<std::string> wanted = specifications;
+  if (const char* preset = std::getenv("PHLUX_DEVICE");
+      wanted.empty() && preset != nullptr && *preset != '\0')
+    wanted.emplace_back(preset);
   try {
-    return choose(specifications, found.devices);
+    return choose(wanted, found.devices);
   } catch (const DeviceError& error) {
     const std::string more = without_devices(found.platforms);
     throw DeviceError(more.empty() ? error.what() : fmt::format("{}; {}", error.what(), more));
@@ -177,17 +181,19 @@ std::vector<DeviceInfo> list_devices() {
   return some_found().devices;
 }
 
-std::vector<Device> open_devices(const std::vector<std::string>& specifications) {
-  std::vector<std::string> wanted = specifications;
-  if (const char* preset = std::getenv("PHLUX_DEVICE");
-      wanted.empty() && preset != nullptr && *preset != '\0')
-    wanted.emplace_back(preset);
+std::vector<DeviceInfo> chosen_devices(const std::vector<std::string>& specifications) {
+  const Found& found = some_found();
+  std::vector<DeviceInfo> devices;
+  for (const std::size_t i : choice_of(specifications, found).devices) devices.push_back(found.devices[i]);
+  return devices;
+}
 
+std::vector<Device> open_devices(const std::vector<std::string>& specifications) {
   static std::set<std::string> told;
   Opened& all = opened();
   const std::lock_guard lock(all.mutex);
   const Found& found = some_found();
-  const Choice choice = choice_of(wanted, found);
+  const Choice choice = choice_of(specifications, found);
   for (const std::string& note : choice.notes)
     if (told.insert(note).second) spdlog::warn("{}", note);
   all.devices.resize(found.devices.size());

@@ -50,6 +50,9 @@ struct Device {
 /// @throws DeviceError as choose(), and when a device cannot be opened
 [[nodiscard]] std::vector<Device> open_devices(const std::vector<std::string>& specifications);
 
+/// Those that open_devices() opens. @throws DeviceError as choose()
+[[nodiscard]] std::vector<DeviceInfo> chosen_devices(const std::vector<std::string>& specifications);
+
 /// Forgets the open devices: open_devices() makes new contexts and queues, as a driver does not recover those
 /// of a device that has failed.
 void reopen_devices();

@@ -41,6 +41,8 @@ std::optional<Failure> current_failure() {
     throw;
   } catch (const MemoryShort& error) {
     return Failure{error.what(), true};
+  } catch (const ProcessorLost& error) {
+    return Failure{error.what(), false, true};
   } catch (const DeviceError& error) {
     return Failure{error.what(), false};
   } catch (const cl::Error& error) {
@@ -50,10 +52,6 @@ std::optional<Failure> current_failure() {
   } catch (...) {
     return std::nullopt;
   }
-}
-
-std::string name_of(const device::DeviceInfo& device) {
-  return fmt::format("OpenCL device {}:{} ({})", device.platform_index, device.device_index, device.name);
 }
 
 void pause(const Settings& settings) {
@@ -67,130 +65,173 @@ DispatchLoop::DispatchLoop(const Settings& settings, film::Film& film, const Eve
       schedule_(static_cast<std::int64_t>(film.pixels().size()),
                 open_ended_ ? std::nullopt : std::optional<std::int64_t>(settings.samples_per_pixel),
                 from.position, samples_point_sets(settings) ? Blocks::of_point_sets : Blocks::of_independent),
-      counts_(from), started_paths_(from.paths) {
+      folder_(static_cast<std::int64_t>(film.pixels().size()), settings.techniques), counts_(from),
+      started_paths_(from.paths) {
   if (settings.target_error) target_.emplace(*settings.target_error, film.pixels().size());
   ended_ = from.paths > 0 && precise_enough();
 }
 
-void DispatchLoop::run(const std::vector<Launcher*>& launchers) {
-  std::vector<std::exception_ptr> exceptions(launchers.size());
+void DispatchLoop::run(const std::vector<Processor*>& processors) {
+  constexpr std::size_t most_early_each = 2;
+  most_early_ = most_early_each * processors.size();
+  std::vector<std::exception_ptr> exceptions(processors.size());
   const auto run_one = [&](std::size_t i) {
     try {
-      run(*launchers[i]);
+      run(*processors[i]);
     } catch (...) {
       exceptions[i] = std::current_exception();
       end();
     }
   };
   {
-    std::vector<std::jthread> others; // the first device is for this thread
-    for (std::size_t i = 1; i < launchers.size(); ++i) others.emplace_back(run_one, i);
+    std::vector<std::jthread> others; // the first processor is for this thread
+    for (std::size_t i = 1; i < processors.size(); ++i) others.emplace_back(run_one, i);
     run_one(0);
   }
   for (const std::exception_ptr& exception : exceptions)
     if (exception) std::rethrow_exception(exception);
-  if (given_up_ == launchers.size() && !is_over()) failure_ = last_failure_ + ": no device is left";
+  if (given_up_ == processors.size() && !is_over()) failure_ = last_failure_ + ": no device is left";
 }
 
-// Runs one device.
-void DispatchLoop::run(Launcher& launcher) {
+// Runs one processor.
+void DispatchLoop::run(Processor& processor) {
   bool begun = false;
   int failures = 0; // in a row
   while (true) {
     try {
-      if (!begun) launcher.begin(settings_);
+      if (!begun) processor.begin(settings_);
       begun = true;
-      if (!step(launcher)) return;
+      while (!processor.is_ready())
+        if (is_finished()) return;
+      if (!step(processor)) return;
       failures = 0;
     } catch (...) {
       const std::optional<Failure> failure = current_failure();
       if (!failure) throw;
-      if (!recover(launcher, *failure, ++failures)) return;
+      if (!recover(processor, *failure, ++failures)) return;
     }
   }
 }
 
-// Keeps the device busy and adds one launch to the film. False when the work is done or ended.
-bool DispatchLoop::step(Launcher& launcher) {
+// Keeps the processor busy and finishes one launch. False when the work is done or ended.
+bool DispatchLoop::step(Processor& processor) {
   do {
-    while (launcher.in_flight() < launcher.most_in_flight() && take(launcher)) {
+    while (processor.in_flight() < processor.most_in_flight() && take(processor)) {
     }
-  } while (launcher.in_flight() == 0 && wait_for_more());
-  if (launcher.in_flight() == 0) return false;
-  launcher.settle();
+  } while (processor.in_flight() == 0 && wait_for_more());
+  if (processor.in_flight() == 0) return false;
+  processor.settle();
   const std::lock_guard lock(mutex_);
-  try {
-    launcher.collect(film_);
-  } catch (const std::exception& error) {
-    throw FilmLost(error.what());
-  }
-  add(launcher.take_counts(), counts_);
-  in_flight_[&launcher].pop_front();
+  collect(processor);
   if (!ended_) ended_ = precise_enough() || !report();
   changed_.notify_all();
   return true;
 }
 
-bool DispatchLoop::take(Launcher& launcher) {
+// Adds the oldest launch to the film, and the early ones whose turn it is then; or keeps it.
+void DispatchLoop::collect(Processor& processor) {
+  std::deque<Launch>& launches = in_flight_[&processor];
+  if (is_next(launches.front())) {
+    fold(processor.result());
+    processor.release();
+  } else {
+    early_.emplace(launches.front(), processor.detach());
+  }
+  launches.pop_front();
+  while (!early_.empty() && is_next(early_.begin()->first)) {
+    fold(early_.begin()->second);
+    early_.erase(early_.begin());
+  }
+}
+
+void DispatchLoop::fold(LaunchResult& result) try {
+  add(folder_.fold(result, film_), counts_);
+} catch (const std::exception& error) {
+  throw FilmLost(error.what());
+}
+
+// Whether all launches before it are on the film.
+bool DispatchLoop::is_next(const Launch& launch) const {
+  const auto none_precedes = [&](const std::deque<Launch>& launches) {
+    return std::ranges::none_of(launches, [&](const Launch& other) { return precedes(other, launch); });
+  };
+  return none_precedes(schedule_.missing()) &&
+         std::ranges::all_of(in_flight_, [&](const auto& of) { return none_precedes(of.second); }) &&
+         (early_.empty() || !precedes(early_.begin()->first, launch));
+}
+
+bool DispatchLoop::take(Processor& processor) {
   const std::lock_guard lock(mutex_);
-  if (is_over()) return false;
-  if (target_ && launcher.in_flight() > 0 && paths_left() <= 0) return false;
+  if (is_over() || !may_take()) return false;
+  if (target_ && processor.in_flight() > 0 && paths_left() <= 0) return false;
   auto launch = schedule_.next([&](std::int64_t left, int samples) {
     if (target_) left = std::clamp<std::int64_t>(paths_left() / samples, 1, left);
-    return launcher.wanted_jobs(left, samples);
+    return processor.pace().wanted_jobs(left, samples);
   });
   if (!launch) return false;
   started_paths_ += static_cast<std::uint64_t>(launch->jobs * launch->block_samples);
-  in_flight_[&launcher].push_back(*launch);
+  in_flight_[&processor].push_back(*launch);
   launch->first_sample += settings_.first_sample;
-  launcher.enqueue(*launch);
+  processor.enqueue(*launch);
   return true;
 }
 
-// When nothing is left to start: whether a device that failed has given launches back.
-bool DispatchLoop::wait_for_more() {
-  std::unique_lock lock(mutex_);
-  const auto all_idle = [&] {
-    return std::ranges::all_of(in_flight_, [](const auto& device) { return device.second.empty(); });
-  };
-  changed_.wait(lock, [&] { return is_over() || schedule_.has_missing() || all_idle(); });
-  return !is_over() && schedule_.has_missing();
+// A launch that is missing may be the one that the early results wait for.
+bool DispatchLoop::may_take() const {
+  return !schedule_.missing().empty() || (schedule_.has_more() && early_.size() < most_early_);
 }
 
-// Whether the device is to try again.
-bool DispatchLoop::recover(Launcher& launcher, const Failure& failure, int failures) {
+bool DispatchLoop::all_idle() const {
+  return std::ranges::all_of(in_flight_, [](const auto& of) { return of.second.empty(); });
+}
+
+// When nothing can be started: whether something can be later, as results were added to the film or a
+// processor that failed has given launches back.
+bool DispatchLoop::wait_for_more() {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [&] { return is_over() || may_take() || all_idle(); });
+  return !is_over() && may_take();
+}
+
+bool DispatchLoop::is_finished() {
+  const std::lock_guard lock(mutex_);
+  return is_over() || (all_idle() && !schedule_.has_more());
+}
+
+// Whether the processor is to try again.
+bool DispatchLoop::recover(Processor& processor, const Failure& failure, int failures) {
   constexpr int most_tries = 10; // with smaller and smaller launches
-  launcher.abandon();
-  const bool smaller = failure.memory_is_short && launcher.shrink();
-  const bool again = failures == 1 || (smaller && failures < most_tries);
-  const std::string what = fmt::format("{}: {}", name_of(launcher.device()), failure.text);
+  processor.abandon();
+  const bool smaller = failure.memory_is_short && processor.shrink();
+  const bool again = !failure.for_good && (failures == 1 || (smaller && failures < most_tries));
+  const std::string what = fmt::format("{}: {}", processor.name(), failure.text);
   {
     const std::lock_guard lock(mutex_);
-    give_back(launcher);
+    give_back(processor);
     if (!again) {
       ++given_up_;
       last_failure_ = what;
     }
-    if (events_.warning && failures == 1)
+    if (events_.warning && again && failures == 1)
       events_.warning(fmt::format("{}: its work is repeated after a pause{}", what,
                                   smaller ? ", with fewer work-items" : ""));
     else if (events_.warning && !again)
       events_.warning(fmt::format("{}: the device is given up", what));
   }
   changed_.notify_all();
-  if (failures == 1) pause(settings_);
+  if (again && failures == 1) pause(settings_);
   return again;
 }
 
-void DispatchLoop::give_back(const Launcher& launcher) {
-  std::deque<Launch>& launches = in_flight_[&launcher];
+void DispatchLoop::give_back(const Processor& processor) {
+  std::deque<Launch>& launches = in_flight_[&processor];
   for (const Launch& launch : launches)
     started_paths_ -= static_cast<std::uint64_t>(launch.jobs * launch.block_samples);
   schedule_.give_back(launches);
   launches.clear();
 }
 
-// Ends the render on every device.
+// Ends the render on every processor.
 void DispatchLoop::end() {
   const std::lock_guard lock(mutex_);
   ended_ = true;
@@ -200,8 +241,10 @@ void DispatchLoop::end() {
 RenderState DispatchLoop::state() const {
   RenderState state{counts_, schedule_.position(), seconds()};
   std::vector<Launch>& missing = state.position.missing;
-  for (const auto& [launcher, launches] : in_flight_)
-    missing.insert(missing.begin(), launches.begin(), launches.end());
+  for (const auto& [processor, launches] : in_flight_)
+    missing.insert(missing.end(), launches.begin(), launches.end());
+  for (const auto& [launch, result] : early_) missing.push_back(launch);
+  std::ranges::sort(missing, precedes);
   return state;
 }
 

@@ -1,4 +1,4 @@
-// Shares the work of a render among devices, and repeats what a failed device has not finished.
+// Shares the work of a render among processors, and repeats what a failed one has not finished.
 #pragma once
 
 #include <condition_variable>
@@ -11,7 +11,8 @@
 
 #include "clock.h"
 #include "render/error_target.h"
-#include "render/launcher.h"
+#include "render/processor.h"
+#include "render/render.h"
 
 namespace phlux::render {
 
@@ -19,40 +20,46 @@ namespace phlux::render {
 struct Failure {
   std::string text;
   bool memory_is_short = false; ///< smaller launches may succeed
+  bool for_good = false;        ///< trying again is useless
 };
 
 /// Of the exception that is being handled; nothing if it is another one.
 [[nodiscard]] std::optional<Failure> current_failure();
 
-/// "OpenCL device P:D (NAME)".
-[[nodiscard]] std::string name_of(const device::DeviceInfo& device);
-
 /// Waits for Settings::pause_seconds: a driver may be resetting the device.
 void pause(const Settings& settings);
 
-/// A device that fails is tried again, once after a pause, and with ever smaller launches where memory is
-/// short; then it is given up. In both cases other devices may take its launches. On one device the launches
-/// are added to the film in the same order as without the failure, so that the film is the same, bit for bit.
+/// A processor that fails is tried again, once after a pause, and with ever smaller launches where memory is
+/// short; then it is given up. In both cases others may take its launches. Launches are added to the film in
+/// the order of the schedule, so that the film is the same, bit for bit, with any number of like processors,
+/// and after failures. Results that are early are kept until it is their turn; while there are too many, only
+/// launches that others wait for begin.
 class DispatchLoop {
 public:
   DispatchLoop(const Settings& settings, film::Film& film, const Events& events, const RenderState& from);
 
-  /// Runs the devices, each in a thread, until the work is done or ended, or all have failed. Reports
+  /// Runs the processors, each in a thread, until the work is done or ended, or all have failed. Reports
   /// progress after each launch. @throws what is no failure of a device, such as an exception of `events`
-  void run(const std::vector<Launcher*>& launchers);
+  void run(const std::vector<Processor*>& processors);
 
   /// The state that belongs to the film.
   [[nodiscard]] RenderState state() const;
-  /// Why all devices are given up, with work left; empty if they are not.
+  /// Why all processors are given up, with work left; empty if they are not.
   [[nodiscard]] const std::string& failure() const { return failure_; }
 
 private:
-  void run(Launcher& launcher);
-  bool step(Launcher& launcher);
-  bool take(Launcher& launcher);
+  void run(Processor& processor);
+  bool step(Processor& processor);
+  bool take(Processor& processor);
   bool wait_for_more();
-  bool recover(Launcher& launcher, const Failure& failure, int failures);
-  void give_back(const Launcher& launcher);
+  [[nodiscard]] bool is_finished();
+  [[nodiscard]] bool all_idle() const;
+  [[nodiscard]] bool may_take() const;
+  [[nodiscard]] bool is_next(const Launch& launch) const;
+  void collect(Processor& processor);
+  void fold(LaunchResult& result);
+  bool recover(Processor& processor, const Failure& failure, int failures);
+  void give_back(const Processor& processor);
   void end();
   [[nodiscard]] bool report() const;
   [[nodiscard]] bool precise_enough() { return target_ && target_->reached(film_, counts_.paths); }
@@ -70,11 +77,14 @@ private:
   std::mutex mutex_; // of the members below and the film
   std::condition_variable changed_;
   Schedule schedule_;
-  std::map<const Launcher*, std::deque<Launch>> in_flight_;
+  std::map<const Processor*, std::deque<Launch>> in_flight_;
+  std::map<Launch, LaunchResult, decltype(&precedes)> early_{&precedes}; // wait for their turn
+  std::size_t most_early_ = 0;
+  ResultFolder folder_;
   Counts counts_;
   std::uint64_t started_paths_;
   bool ended_ = false;
-  std::size_t given_up_ = 0; // devices
+  std::size_t given_up_ = 0; // processors
   std::string last_failure_, failure_;
 };
 

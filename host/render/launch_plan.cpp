@@ -54,24 +54,26 @@ int Planner::batch_jobs(int block_samples) const {
   return parts_.lanes * least_lane_jobs(parts_.lanes, block_samples);
 }
 
-std::int64_t Planner::wanted_jobs(std::int64_t left, int block_samples) const {
-  const std::int64_t least = batch_jobs(block_samples);
-  // The first launch, of unknown speed, has one batch per work-item.
-  std::int64_t jobs = static_cast<std::int64_t>(first_items_) * least;
-  if (paths_per_second_ > 0)
-    jobs = static_cast<std::int64_t>(paths_per_second_ * launch_seconds_ / block_samples);
-  std::int64_t largest = most_jobs_;
-  if (settings::info_of(parts_.integrator).light_paths) {
-    const double bytes_per_job = // the records must fit a buffer
+Pace Planner::pace() const {
+  const double bytes_per_path =
+      (records_per_path_ + 1) * static_cast<double>(record_words(parts_) * sizeof(float));
+  return {.lanes = parts_.lanes,
+          .first_items = static_cast<std::int64_t>(first_items_),
+          .most_jobs = most_jobs_,
+          .paths = paths_per_second_ * launch_seconds_,
+          .most_paths = static_cast<double>(device_.largest_buffer) / (4 * bytes_per_path),
+          .whole_batches = settings::info_of(parts_.integrator).light_paths};
+}
 
-        (records_per_path_ + 1) * block_samples * static_cast<double>(record_words(parts_) * sizeof(float));
-    largest = std::min(largest, static_cast<std::int64_t>(static_cast<double>(device_.largest_buffer) /
-                                                          (4 * bytes_per_job)));
-  }
-  const std::int64_t lanes = parts_.lanes;
+std::int64_t Pace::wanted_jobs(std::int64_t left, int block_samples) const {
+  const std::int64_t least = lanes * least_lane_jobs(static_cast<int>(lanes), block_samples);
+  // The first launch, of unknown speed, has one batch per work-item.
+  std::int64_t jobs = first_items * least;
+  if (paths > 0) jobs = static_cast<std::int64_t>(paths / block_samples);
+  std::int64_t largest = most_jobs;
+  if (whole_batches) largest = std::min(largest, static_cast<std::int64_t>(most_paths / block_samples));
   jobs = std::clamp(jobs, lanes, std::max(lanes, std::min(left, largest)));
-  // Whole batches, so that batches do not depend on how the work is split into launches.
-  return settings::info_of(parts_.integrator).light_paths ? (jobs + least - 1) / least * least : jobs;
+  return whole_batches ? (jobs + least - 1) / least * least : jobs;
 }
 
 // See divide_scratch in kernels/transport/bidir.cl.

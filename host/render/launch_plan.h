@@ -25,6 +25,19 @@ struct LaunchPlan {
   int record_capacity = 0; ///< records per batch
 };
 
+/// What determines the number of jobs of a device's next launch.
+struct Pace {
+  std::int64_t lanes = 1;       ///< WIDTH
+  std::int64_t first_items = 1; ///< work-items of the first launch
+  std::int64_t most_jobs = 1;
+  double paths = 0.0;         ///< that last as long as a launch should; 0: not known yet
+  double most_paths = 0.0;    ///< whose splats fit a buffer
+  bool whole_batches = false; ///< batches must not depend on how the work is split into launches
+
+  /// When `left` jobs are left.
+  [[nodiscard]] std::int64_t wanted_jobs(std::int64_t left, int block_samples) const;
+};
+
 /// Plans launches from the measurements of earlier ones.
 class Planner {
 public:
@@ -33,8 +46,7 @@ public:
 
   void set_launch_seconds(double launch_seconds) { launch_seconds_ = launch_seconds; }
 
-  /// The number of jobs of the next launch when `left` are left.
-  [[nodiscard]] std::int64_t wanted_jobs(std::int64_t left, int block_samples) const;
+  [[nodiscard]] Pace pace() const;
   [[nodiscard]] LaunchPlan plan(const Launch& launch) const;
 
   /// Whether a batch had more vertices (a count below 0) or splats than fit; later plans have larger buffers.

@@ -9,6 +9,11 @@
 #include "errors.h"
 
 namespace phlux::render {
+
+std::string name_of(const device::DeviceInfo& device) {
+  return fmt::format("OpenCL device {}:{} ({})", device.platform_index, device.device_index, device.name);
+}
+
 namespace {
 
 constexpr std::size_t counters_per_item = 2; // rays, shadow rays
@@ -38,10 +43,9 @@ Launcher::Launcher(const device::Device& device, const device::BuiltProgram& pro
                    const Parts& parts, const Settings& settings)
     : device_(device), scene_(device, scene, parts), parts_(parts),
       kernel_(program, settings::info_of(parts.integrator).kernel),
-      planner_(device.info, parts, settings.launch_seconds),
-      pixels_(static_cast<std::int64_t>(scene.camera.width) * scene.camera.height) {
+      planner_(device.info, parts, settings.launch_seconds) {
   scene_.bind(kernel_);
-  kernel_.set("pixel_count", static_cast<cl_int>(pixels_));
+  kernel_.set("pixel_count", static_cast<cl_int>(scene.camera.width * scene.camera.height));
   kernel_.set("max_edges", bounded(settings.max_depth));
   kernel_.set("roulette_edges", bounded(settings.rr_depth));
   kernel_.set("sky_light", static_cast<cl_int>(std::max(scene.lights.sky, 0)));
@@ -81,7 +85,6 @@ void Launcher::abandon() noexcept {
   if (!idle) new std::deque<Flight>(std::move(flights_));
   flights_.clear();
   spare_.clear();
-  counts_ = {};
 }
 
 bool Launcher::shrink() {
@@ -99,7 +102,7 @@ void Launcher::warm_up() {
 void Launcher::enqueue(const Launch& launch) {
   last_jobs_ = launch.jobs;
   Flight& flight = flights_.emplace_back();
-  flight.launch = launch;
+  flight.result.launch = launch;
   if (!spare_.empty()) {
     flight.buffers = std::move(spare_.back());
     spare_.pop_back();
@@ -129,8 +132,8 @@ void Launcher::reserve(Buffer& buffer, std::size_t bytes, const char* what) cons
 }
 
 void Launcher::start(Flight& flight) {
-  flight.plan = planner_.plan(flight.launch);
-  const Launch& launch = flight.launch;
+  const Launch& launch = flight.result.launch;
+  flight.plan = planner_.plan(launch);
   const LaunchPlan& plan = flight.plan;
   Buffers& to = flight.buffers;
   kernel_.set("first_pixel", static_cast<cl_int>(launch.first_job));
@@ -179,7 +182,7 @@ void Launcher::read_back(Flight& flight) {
                                        words * sizeof(float), nullptr, &flight.copies.emplace_back()));
   }
   if (settings::info_of(parts_.integrator).eye_paths)
-    read(from.sums.memory, flight.host_sums, static_cast<std::size_t>(flight.launch.jobs));
+    read(from.sums.memory, flight.result.sums, static_cast<std::size_t>(flight.result.launch.jobs));
   read(from.counters.memory, flight.host_counters, flight.plan.items * counters_per_item);
   device_.queue.flush();
 }
@@ -199,6 +202,22 @@ void Launcher::settle() {
     read_back(flight);
     wait(flight);
   }
+  LaunchResult& result = flight.result;
+  result.batch_jobs = static_cast<std::size_t>(flight.plan.batch_jobs);
+  result.record_words = record_words(parts_);
+  const auto capacity = static_cast<std::size_t>(flight.plan.record_capacity);
+  result.batches.clear();
+  for (std::size_t batch = 0; batch < flight.plan.batches; ++batch)
+    result.batches.push_back({.words = flight.host_records + batch * capacity * result.record_words,
+                              .capacity = capacity,
+                              .count = static_cast<std::size_t>(flight.host_record_counts[batch]),
+                              .paths = flight.plan.batch_paths});
+  result.rays = result.shadow_rays = 0;
+  for (std::size_t item = 0; item < flight.plan.items; ++item) {
+    result.rays += flight.host_counters[item * counters_per_item];
+    result.shadow_rays += flight.host_counters[item * counters_per_item + 1];
+  }
+  planner_.note_time(result.launch.jobs * result.launch.block_samples, seconds_of(flight.kernel_done));
 }
 
 void Launcher::unmap(Flight& flight) {
@@ -207,65 +226,26 @@ void Launcher::unmap(Flight& flight) {
   flight.host_records = nullptr;
 }
 
-// Counts contributions that were not finite, among the given samples of a job's block.
-void Launcher::count_nonfinite(const Launch& launch, std::size_t job, std::uint64_t count, int sample,
-                               int samples) {
-  counts_.nonfinite += count;
-  if (counts_.first_nonfinite) return;
-  const std::int64_t place = launch.first_job + static_cast<std::int64_t>(job);
-  counts_.first_nonfinite = {place % pixels_,
-                             launch.first_sample + place / pixels_ * launch.block_samples + sample, samples};
-}
-
-void Launcher::fold_sums(const Flight& flight, std::size_t first_job, std::size_t jobs, film::Film& film) {
-  const Launch& launch = flight.launch;
-  std::int64_t pixel = (launch.first_job + static_cast<std::int64_t>(first_job)) % pixels_;
-  for (std::size_t job = first_job; job < first_job + jobs; ++job) {
-    const film::BlockSum& sum = flight.host_sums[job];
-    film.add(static_cast<std::size_t>(pixel), sum, static_cast<std::uint32_t>(launch.block_samples));
-    if (++pixel == pixels_) pixel = 0;
-    if (sum.nonfinite > 0)
-      count_nonfinite(launch, job, static_cast<std::uint64_t>(sum.nonfinite), 0, launch.block_samples);
-  }
-}
-
-void Launcher::fold_batch(const Flight& flight, std::size_t batch, film::Film& film) {
-  const auto batch_jobs = static_cast<std::size_t>(flight.plan.batch_jobs);
-  const auto samples = static_cast<std::size_t>(flight.launch.block_samples);
-  const std::size_t first_job = batch * batch_jobs;
-  const std::size_t jobs = std::min(batch_jobs, static_cast<std::size_t>(flight.launch.jobs) - first_job);
-  if (!flight.host_sums.empty()) fold_sums(flight, first_job, jobs, film);
-
-  const auto capacity = static_cast<std::size_t>(flight.plan.record_capacity);
-  film::SplatRecords records;
-  records.words = flight.host_records + batch * capacity * record_words(parts_);
-  records.capacity = capacity;
-  records.count = static_cast<std::size_t>(flight.host_record_counts[batch]);
-  records.paths = flight.plan.batch_paths;
-  film.add_splatting_paths(jobs * samples);
-  if (parts_.techniques) film::SplatFolder::fold_techniques(records, film);
-  for (const std::size_t path : folder_.fold(records, film))
-    count_nonfinite(flight.launch, first_job + path / samples, 1, static_cast<int>(path % samples), 1);
-}
-
-void Launcher::collect(film::Film& film) {
+void Launcher::release() noexcept {
   Flight& flight = flights_.front();
-  if (flight.plan.batches > 0) film.use_splats();
-  for (std::size_t batch = 0; batch < flight.plan.batches; ++batch) fold_batch(flight, batch, film);
-  if (flight.plan.batches == 0) fold_sums(flight, 0, flight.host_sums.size(), film);
-  counts_.paths += static_cast<std::uint64_t>(flight.launch.jobs) *
-                   static_cast<std::uint64_t>(flight.launch.block_samples);
-  for (std::size_t item = 0; item < flight.plan.items; ++item) {
-    counts_.rays += flight.host_counters[item * counters_per_item];
-    counts_.shadow_rays += flight.host_counters[item * counters_per_item + 1];
-  }
-  planner_.note_time(flight.launch.jobs * flight.launch.block_samples, seconds_of(flight.kernel_done));
   try {
     unmap(flight);
     spare_.push_back(std::move(flight.buffers));
-  } catch (const cl::Error&) { // the film has the launch; buffers that are still mapped are not used again
+  } catch (const std::exception&) { // the launch is done; buffers that are still mapped are not used again
   }
   flights_.pop_front();
+}
+
+LaunchResult Launcher::detach() {
+  LaunchResult& result = flights_.front().result;
+  if (!result.batches.empty()) own_batches(result);
+  LaunchResult own = std::move(result);
+  release();
+  return own;
+}
+
+std::string Launcher::name() const {
+  return name_of(device_.info);
 }
 
 } // namespace phlux::render

@@ -221,18 +221,24 @@ Renderer::Renderer(Programs& programs, const scene::Scene& scene, const Settings
 
 Renderer::~Renderer() = default;
 
+std::vector<Processor*> Renderer::processors() const {
+  std::vector<Processor*> processors;
+  for (const Worker& worker : ready_->workers) processors.push_back(worker.launcher.get());
+  return processors;
+}
+
 Statistics Renderer::render(const Settings& settings, film::Film& film, const Events& events,
-                            const RenderState& from) {
+                            const RenderState& from, const std::vector<Processor*>& others) {
   return reporting_device_errors([&] {
     check_samples(settings);
     set_unit(film, ready_->unit);
     if (settings.clamp) film.set_clamp(*settings.clamp);
     if (settings.techniques) film.use_techniques();
     if (samples_point_sets(settings)) film.use_dependent_samples();
-    std::vector<Launcher*> launchers;
-    for (const Worker& worker : ready_->workers) launchers.push_back(worker.launcher.get());
+    std::vector<Processor*> all = processors();
+    all.insert(all.end(), others.begin(), others.end());
     DispatchLoop loop(settings, film, events, from);
-    loop.run(launchers);
+    loop.run(all);
     Statistics statistics = ready_->statistics;
     static_cast<RenderState&>(statistics) = loop.state();
     if (!loop.failure().empty()) throw DevicesFailed(loop.failure(), statistics);
@@ -241,10 +247,10 @@ Statistics Renderer::render(const Settings& settings, film::Film& film, const Ev
 }
 
 Statistics render(const scene::Scene& scene, const Settings& settings, film::Film& film, const Events& events,
-                  const RenderState& from) {
+                  const RenderState& from, const std::vector<Processor*>& others) {
   std::optional<DevicesFailed> failure;
   try {
-    return Renderer(scene, settings, events).render(settings, film, events, from);
+    return Renderer(scene, settings, events).render(settings, film, events, from, others);
   } catch (const DevicesFailed& first) {
     failure = first;
   }
@@ -258,7 +264,7 @@ Statistics render(const scene::Scene& scene, const Settings& settings, film::Fil
       throw DevicesFailed(*failure);
     }
     try {
-      return renderer->render(settings, film, events, failure->statistics);
+      return renderer->render(settings, film, events, failure->statistics, others);
     } catch (const DevicesFailed& next) {
       if (next.statistics.paths == failure->statistics.paths) throw;
       failure = next;

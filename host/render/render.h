@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "errors.h"
 #include "film/film.h"
@@ -42,7 +43,8 @@ struct DevicesFailed : DeviceError {
   Statistics statistics;
 };
 
-class Programs; // render/programs.h
+class Processor; // render/processor.h
+class Programs;  // render/programs.h
 
 /// A scene that is ready to be rendered: its tables and its program on every device. Renders it several times
 /// without building and copying these again.
@@ -61,11 +63,15 @@ public:
   /// Adds samples to `film`, which has the camera's width and height. Seed, samples, limits of time and
   /// error, launch_seconds and clamp are those of `settings`; everything else must be as in the
   /// constructor's. To resume an earlier render, `film` is the earlier one's and `from` its state; samples,
-  /// seconds and counts then include the earlier ones. On one device the film is the same, bit for bit, as
-  /// without the interruption. The set-up times in the result are those of the constructor.
+  /// seconds and counts then include the earlier ones. The film is the same, bit for bit, as without
+  /// the interruption, and on any number of like devices. The set-up times in the result are those of the
+  /// constructor. `others` take part in the work.
   /// @throws UsageError, SceneError for a film of another version, DevicesFailed
   [[nodiscard]] Statistics render(const Settings& settings, film::Film& film, const Events& events,
-                                  const RenderState& from = {});
+                                  const RenderState& from = {}, const std::vector<Processor*>& others = {});
+
+  /// The devices.
+  [[nodiscard]] std::vector<Processor*> processors() const;
 
 private:
   struct Ready;
@@ -75,6 +81,7 @@ private:
 /// Renderer::render() for one render. If all devices fail, it continues with new contexts of them for as long
 /// as that helps. @throws as Renderer and its render()
 [[nodiscard]] Statistics render(const scene::Scene& scene, const Settings& settings, film::Film& film,
-                                const Events& events, const RenderState& from = {});
+                                const Events& events, const RenderState& from = {},
+                                const std::vector<Processor*>& others = {});
 
 } // namespace phlux::render

@@ -5,6 +5,7 @@
 #include <deque>
 #include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace phlux::render {
@@ -38,6 +39,11 @@ struct Launch {
   int block_samples = samples_per_block;
 };
 
+/// Whether a begins before b in the sequence of jobs; launches have no job in common.
+[[nodiscard]] inline bool precedes(const Launch& a, const Launch& b) {
+  return std::pair(a.first_sample, a.first_job) < std::pair(b.first_sample, b.first_job);
+}
+
 /// The work that is done: all pixels have the samples below `sample`, and pixels below `pixel` also the next
 /// `block_samples`, except those of missing launches.
 struct SchedulePosition {
@@ -66,7 +72,9 @@ public:
   [[nodiscard]] std::optional<Launch> next(const Wanted& wanted);
   /// Takes back launches that were not finished: they come next.
   void give_back(const std::deque<Launch>& launches);
-  [[nodiscard]] bool has_missing() const { return !missing_.empty(); }
+  [[nodiscard]] const std::deque<Launch>& missing() const { return missing_; }
+  /// Whether there is a next launch.
+  [[nodiscard]] bool has_more() const { return !missing_.empty() || phase_.jobs > 0 || phase_end_ < end_; }
   /// The launches so far; `missing` are those still to be repeated.
   [[nodiscard]] SchedulePosition position() const;
 

@@ -98,12 +98,13 @@ void redirect(int descriptor, const std::string& file) {
     if (::setrlimit(RLIMIT_AS, &limit) != 0) ::_exit(126);
   }
   for (const auto& [name, value] : invocation.environment) ::setenv(name.c_str(), value.c_str(), 1);
-  std::vector<std::string> texts = {PHLUX_PROGRAM};
+  std::vector<std::string> texts = invocation.launcher;
+  texts.emplace_back(PHLUX_PROGRAM);
   texts.insert(texts.end(), invocation.arguments.begin(), invocation.arguments.end());
   std::vector<char*> arguments;
   for (std::string& text : texts) arguments.push_back(text.data());
   arguments.push_back(nullptr);
-  ::execv(arguments[0], arguments.data());
+  ::execvp(arguments[0], arguments.data());
   ::_exit(127);
 }
 
@@ -137,7 +138,7 @@ void interrupt(pid_t process, const Invocation& invocation, ino_t version) {
     siginfo_t info{};
     const bool ended = ::waitid(P_PID, static_cast<id_t>(process), &info, WEXITED | WNOHANG | WNOWAIT) != 0 ||
                        info.si_pid == process;
-    return ended || (catches_interrupts(process) &&
+    return ended || ((!invocation.launcher.empty() || catches_interrupts(process)) &&
                      (invocation.after_write.empty() || version_of(invocation.after_write) != version));
   };
   while (!is_time() && std::chrono::steady_clock::now() < patience) std::this_thread::sleep_for(5ms);

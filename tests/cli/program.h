@@ -34,6 +34,9 @@ struct Invocation {
   /// Where standard output (1) and error (2) go instead of to Outcome: a file, "closed" or "broken pipe".
   std::map<int, std::string> streams = {};
   bool ignores_hangup = false; ///< as under nohup
+  /// A program and its arguments, to which the program and its own are added, such as mpirun. Signals are for
+  /// it, once `after_write` has been written.
+  std::vector<std::string> launcher = {};
 };
 
 /// Waits for the program to end. Standard output and error are not terminals.

@@ -37,20 +37,20 @@ constexpr std::int64_t many = 1'000'000'000;
 TEST_CASE(
     "launches get as many jobs as last the time that they should, but no more than four times as many") {
   Planner planner(processor(), parts_for(Integrator::path), 0.5);
-  const std::int64_t first = planner.wanted_jobs(many, samples_per_block);
+  const std::int64_t first = planner.pace().wanted_jobs(many, samples_per_block);
   planner.note_time(first * samples_per_block, 0.125);
-  CHECK(planner.wanted_jobs(many, samples_per_block) == 4 * first);
+  CHECK(planner.pace().wanted_jobs(many, samples_per_block) == 4 * first);
   planner.note_time(first * samples_per_block, 0.125 / 16);
-  CHECK(planner.wanted_jobs(many, samples_per_block) == 16 * first);
-  CHECK(planner.wanted_jobs(100, samples_per_block) == 100);
+  CHECK(planner.pace().wanted_jobs(many, samples_per_block) == 16 * first);
+  CHECK(planner.pace().wanted_jobs(100, samples_per_block) == 100);
 }
 
 TEST_CASE("launches of paths that splat have whole batches") {
   Planner planner(processor(), parts_for(Integrator::light), 0.05);
-  const LaunchPlan plan = planner.plan(launch_of(planner.wanted_jobs(1, samples_per_block)));
+  const LaunchPlan plan = planner.plan(launch_of(planner.pace().wanted_jobs(1, samples_per_block)));
   CHECK(plan.batches == 1);
   CHECK(plan.batch_paths == static_cast<std::size_t>(plan.batch_jobs * samples_per_block));
-  CHECK(planner.wanted_jobs(many, samples_per_block) % plan.batch_jobs == 0);
+  CHECK(planner.pace().wanted_jobs(many, samples_per_block) % plan.batch_jobs == 0);
   CHECK(plan.scratch_bytes == 0);
 }
 
@@ -87,11 +87,11 @@ TEST_CASE("the vertices of a launch fit a buffer, where one group's do") {
 TEST_CASE("after a launch without memory, launches and their buffers are smaller, down to one group") {
   Planner planner(processor(), parts_for(Integrator::bidir), 0.05);
   planner.note_time(1'000'000, 0.05);
-  std::int64_t jobs = planner.wanted_jobs(many, samples_per_block);
+  std::int64_t jobs = planner.pace().wanted_jobs(many, samples_per_block);
   LaunchPlan plan = planner.plan(launch_of(jobs));
   int times = 0;
   for (; planner.shrink(jobs); ++times) {
-    const std::int64_t fewer = planner.wanted_jobs(many, samples_per_block);
+    const std::int64_t fewer = planner.pace().wanted_jobs(many, samples_per_block);
     const LaunchPlan smaller = planner.plan(launch_of(fewer));
     CHECK((fewer < jobs || smaller.items < plan.items));
     CHECK(smaller.scratch_bytes <= plan.scratch_bytes);

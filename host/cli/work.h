@@ -1,0 +1,18 @@
+// The part of a render that each process of a cluster does.
+#pragma once
+
+#include "cli/options.h"
+#include "cluster/team.h"
+#include "render/render.h"
+
+namespace phlux::cli {
+
+/// The settings that options other than those of settings::all() give. Of several processes, each has one
+/// device.
+[[nodiscard]] render::Settings defaults_of(const RenderOptions& options, const cluster::Group& group);
+
+/// What all processes but the first do: launches for that one, which reports all failures and writes all
+/// files. Returns 0. Signals leave the process, as the first one ends the render.
+[[nodiscard]] int work(cluster::Group& group, const RenderOptions& given);
+
+} // namespace phlux::cli
