@@ -58,6 +58,14 @@ double transmitted(FacetDistribution distribution, double alpha, double index, c
   return (1 - fresnel_reflectance(cosine, index)) * masking;
 }
 
+/// Of the light from `in` on a facet, the part that the facet reflects and no other blocks.
+double reflected(FacetDistribution distribution, double alpha, double index, const glm::dvec3& in,
+                 const glm::dvec3& h) {
+  const double cosine = glm::dot(in, h), out = 2 * cosine * h.z - in.z;
+  if (cosine <= 0 || out <= 0) return 0;
+  return fresnel_reflectance(cosine, index) * out / shown_area(distribution, alpha, std::min(1.0, out));
+}
+
 } // namespace
 
 double fresnel_reflectance(double cosine, double index) {
@@ -76,25 +84,49 @@ double diffuse_reflectance(double index) {
   return sum / steps;
 }
 
+namespace {
+
+/// The mean over the facets that light of this cosine sees of `part(in, h)`.
+template<class Part>
+double mean_over_facets(FacetDistribution distribution, double alpha, double cosine, Part part) {
+  constexpr int steps = 48, turns = 48; // the facets' slopes, and half a turn about the normal
+  const glm::dvec3 in(std::sqrt(1 - cosine * cosine), 0, cosine);
+  double sum = 0;
+  for (int k = 0; k < steps; ++k) {
+    const double z = facet_cosine(distribution, alpha, (k + 0.5) / steps), sine = std::sqrt(1 - z * z);
+    for (int j = 0; j < turns; ++j) {
+      const double phi = (j + 0.5) / turns * pi;
+      const glm::dvec3 h(sine * std::cos(phi), sine * std::sin(phi), z);
+      sum += std::max(0.0, glm::dot(in, h)) / z * part(in, h);
+    }
+  }
+  return sum / (steps * turns * shown_area(distribution, alpha, cosine));
+}
+
+} // namespace
+
 std::vector<double> rough_transmittances(FacetDistribution distribution, double alpha, double index,
                                          int intervals) {
-  constexpr int steps = 48, turns = 48; // the facets' slopes, and half a turn about the normal
   std::vector<double> values;
-  for (int i = 0; i <= intervals; ++i) {
-    const double cosine = std::max(static_cast<double>(i) / intervals, 1e-6);
-    const glm::dvec3 in(std::sqrt(1 - cosine * cosine), 0, cosine);
-    double sum = 0;
-    for (int k = 0; k < steps; ++k) {
-      const double z = facet_cosine(distribution, alpha, (k + 0.5) / steps), sine = std::sqrt(1 - z * z);
-      for (int j = 0; j < turns; ++j) {
-        const double phi = (j + 0.5) / turns * pi;
-        const glm::dvec3 h(sine * std::cos(phi), sine * std::sin(phi), z);
-        sum += std::max(0.0, glm::dot(in, h)) / z * transmitted(distribution, alpha, index, in, h);
-      }
-    }
-    values.push_back(sum / (steps * turns * shown_area(distribution, alpha, cosine)));
-  }
+  for (int i = 0; i <= intervals; ++i)
+    values.push_back(mean_over_facets(distribution, alpha, std::max(static_cast<double>(i) / intervals, 1e-6),
+                                      [&](const glm::dvec3& in, const glm::dvec3& h) {
+                                        return transmitted(distribution, alpha, index, in, h);
+                                      }));
   return values;
+}
+
+double rough_internal_reflectance(FacetDistribution distribution, double alpha, double index) {
+  constexpr int cosines = 64;
+  double sum = 0; // of R 2 cos, by the midpoint rule
+  for (int i = 0; i < cosines; ++i) {
+    const double cosine = (i + 0.5) / cosines;
+    sum += 2 * cosine *
+           mean_over_facets(distribution, alpha, cosine, [&](const glm::dvec3& in, const glm::dvec3& h) {
+             return reflected(distribution, alpha, 1 / index, in, h);
+           });
+  }
+  return sum / cosines;
 }
 
 } // namespace phlux::lobes

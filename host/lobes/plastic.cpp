@@ -40,8 +40,11 @@ std::vector<float> derive_rough(const scene::Material& m, LobeTables& tables) {
     for (const double value :
          rough_transmittances(static_cast<FacetDistribution>(distribution), alpha, index, intervals))
       tables.values.push_back(static_cast<float>(value));
-  const double passing = passing_from_inside(&tables.values[static_cast<std::size_t>(row->second)], index);
-  return {static_cast<float>(1 - passing), bits_of(row->second)};
+  const double internal =
+      m.value("lossy").x > 0.5
+          ? rough_internal_reflectance(static_cast<FacetDistribution>(distribution), alpha, index)
+          : 1 - passing_from_inside(&tables.values[static_cast<std::size_t>(row->second)], index);
+  return {static_cast<float>(internal), bits_of(row->second)};
 }
 
 } // namespace

@@ -70,6 +70,8 @@ double read_number(Properties& properties, const Parameter& parameter, const std
   if (ships && name.ends_with("_ior")) return properties.index_of_refraction(name, parameter.default_value);
   if (ships && name == "distribution") return read_distribution(properties);
   if (ships && name == "nonlinear") return properties.boolean(name, false) ? 1 : 0;
+  if (ships && name == "lossy")
+    return properties.boolean(name, properties.document().major_version > 0) ? 1 : 0;
   if (ships && name == "alpha") return read_roughness(properties, parameter);
   return properties.real(name, parameter.default_value);
 }

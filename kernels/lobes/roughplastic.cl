@@ -1,5 +1,6 @@
 // Rough plastic: as plastic, under a surface of microfacets. T is the part of the light that passes the surface inwards,
-// which the host integrates over the facets, and the surface sends the part d (`internal`) of the light inside back:
+// which the host integrates over the facets, and the surface sends the part d (`internal`) of the light inside back: all that
+// does not pass, or if `lossy` what one facet reflects.
 //   f_r = F(fixed.h) D(h) / (4 sigma(fixed) sigma(generated)) + b T(fixed) T(generated) / (pi I^2).
 #ifndef PHLUX_ROUGHPLASTIC_CL
 #define PHLUX_ROUGHPLASTIC_CL
@@ -16,7 +17,8 @@
   COLOUR(specular_reflectance, 1, 0, 1, "factor of the surface's reflectance")                                         \
   NUMBER(nonlinear, 0, 0, 1, "1: the light between base and surface shifts in colour")                                 \
   NUMBER(alpha, 0.1, 0.001, 1, "roughness: root mean square slope of the facets, times sqrt(2)")                       \
-  NUMBER(distribution, 0, 0, 2, "of the facets' normals: 0 beckmann, 1 ggx, 2 phong")
+  NUMBER(distribution, 0, 0, 2, "of the facets' normals: 0 beckmann, 1 ggx, 2 phong")                                  \
+  NUMBER(lossy, 0, 0, 1, "1: light inside that a second facet blocks is lost, as in Mitsuba 3")
 // T at ROUGHPLASTIC_INTERVALS + 1 cosines, evenly spaced from 0 to 1, from table_row on.
 #define ROUGHPLASTIC_DERIVED(NUMBER, INDEX) NUMBER(internal) INDEX(table_row)
 #define ROUGHPLASTIC_INTERVALS 128

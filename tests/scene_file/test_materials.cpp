@@ -178,6 +178,8 @@ TEST_CASE("Rough surfaces and plastic: Mitsuba's parameters and defaults") {
   };
   CHECK(rough("roughplastic", "").value("alpha").x == 0.1);
   CHECK(rough("roughplastic", "").value("int_ior").x == 1.49);
+  CHECK(rough("roughplastic", "").value("lossy").x == 0); // as in 0.6
+  CHECK(material("<bsdf type=\"roughplastic\"/>", "3.0.0").value("lossy").x == 1);
   CHECK(rough("roughconductor", "").value("k").r == Approx(3.27 / 1.000277)); // copper
   CHECK(rough("roughdielectric", "<string name=\"distribution\" value=\"ggx\"/>").value("distribution").x ==
         1);
