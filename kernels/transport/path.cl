@@ -49,7 +49,7 @@ __kernel void trace_paths(SCENE_PARAMETERS, int pixel_count, int first_pixel, in
     const Mask starting = working & !alive;
     if (any_lane(starting)) start_paths(&scene, &path, &radiance, list, job, starting);
 
-    const Arrival arrival = next_vertex(&scene, &path, limits, working);
+    const Arrival arrival = next_vertex(&scene, &path, 0, limits, working);
     rays += working ? (Uint)(1u) : (Uint)(0u);
     const Mask leaves_scene = working & !arrival.hits;
     if (HAS_SKY && any_lane(leaves_scene)) {
@@ -61,9 +61,9 @@ __kernel void trace_paths(SCENE_PARAMETERS, int pixel_count, int first_pixel, in
 
     if (CONNECT != CONNECT_NONE) {
       LightSample light;
-      const FoundLight sampled = sample_light(&scene, &path, arrival.vertex, &light, arrival.scattered);
+      FoundLight sampled = sample_light(&scene, &path, arrival.vertex, &light, arrival.scattered);
       if (any_lane(sampled.found)) {
-        const Mask occluded = scene_occluded(&scene, light.ray, light.distance, sampled.found);
+        const Mask occluded = shadow_ray_blocked(&scene, light.ray, light.distance, &sampled.value, sampled.found);
         radiance = add_found(radiance, sampled, sampled.found & !occluded);
         shadow_rays += sampled.found ? (Uint)(1u) : (Uint)(0u);
       }
