@@ -61,11 +61,12 @@ __kernel void trace_paths(SCENE_PARAMETERS, int pixel_count, int first_pixel, in
 
     if (CONNECT != CONNECT_NONE) {
       LightSample light;
-      FoundLight sampled = sample_light(&scene, &path, arrival.vertex, &light, arrival.scattered);
-      if (any_lane(sampled.found)) {
-        const Mask occluded = shadow_ray_blocked(&scene, light.ray, light.distance, &sampled.value, sampled.found);
-        radiance = add_found(radiance, sampled, sampled.found & !occluded);
-        shadow_rays += sampled.found ? (Uint)(1u) : (Uint)(0u);
+      const Mask reaches = draw_light(&scene, &path, arrival.vertex, &light, arrival.scattered);
+      if (any_lane(reaches)) {
+        const Mask lit =
+            reaches & !shadow_ray_blocked(&scene, light.ray, light.distance, &light.radiance, reaches);
+        if (any_lane(lit)) radiance = add_found(radiance, sampled_light(&scene, &path, arrival.vertex, light, lit), lit);
+        shadow_rays += reaches ? (Uint)(1u) : (Uint)(0u);
       }
     }
     MaterialSample sample;
