@@ -9,8 +9,8 @@
   NUMBER(ext_ior, 1.000277, 0.1, 10, "index of refraction in front of the surface")                                    \
   COLOUR(specular_reflectance, 1, 0, 1, "factor of the reflectance")                                                   \
   COLOUR(specular_transmittance, 1, 0, 1, "factor of the transmittance")                                               \
-  NUMBER(alpha_u, 0.1, 0.001, 1, "roughness along the first tangent: root mean square slope, times sqrt(2)")           \
-  NUMBER(alpha_v, 0.1, 0.001, 1, "roughness along the second tangent")                                                 \
+  NUMBER(alpha_u, 0.02, 0.005, 1, "roughness along the first tangent: root mean square slope, times sqrt(2)")          \
+  NUMBER(alpha_v, 0.02, 0.005, 1, "roughness along the second tangent")                                                \
   NUMBER(distribution, 0, 0, 1, "of the facets' normals: 0 beckmann, 1 ggx")
 #define ANISOTROPICDIELECTRIC_TRANSMITS 1
 #define ANISOTROPICDIELECTRIC_INDEX(m) ((m).front ? (m).int_ior / (m).ext_ior : (m).ext_ior / (m).int_ior)

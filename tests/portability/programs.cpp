@@ -195,7 +195,7 @@ const std::vector<SceneProgram>& scene_programs() {
       {"glass-bidir", by(Integrator::bidir, parts_of(glass, "exact"))},
       {"smooth-light", by(Integrator::light, parts_of(smooth, "exact"))},
       {"rough-path", parts_of(rough, "exact")},
-      {"rough-brushed-bidir", by(Integrator::bidir, parts_of(brushed, "exact"))},
+      {"rough-brushed", parts_of(brushed, "exact")},
       {"masked", parts_of(masked, "exact")},
       {"masked-light", by(Integrator::light, parts_of(masked, "exact"))},
       {"masked-mesh-bidir", by(Integrator::bidir, parts_of(masked_mesh, "exact"))},
