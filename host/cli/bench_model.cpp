@@ -70,7 +70,7 @@ void add_bench_model(CLI::App& app, const std::shared_ptr<bench::SamplingOptions
     if (!own && built_in->empty()) return;
     if (!options->strategies.empty() || !options->cases.empty() || !options->lights.empty() ||
         (own && !built_in->empty()))
-      throw UsageError(own ? "--lobe: excludes --model, --strategy, --case and --integrand"
+      throw UsageError(own ? "--lobe: excludes --strategy, --case, --integrand and --model"
                            : "--model: excludes --strategy, --case and --integrand");
     options->material = material_with(own ? own_model(*file) : lobes::shipped(*built_in), *values);
   });
