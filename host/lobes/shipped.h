@@ -35,8 +35,12 @@ struct ShippedModel {
   MODEL(phong)                                                                                               \
   MODEL(anisotropicphong)                                                                                    \
   MODEL(mirror)                                                                                              \
-  MODEL(conductor) MODEL(dielectric) MODEL(thindielectric) MODEL(roughconductor) MODEL(roughdielectric)      \
-      MODEL(plastic) MODEL(roughplastic) MODEL(anisotropicconductor) MODEL(anisotropicdielectric)
+  MODEL(conductor)                                                                                           \
+  MODEL(dielectric)                                                                                          \
+  MODEL(thindielectric)                                                                                      \
+  MODEL(roughconductor)                                                                                      \
+  MODEL(roughdielectric)                                                                                     \
+  MODEL(plastic) MODEL(roughplastic) MODEL(anisotropicconductor) MODEL(anisotropicdielectric)
 
 #define PHLUX_DECLARE_MODEL(name) extern const ShippedModel name##_model;
 PHLUX_SHIPPED_MODELS(PHLUX_DECLARE_MODEL)
