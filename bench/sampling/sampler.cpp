@@ -84,7 +84,9 @@ bool has_roulette(const std::string& strategy) {
 }
 
 std::vector<std::string> strategies_of_model(const scene::Model& model) {
-  return {model.name, "cosine", "uniform"};
+  std::vector<std::string> names = {model.name, "cosine", "uniform"};
+  if (model.name == "anisotropicphong" && model.text.empty()) names.emplace_back(exact_split);
+  return names;
 }
 
 void Sampler::Run::add(const Run& other) {
@@ -133,8 +135,25 @@ std::uint32_t Sampler::samples_per_lane(std::uint64_t samples) const {
   return static_cast<std::uint32_t>(count * size);
 }
 
+// The words diffuse_max and specular_max, of which part_shares() of kernels/lobes/anisotropicphong.cl
+// estimates the reflectivities D and S of the parts,
+//   S = specular_max + (1 - specular_max) (1 - cos)^5,  D = diffuse_max (1 - S),
+// so that it finds those that the model has in the directions of the case, as means over longitudes and
+// channels.
+std::vector<float> Sampler::words_of_exact_split(const Case& one) {
+  scene::Material lobe = material_of(one);
+  lobe.value("diffuse_reflectance") = scene::Rgb(0.0);
+  Case of_lobe = one;
+  of_lobe.given = std::make_shared<const scene::Material>(lobe);
+  const double specular = reflectivity_of(of_lobe), diffuse = reflectivity_of(one) - specular;
+  const double grazing = std::pow(1 - std::cos(one.degrees * std::numbers::pi / 180), 5);
+  return {static_cast<float>(diffuse / (1 - specular)),
+          static_cast<float>((specular - grazing) / (1 - grazing))};
+}
+
 void Sampler::prepare(const Case& one) {
-  program_.set_materials({material_of(one)});
+  if (one != prepared_ && strategy_ == exact_split) derived_ = words_of_exact_split(one);
+  program_.set_materials({material_of(one)}, derived_);
   if (one == prepared_) return;
   directions_ = program_.upload(in_lanes(directions_at(one.degrees), program_.lanes()));
   prepared_ = one;

@@ -36,7 +36,10 @@ struct Subject {
   cl_uint2 seed = {{0, 0}};
 };
 
-/// The ways to sample a model other than the Phong model: its own, called by its name, cosine and uniform.
+/// The ways to sample a model other than the Phong model: its own, called by its name, cosine and uniform; of
+/// anisotropicphong also exact_split, its own with the exact reflectivities of its two parts in place of
+/// estimates, for the choice between them and roulette.
+inline constexpr const char* exact_split = "exact-split";
 [[nodiscard]] std::vector<std::string> strategies_of_model(const scene::Model& model);
 
 class Sampler {
@@ -85,6 +88,7 @@ private:
   };
   [[nodiscard]] Blocks blocks(std::uint64_t samples) const;
   void prepare(const Case& one);
+  [[nodiscard]] std::vector<float> words_of_exact_split(const Case& one);
 
   measure::MaterialProgram program_;
   std::string strategy_;
@@ -92,6 +96,7 @@ private:
   cl::Kernel kernel_;
   Case prepared_{-1, 0, 0, 0, nullptr};
   cl::Buffer directions_;
+  std::vector<float> derived_; ///< of MaterialProgram::set_materials()
 };
 
 } // namespace phlux::bench

@@ -45,6 +45,9 @@ def write_section(folder, model, ranking):
     text = [f"The model {model} sampled by itself, and the same function sampled by the cosine and uniformly. In the table, "
             "exact is the reflectivity by quadrature of the function, and bias_sigma is the difference of the mean from it in "
             "standard errors."]
+    if any(row.strategy == "exact-split" for row in ranking):
+        text.append("exact-split is the model's own sampling with the exact reflectivities of its diffuse and its specular part "
+                    "in place of estimates: for the choice between them, and for roulette.")
     chart = {"svg": f"sampling-{model}.svg", "title": "Variance and cost of a sample without roulette",
              "caption": f"The cost is the time of the sampler and {ranking[0].ray_ns:.3g} ns for each ray that is traced on."}
     style.section(folder, f"sampling-{model}", title=f"Sampling {model}", order=21, charts=[chart],

@@ -17,10 +17,10 @@
 #include "bench/stability/stability.h"
 #include "bench/stability/stability_scene.h"
 #include "bench/techniques/techniques.h"
+#include "cli/bench_model.h"
 #include "cli/grammar.h"
 #include "cli/interrupt.h"
 #include "errors.h"
-#include "lobes/assignment.h"
 #include "settings/values.h"
 
 namespace phlux::cli {
@@ -155,43 +155,6 @@ bench::Case case_of(const std::string& text) {
   return one;
 }
 
-// A user's reflectance model and the values of its parameters, NAME=VALUE.
-std::shared_ptr<const scene::Material> own_material(const std::filesystem::path& file,
-                                                    const std::vector<std::string>& values) {
-  lobes::Library library;
-  library.add(file);
-  const std::string name = file.stem().string();
-  if (std::ranges::count(render::strategy_names(), name) > 0)
-    throw UsageError(
-        fmt::format("--lobe {}: {} is a strategy: give the file another name", file.string(), name));
-  scene::Material material = lobes::default_material(library.find(name));
-  for (const std::string& value : values) {
-    const std::size_t equals = value.find('=');
-    if (equals == std::string::npos) throw UsageError(fmt::format("--set {}: must be NAME=VALUE", value));
-    lobes::assign(material, value.substr(0, equals), value.substr(equals + 1));
-  }
-  return std::make_shared<const scene::Material>(std::move(material));
-}
-
-void add_own_lobe(CLI::App& app, const std::shared_ptr<bench::SamplingOptions>& options) {
-  const auto file = std::make_shared<std::filesystem::path>();
-  const auto values = std::make_shared<std::vector<std::string>>();
-  add_value(app, "--lobe", "NAME.cl",
-            "measures a reflectance model of your own instead, beside sampling by the cosine and uniformly: "
-            "sampling-NAME.csv, sampling-NAME-no-roulette.csv",
-            [file](const std::string& text) { *file = text; });
-  add_values(app, "--set", "NAME=VALUE",
-             "a parameter of that model; a colour takes one number or three, R,G,B; may be repeated",
-             [values](const std::string& text) { values->push_back(text); });
-  app.parse_complete_callback([=] {
-    if (file->empty() && !values->empty()) throw UsageError("--set: needs --lobe NAME.cl");
-    if (file->empty()) return;
-    if (!options->strategies.empty() || !options->cases.empty() || !options->lights.empty())
-      throw UsageError("--lobe: excludes --strategy, --case and --integrand");
-    options->material = own_material(*file, *values);
-  });
-}
-
 void add_sampling(CLI::App& bench, std::optional<Command>& command) {
   CLI::App& app = *bench.add_subcommand("sampling", "Measures mean, variance, rays and time per sample of "
                                                     "every directional sampling strategy: sampling.csv, "
@@ -230,7 +193,7 @@ void add_sampling(CLI::App& bench, std::optional<Command>& command) {
         constexpr double most = 1e6;
         options->ray_ns = settings::number_within("--ray-cost", text, 0, most);
       });
-  add_own_lobe(app, options);
+  add_bench_model(app, options);
   add_seed(app, "the random numbers", options->seed);
   measure_by(bench::measure_sampling, app, command, options);
 }

@@ -19,6 +19,8 @@ scene::Material without_fresnel(const scene::Material& m) {
 } // namespace
 
 const ShippedModel roughconductor_model{"roughconductor", "lobes/roughconductor.cl", factor};
+const ShippedModel anisotropicconductor_model{"anisotropicconductor", "lobes/anisotropicconductor.cl",
+                                              factor};
 const ShippedModel conductor_model{"conductor", "lobes/conductor.cl", factor, nullptr, without_fresnel};
 
 } // namespace phlux::lobes

@@ -16,5 +16,7 @@ double largest_reflectance(const scene::Material& m) {
 const ShippedModel dielectric_model{"dielectric", "lobes/dielectric.cl", largest_reflectance};
 const ShippedModel thindielectric_model{"thindielectric", "lobes/thindielectric.cl", largest_reflectance};
 const ShippedModel roughdielectric_model{"roughdielectric", "lobes/roughdielectric.cl", largest_reflectance};
+const ShippedModel anisotropicdielectric_model{"anisotropicdielectric", "lobes/anisotropicdielectric.cl",
+                                               largest_reflectance};
 
 } // namespace phlux::lobes

@@ -20,10 +20,10 @@ int parameter_words(const scene::Model& model) {
   return words;
 }
 
-int record_words(const std::vector<ModelPointer>& models) {
+int record_words(const std::vector<ModelPointer>& models, bool masked) {
   int most = 0;
   for (const ModelPointer& model : models) most = std::max(most, parameter_words(*model));
-  return MATERIAL_HEADER + most;
+  return MATERIAL_HEADER + most + (masked ? MATERIAL_OPACITY_WORDS : 0);
 }
 
 std::string capitalised(const std::string& name) {
@@ -38,6 +38,8 @@ scene::Material as_phong(const scene::Material& diffuse) {
   scene::Material material = phong(scene::Rgb(0.0), scene::Rgb(0.0), 0.0);
   material.take("diffuse_reflectance", diffuse, "reflectance");
   material.two_sided = diffuse.two_sided;
+  material.opacity = diffuse.opacity;
+  material.opacity_texture = diffuse.opacity_texture;
   return material;
 }
 
@@ -59,19 +61,23 @@ class TextureNumbers {
 public:
   explicit TextureNumbers(MaterialTable& table) : table_(table) {}
 
-  /// Of a material whose record begins at `first`.
-  void set(const scene::Material& material, std::size_t first) {
+  /// Of a material whose record begins at `first`, and whose opacity is at `opacity`.
+  void set(const scene::Material& material, std::size_t first, std::size_t opacity) {
     std::size_t word = first + MATERIAL_HEADER;
     for (std::size_t i = 0; i < material.values.size(); ++i) {
-      if (const scene::TexturePointer texture = material.texture(i)) {
-        table_.texture_numbers.resize(std::max(table_.texture_numbers.size(), word + 1));
-        table_.texture_numbers[word] = 1 + number(texture);
-      }
+      set(word, material.texture(i));
       word += words_of(material.model->parameters[i]);
     }
+    set(opacity, material.opacity_texture);
   }
 
 private:
+  void set(std::size_t word, const scene::TexturePointer& texture) {
+    if (!texture) return;
+    table_.texture_numbers.resize(std::max(table_.texture_numbers.size(), word + 1));
+    table_.texture_numbers[word] = 1 + number(texture);
+  }
+
   int number(const scene::TexturePointer& texture) {
     auto& list = table_.textures;
     const auto same = [&](const scene::TexturePointer& each) { return *each == *texture; };
@@ -117,9 +123,13 @@ std::map<std::string, std::string> files_of(const std::vector<ModelPointer>& mod
   return files;
 }
 
-std::map<std::string, std::string> defines_of(const std::vector<ModelPointer>& models) {
+bool any_masked(const std::vector<scene::Material>& materials) {
+  return std::ranges::any_of(materials, &scene::Material::is_masked);
+}
+
+std::map<std::string, std::string> defines_of(const std::vector<ModelPointer>& models, bool masked) {
   return {{"MODEL_COUNT", std::to_string(models.size())},
-          {"MATERIAL_WORDS", std::to_string(record_words(models))},
+          {"MATERIAL_WORDS", std::to_string(record_words(models, masked))},
           {"HAS_DELTA", has(models, &scene::Model::has_delta) ? "1" : "0"},
           {"HAS_TRANSMISSION", has(models, &scene::Model::transmits) ? "1" : "0"},
           {"HAS_TANGENTS", has(models, &scene::Model::needs_tangents) ? "1" : "0"}};
@@ -129,7 +139,8 @@ MaterialTable material_table(const std::vector<scene::Material>& materials,
                              std::vector<ModelPointer> models) {
   MaterialTable table{std::move(models), {}, materials.size(), {}, {}, {}};
   TextureNumbers texture_numbers(table);
-  const auto words = static_cast<std::size_t>(record_words(table.models));
+  const bool masked = any_masked(materials);
+  const auto words = static_cast<std::size_t>(record_words(table.models, masked));
   const bool has_phong = std::ranges::find(table.models, shipped("phong")) != table.models.end();
   LobeTables tables;
   for (const scene::Material& given : materials) {
@@ -141,13 +152,17 @@ MaterialTable material_table(const std::vector<scene::Material>& materials,
       const bool transmits = material.model->transmits;
       const int sides = MATERIAL_FRONT | (material.two_sided || transmits ? MATERIAL_BACK : 0) |
                         (transmits ? MATERIAL_TRANSMITS : 0);
-      const int flags = (reflects(material) ? sides : 0) | (material.is_textured() ? MATERIAL_TEXTURED : 0);
-      texture_numbers.set(material, table.records.size());
+      const int flags = (reflects(material) ? sides : 0) | (given.is_textured() ? MATERIAL_TEXTURED : 0) |
+                        (given.is_masked() ? MATERIAL_MASKED : 0);
+      texture_numbers.set(material, table.records.size(), end - MATERIAL_OPACITY_WORDS);
       table.records.push_back(bits_of(static_cast<int>(found - table.models.begin())));
       table.records.push_back(bits_of(flags));
       append_words(table.records, material, tables);
     }
     table.records.resize(end);
+    for (int channel = 0; masked && channel < MATERIAL_OPACITY_WORDS; ++channel)
+      table.records[end - MATERIAL_OPACITY_WORDS + static_cast<std::size_t>(channel)] =
+          static_cast<float>(given.opacity[channel]);
   }
   if (!table.textures.empty()) table.texture_numbers.resize(table.records.size());
   // A material without a table has row 0 all the same: kernels read two neighbouring values of it.

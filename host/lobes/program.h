@@ -15,8 +15,11 @@ namespace phlux::lobes {
 
 /// The files that the program includes besides those of kernels/: lobes/models.cl and users' models.
 [[nodiscard]] std::map<std::string, std::string> files_of(const std::vector<ModelPointer>& models);
-/// MODEL_COUNT, MATERIAL_WORDS, HAS_DELTA, HAS_TRANSMISSION, HAS_TANGENTS.
-[[nodiscard]] std::map<std::string, std::string> defines_of(const std::vector<ModelPointer>& models);
+/// MODEL_COUNT, MATERIAL_WORDS, HAS_DELTA, HAS_TRANSMISSION, HAS_TANGENTS. `masked`: for materials of which
+/// some are masked.
+[[nodiscard]] std::map<std::string, std::string> defines_of(const std::vector<ModelPointer>& models,
+                                                            bool masked);
+[[nodiscard]] bool any_masked(const std::vector<scene::Material>& materials);
 
 /// Materials for kernels/lobes/material.cl: records of equal length, and the models' tables. A material whose
 /// model is not among `models` has a record of zeros.
@@ -26,8 +29,8 @@ struct MaterialTable {
   std::size_t count = 0; ///< number of records
   std::vector<float> tables;
   std::vector<scene::TexturePointer> textures; ///< of all materials
-  /// As long as `records`: at the first word of a colour from a texture, 1 + its index in `textures`;
-  /// elsewhere 0. Empty if there are no textures.
+  /// As long as `records`: at the first word of a colour or opacity from a texture, 1 + its index in
+  /// `textures`; elsewhere 0. Empty if there are no textures.
   std::vector<int> texture_numbers;
 };
 [[nodiscard]] MaterialTable material_table(const std::vector<scene::Material>& materials,

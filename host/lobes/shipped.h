@@ -34,8 +34,13 @@ struct ShippedModel {
   MODEL(diffuse)                                                                                             \
   MODEL(phong)                                                                                               \
   MODEL(anisotropicphong)                                                                                    \
-  MODEL(mirror) MODEL(conductor) MODEL(dielectric) MODEL(thindielectric) MODEL(roughconductor)               \
-      MODEL(roughdielectric) MODEL(plastic) MODEL(roughplastic)
+  MODEL(mirror)                                                                                              \
+  MODEL(conductor)                                                                                           \
+  MODEL(dielectric)                                                                                          \
+  MODEL(thindielectric)                                                                                      \
+  MODEL(roughconductor)                                                                                      \
+  MODEL(roughdielectric)                                                                                     \
+  MODEL(plastic) MODEL(roughplastic) MODEL(anisotropicconductor) MODEL(anisotropicdielectric)
 
 #define PHLUX_DECLARE_MODEL(name) extern const ShippedModel name##_model;
 PHLUX_SHIPPED_MODELS(PHLUX_DECLARE_MODEL)

@@ -1,5 +1,6 @@
 #include "measure/material_program.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -33,12 +34,15 @@ MaterialProgram::MaterialProgram(const device::Device& device, const sources::Ke
     : device_(device), source_(with_lanes(std::move(source), device)),
       program_(device::build(device, files, source_.program()).program) {}
 
-void MaterialProgram::set_materials(const std::vector<scene::Material>& materials) {
-  if (materials == materials_) return;
-  const lobes::MaterialTable table = lobes::material_table(materials, source_.models);
+void MaterialProgram::set_materials(const std::vector<scene::Material>& materials,
+                                    const std::vector<float>& derived) {
+  if (materials == materials_ && derived == derived_) return;
+  lobes::MaterialTable table = lobes::material_table(materials, source_.models);
+  std::ranges::copy(derived, table.records.end() - std::ssize(derived));
   records_ = upload(table.records);
   tables_ = upload(table.tables);
   materials_ = materials;
+  derived_ = derived;
 }
 
 cl_uint MaterialProgram::bind_materials(cl::Kernel& kernel) const {

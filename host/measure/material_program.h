@@ -28,7 +28,8 @@ public:
   MaterialProgram(const device::Device& device, const sources::KernelFiles& files, Source source);
 
   /// The materials of later launches: of models of the source. Uploads their records if they have changed.
-  void set_materials(const std::vector<scene::Material>& materials);
+  /// `derived`: the last of the derived words of the last material, in place of those that the model has.
+  void set_materials(const std::vector<scene::Material>& materials, const std::vector<float>& derived = {});
 
   template<typename T>
   [[nodiscard]] cl::Buffer upload(const std::vector<T>& table) const {
@@ -68,6 +69,7 @@ private:
   Source source_;
   cl::Program program_;
   std::vector<scene::Material> materials_;
+  std::vector<float> derived_;
   cl::Buffer records_, tables_;
 };
 

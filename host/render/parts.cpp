@@ -31,6 +31,7 @@ constexpr NamedPart named_parts[] = {
     {&Parts::strict_normals, "strict_normals", "HAS_STRICT_NORMALS"},
     {&Parts::two_sided, "two_sided", "HAS_TWO_SIDED"},
     {&Parts::black, "black", "HAS_BLACK"},
+    {&Parts::masks, "masks", "HAS_MASKS"},
     {&Parts::checkerboards, "checkerboards", "HAS_CHECKERBOARDS"},
     {&Parts::byte_textures, "byte_textures", "HAS_BYTE_TEXTURES"},
     {&Parts::float_textures, "float_textures", "HAS_FLOAT_TEXTURES"},
@@ -45,6 +46,7 @@ constexpr NamedPart named_parts[] = {
     {&Parts::orthographic, "orthographic", "HAS_ORTHOGRAPHIC"},
     {&Parts::tent_filter, "tent_filter", "HAS_TENT_FILTER"},
     {&Parts::gaussian_filter, "gaussian_filter", "HAS_GAUSSIAN_FILTER"},
+    {&Parts::hidden_emitters, "hidden_emitters", "HAS_HIDDEN_EMITTERS"},
     {&Parts::light_choice, "light_choice", "HAS_LIGHT_CHOICE"},
     {&Parts::light_tree, "light_tree", "HAS_LIGHT_TREE"},
     {&Parts::ambient, "ambient", "HAS_AMBIENT"},
@@ -150,10 +152,13 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
   parts.strict_normals = parts.smooth_normals && scene.strict_normals;
   const std::vector<scene::Material> materials = tables::used_materials(scene, geometry);
   parts.models = lobes::models_of(materials);
+  parts.masks = lobes::any_masked(scene.materials);
   for (const scene::Material& m : materials) {
     parts.two_sided |= m.two_sided || m.model->transmits;
     parts.black |= !lobes::reflects(m);
-    for (const scene::TexturePointer& texture : m.textures) {
+    std::vector<scene::TexturePointer> textures = m.textures;
+    textures.push_back(m.opacity_texture);
+    for (const scene::TexturePointer& texture : textures) {
       if (!texture) continue;
       parts.checkerboards |= !texture->image;
       parts.byte_textures |= texture->image && !texture->image->bytes.empty();
@@ -181,6 +186,7 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
   parts.tent_filter = scene.camera.filter.kind == scene::Filter::Kind::tent;
   parts.gaussian_filter = scene.camera.filter.kind == scene::Filter::Kind::gaussian;
   parts.environment_map = scene.environment.has_value();
+  parts.hidden_emitters = scene.hide_emitters;
   parts.light_constant = lights.has(LIGHT_SKY) && !parts.environment_map;
   const bool chooses = parts.connect != Connect::none || parts.integrator == Integrator::light;
   parts.light_choice = lights.records.size() > 1 && chooses;
@@ -252,7 +258,7 @@ std::map<std::string, std::string> Parts::defines() const {
   macros["PHONG_STRATEGY"] = settings::is_strategy_file(strategy)
                                  ? fmt::format("\"{}\"", strategy)
                                  : fmt::format("\"phong/strategies/{}.cl\"", strategy);
-  macros.merge(lobes::defines_of(models));
+  macros.merge(lobes::defines_of(models, masks));
   return macros;
 }
 

@@ -24,7 +24,7 @@ struct Parts {
   bool hierarchy = false;
   bool double_precision = false; ///< kernels/lanes/lanes.h: Real is a double
   bool triangles = false, parallelograms = false, ellipses = false, spheres = false;
-  bool smooth_normals = false, strict_normals = false, two_sided = false, black = false;
+  bool smooth_normals = false, strict_normals = false, two_sided = false, black = false, masks = false;
   bool checkerboards = false, byte_textures = false, float_textures = false;
   std::vector<lobes::ModelPointer> models = {lobes::shipped("diffuse")}; ///< reflectance models
   bool light_planar = false, light_sphere = false, light_point = false, light_spot = false,
@@ -33,6 +33,7 @@ struct Parts {
   bool tent_filter = false, gaussian_filter = false; ///< else the box
   bool ambient = false;                              ///< a control variate
   bool light_choice = false;                         ///< more than one light to choose from
+  bool hidden_emitters = false;                      ///< from the camera
   bool light_tree = false;                           ///< light samples choose by contribution
   bool one_light = false, few_lights = false, few_materials = false,
        few_primitives = false; ///< optimizations

@@ -75,6 +75,8 @@ private:
     add(material.model->name, material.model->text, material.values, material.two_sided);
     for (std::size_t i = 0; i < material.textures.size(); ++i)
       if (material.textures[i]) add(i, *material.textures[i]);
+    if (material.is_masked()) add(material.opacity);
+    if (material.opacity_texture) add(*material.opacity_texture);
   }
   void add_one(const Texture& texture) {
     const auto& [image, nearest, wrap_u, wrap_v, colors, to_uv, scale] = texture;
@@ -141,11 +143,12 @@ private:
 
 std::string digest(const Scene& scene) {
   const auto& [materials, area_emitters, patches, spheres, meshes, point_lights, spot_lights,
-               directional_lights, constant_radiance, environment, strict_normals, camera, defaults, files] =
-      scene;
+               directional_lights, constant_radiance, environment, strict_normals, hide_emitters, camera,
+               defaults, files] = scene;
   Digest result(needs_uv(scene));
   result.add(materials, area_emitters, patches, spheres, meshes, point_lights, spot_lights,
              directional_lights, constant_radiance, environment, strict_normals, camera);
+  if (hide_emitters) result.add(hide_emitters);
   return result.text();
 }
 

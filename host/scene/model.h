@@ -41,6 +41,8 @@ struct Material {
   std::vector<Rgb> values;
   bool two_sided = false;               ///< reflects on both sides; otherwise the back is black
   std::vector<TexturePointer> textures; ///< by parameter, null for a constant; empty: all are constant
+  Rgb opacity{1.0};                     ///< the part 1 - opacity of all light passes straight on
+  TexturePointer opacity_texture = {};  ///< null: `opacity`, which is else its largest
 
   /// @throws std::out_of_range for a parameter that the model does not have
   [[nodiscard]] const Rgb& value(const std::string& parameter) const { return values.at(index(parameter)); }
@@ -59,13 +61,20 @@ struct Material {
     value(parameter) = from.value(its);
     if (const TexturePointer taken = from.texture(from.index(its))) set_texture(index(parameter), taken);
   }
-  [[nodiscard]] bool is_textured() const { return !textures.empty(); }
+  void set_opacity(const TexturePointer& texture) {
+    opacity_texture = texture;
+    opacity = texture->largest();
+  }
+  [[nodiscard]] bool is_masked() const { return opacity_texture || opacity != Rgb(1.0); }
+  [[nodiscard]] bool is_textured() const { return !textures.empty() || opacity_texture; }
   bool operator==(const Material& other) const {
     const auto equal = [](const TexturePointer& a, const TexturePointer& b) {
       return a == b || (a && b && *a == *b);
     };
     return model == other.model && values == other.values && two_sided == other.two_sided &&
-           std::equal(textures.begin(), textures.end(), other.textures.begin(), other.textures.end(), equal);
+           std::equal(textures.begin(), textures.end(), other.textures.begin(), other.textures.end(),
+                      equal) &&
+           opacity == other.opacity && equal(opacity_texture, other.opacity_texture);
   }
 
 private:

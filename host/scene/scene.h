@@ -138,6 +138,8 @@ struct Scene {
   /// Mitsuba's strictNormals: directions that lie on different sides of the interpolated and the geometric
   /// normal carry no light. Otherwise the interpolated normal alone decides on the side.
   bool strict_normals = false;
+  bool hide_emitters =
+      false; ///< Mitsuba's hideEmitters: the camera sees no light itself, only what it lights
   Camera camera;
   RenderDefaults defaults;
   std::vector<std::filesystem::path> files; ///< that were read: the scene file, meshes, textures

@@ -123,37 +123,48 @@ Pixels<Value> decoded(const Location& file, Source& source, Load load, bool alph
        "the whole file");
 }
 
-ImageFile read_by_stb(const Location& file, Source& source) {
+/// Of images that have none.
+[[noreturn]] void fail_without_alpha(const Location& file) {
+  fail(file, "the image has no alpha", "an image with alpha, or one of its other channels");
+}
+
+ImageFile read_by_stb(const Location& file, Source& source, bool alpha) {
   ImageFile image;
   int channels{};
   if (source.call(stbi_info_from_callbacks, &image.width, &image.height, &channels) == 0)
     fail(file, fmt::format("not an image that can be read ({})", stbi_failure_reason()), formats);
   check_size(file, source.size(), image.width, image.height);
   const auto pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+  if (alpha && channels != 2 && channels != 4) fail_without_alpha(file);
   if (source.call(stbi_is_hdr_from_callbacks) != 0) {
     const auto values = decoded<float>(file, source, stbi_loadf_from_callbacks, false);
     image.floats.assign(values.get(), values.get() + 3 * pixels);
     check_finite(file, image);
     return image;
   }
-  image.is_encoded = true;
+  image.is_encoded = !alpha;
   if (source.call(stbi_is_16_bit_from_callbacks) != 0) {
-    const auto values = decoded<stbi_us>(file, source, stbi_load_16_from_callbacks, false);
+    const auto values = decoded<stbi_us>(file, source, stbi_load_16_from_callbacks, alpha);
     image.floats.resize(3 * pixels);
-    std::transform(values.get(), values.get() + 3 * pixels, image.floats.begin(), [](stbi_us value) {
-      return static_cast<float>(value) / std::numeric_limits<stbi_us>::max();
-    });
+    for (std::size_t i = 0; i < image.floats.size(); ++i)
+      image.floats[i] =
+          static_cast<float>(values.get()[alpha ? i / 3 * 4 + 3 : i]) / std::numeric_limits<stbi_us>::max();
     return image;
   }
   const auto values = decoded<stbi_uc>(file, source, stbi_load_from_callbacks, true);
   image.bytes.assign(values.get(), values.get() + 4 * pixels);
-  for (std::size_t i = 3; i < image.bytes.size(); i += 4) image.bytes[i] = 255;
+  for (std::size_t i = 3; i < image.bytes.size(); i += 4) {
+    if (alpha) image.bytes[i - 3] = image.bytes[i - 2] = image.bytes[i - 1] = image.bytes[i];
+    image.bytes[i] = 255;
+  }
   return image;
 }
 
-/// The channels of a colour: R, G and B, or Y for each.
-std::array<const char*, 3> color_channels(const Location& file, const Imf::ChannelList& channels) {
+/// The channels of a colour: R, G and B, or Y for each; or A for each.
+std::array<const char*, 3> channels_of(const Location& file, const Imf::ChannelList& channels, bool alpha) {
   const auto has = [&](const char* name) { return channels.findChannel(name) != nullptr; };
+  if (alpha && !has("A")) fail_without_alpha(file);
+  if (alpha) return {"A", "A", "A"};
   if (has("R") && has("G") && has("B")) return {"R", "G", "B"};
   if (has("Y") && !has("RY")) return {"Y", "Y", "Y"};
   std::string names;
@@ -162,12 +173,12 @@ std::array<const char*, 3> color_channels(const Location& file, const Imf::Chann
   fail(file, "an image of channels " + names, "channels R, G and B, or Y alone");
 }
 
-ImageFile pixels_of(const Location& where, std::uint64_t file_bytes, Imf::InputFile& input) {
+ImageFile pixels_of(const Location& where, std::uint64_t file_bytes, Imf::InputFile& input, bool alpha) {
   const Imath::Box2i window = input.header().dataWindow();
   const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
   const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
   check_size(where, file_bytes, width, height);
-  const auto names = color_channels(where, input.header().channels());
+  const auto names = channels_of(where, input.header().channels(), alpha);
   ImageFile image{static_cast<int>(width), static_cast<int>(height), {}, {}, false};
   image.floats.resize(static_cast<std::size_t>(3 * width * height));
   Imf::FrameBuffer frame;
@@ -186,12 +197,13 @@ ImageFile pixels_of(const Location& where, std::uint64_t file_bytes, Imf::InputF
   return image;
 }
 
-ImageFile read_exr(const std::filesystem::path& file, const Location& where, std::uint64_t file_bytes) {
+ImageFile read_exr(const std::filesystem::path& file, const Location& where, std::uint64_t file_bytes,
+                   bool alpha) {
   ImageFile image;
   std::string damage;
   try {
     Imf::InputFile input(file.string().c_str());
-    image = pixels_of(where, file_bytes, input);
+    image = pixels_of(where, file_bytes, input, alpha);
   } catch (const SceneError&) {
     throw;
   } catch (const std::exception& error) {
@@ -205,14 +217,15 @@ ImageFile read_exr(const std::filesystem::path& file, const Location& where, std
 
 } // namespace
 
-ImageFile read_image(const std::filesystem::path& file, const Location& named_at) {
+ImageFile read_image(const std::filesystem::path& file, const Location& named_at, ImageChannels channels) {
+  const bool alpha = channels == ImageChannels::alpha;
   const Location where{std::make_shared<const std::string>(file.string()), 0};
   Source source(file);
   if (!source.readable())
     fail(named_at, "image file '" + file.string() + "' cannot be read",
          "an existing file, named relative to the scene's folder");
-  if (source.first_bytes(4) == "\x76\x2f\x31\x01") return read_exr(file, where, source.size());
-  return read_by_stb(where, source);
+  if (source.first_bytes(4) == "\x76\x2f\x31\x01") return read_exr(file, where, source.size(), alpha);
+  return read_by_stb(where, source, alpha);
 }
 
 } // namespace phlux::scene_file

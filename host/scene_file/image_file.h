@@ -17,14 +17,18 @@ struct ImageFile {
   bool is_encoded = false;         ///< values are sRGB-encoded, from 0 to 1 (255); otherwise linear
 };
 
+/// What the three channels of a pixel are read from: their colours or, all three, the alpha, which is linear.
+enum class ImageChannels { colors, alpha };
+
 /// Most pixels of an image: 16384 x 16384.
 inline constexpr std::uint64_t most_image_pixels = std::uint64_t{1} << 28;
 
 /// Reads PNG, JPEG, BMP and TGA (8 or 16 bits a channel), HDR (RGBE) and OpenEXR (channels R, G, B or Y).
-/// Grey becomes three equal channels; alpha is ignored. The size that the file claims is checked before
+/// Grey becomes three equal channels. The size that the file claims is checked before
 /// memory is allocated.
 /// @throws SceneError at `named_at` if the file cannot be read; "FILE: ..." if it is damaged, cut short, too
-/// large, of another format, or has a pixel that is not finite
-[[nodiscard]] ImageFile read_image(const std::filesystem::path& file, const Location& named_at);
+/// large, of another format, without the channels, or has a pixel that is not finite
+[[nodiscard]] ImageFile read_image(const std::filesystem::path& file, const Location& named_at,
+                                   ImageChannels channels = ImageChannels::colors);
 
 } // namespace phlux::scene_file

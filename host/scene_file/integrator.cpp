@@ -81,7 +81,7 @@ void read_integrator(const Element& integrator, const Document& document, scene:
   scene.defaults.integrator = integrator_for(integrator);
   read_depths(properties, scene.defaults);
   if (type == "direct") scene.defaults.max_depth = 2; // emission and direct light
-  properties.require("hide_emitters", false);
+  scene.hide_emitters = properties.boolean("hide_emitters", false);
   scene.strict_normals = properties.boolean("strict_normals", false);
   properties.require("show_weighted", false);
   if (type == "path" || type == "ptracer" || type == "bdpt")

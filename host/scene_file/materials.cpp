@@ -26,7 +26,7 @@ constexpr double kept_energy = 0.99;
 std::string supported_bsdfs(const lobes::Library& library) {
   std::string list;
   for (const auto& model : library.models()) list += model->name + ", ";
-  return "supported are " + list + "and twosided around one of these";
+  return "supported are " + list + "and twosided or mask around one of these";
 }
 
 std::string text(const Rgb& color) {
@@ -46,23 +46,36 @@ bool may_be_scaled(const Parameter& parameter, ExcessEnergy excess) {
          excess == ExcessEnergy::scale;
 }
 
+constexpr auto beckmann_facets = static_cast<double>(lobes::FacetDistribution::beckmann),
+               ggx_facets = static_cast<double>(lobes::FacetDistribution::ggx),
+               phong_facets = static_cast<double>(lobes::FacetDistribution::phong);
+
 /// The number by which kernels name a distribution of facets (kernels/lobes/microfacets.h).
 double read_distribution(Properties& properties) {
-  const auto number_of = [](lobes::FacetDistribution d) { return static_cast<double>(d); };
   const std::string name = properties.string("distribution", "beckmann");
-  if (name == "beckmann") return number_of(lobes::FacetDistribution::beckmann);
-  if (name == "ggx") return number_of(lobes::FacetDistribution::ggx);
-  if (name == "phong" || name == "as") return number_of(lobes::FacetDistribution::phong);
+  if (name == "beckmann") return beckmann_facets;
+  if (name == "ggx") return ggx_facets;
+  if (name == "phong" || name == "as") return phong_facets;
   properties.fail_at("distribution", "no distribution is named '" + name + "'", "beckmann, ggx, phong or as");
 }
 
-/// `alpha`, or alpha_u and alpha_v where they are equal. How facets are sampled changes no mean.
-double read_roughness(Properties& properties, const Parameter& alpha) {
+/// alpha_u or alpha_v, each `alpha` unless it is given; `alpha` itself where both are equal. How facets are
+/// sampled changes no mean.
+double read_roughness(Properties& properties, const std::string& name) {
   properties.pass_over({"sample_visible"});
-  const double u = properties.real("alpha_u", properties.real("alpha", alpha.default_value));
-  if (properties.real("alpha_v", u) != u)
-    properties.fail_at("alpha_v", "anisotropic roughness is not supported", "alpha_u = alpha_v, or alpha");
-  return u;
+  return properties.real(name == "alpha" ? "alpha_u" : name, properties.real("alpha", 0.1));
+}
+
+/// The model of a rough surface by the roughnesses that are given.
+lobes::ModelPointer rough_model(Properties& properties, const lobes::ModelPointer& model) {
+  if (!model || !model->text.empty() || !lobes::find_parameter(*model, "alpha")) return model;
+  if (read_roughness(properties, "alpha_u") == read_roughness(properties, "alpha_v")) return model;
+  const bool plastic = model->name == "roughplastic";
+  if (plastic || read_distribution(properties) == phong_facets)
+    properties.fail_at("alpha_v",
+                       "a " + (plastic ? model->name : "Phong distribution") + " of two roughnesses",
+                       plastic ? "one alpha" : "one alpha, or beckmann or ggx");
+  return lobes::shipped(model->name == "roughconductor" ? "anisotropicconductor" : "anisotropicdielectric");
 }
 
 /// A number of a model that ships may have another form in the file.
@@ -72,7 +85,7 @@ double read_number(Properties& properties, const Parameter& parameter, const std
   if (ships && name == "nonlinear") return properties.boolean(name, false) ? 1 : 0;
   if (ships && name == "lossy")
     return properties.boolean(name, properties.document().major_version > 0) ? 1 : 0;
-  if (ships && name == "alpha") return read_roughness(properties, parameter);
+  if (ships && name.starts_with("alpha")) return read_roughness(properties, name);
   return properties.real(name, parameter.default_value);
 }
 
@@ -186,20 +199,45 @@ Material read_two_sided(Properties& properties, const Document& document, Materi
   return material;
 }
 
+/// Opacities of masks inside one another multiply.
+Material read_mask(Properties& properties, const Document& document, MaterialRules rules) {
+  const Location& where = properties.element().where;
+  const Element* nested = properties.object("bsdf");
+  if (!nested)
+    fail(where, "<bsdf type=\"mask\"> around nothing",
+         "one nested or referenced bsdf; " + supported_bsdfs(rules.library));
+  Material material = read_material(*nested, document, rules);
+  const Parameter opacity{"opacity", Parameter::Kind::colour, 0.5, 0, 1, ""};
+  const Element* element = properties.texture("opacity");
+  if (material.is_masked() && (element || material.opacity_texture))
+    fail(where, "a mask around a mask, and a texture in one of them", "one mask with the product of both");
+  if (element) {
+    material.set_opacity(rules.textures.read(*element, document));
+    check_range(properties, opacity, "opacity", material.opacity_texture->smallest(), material.opacity,
+                ExcessEnergy::error);
+    return material;
+  }
+  const Rgb value = properties.color("opacity", Rgb(opacity.default_value));
+  check_range(properties, opacity, "opacity", value, value, ExcessEnergy::error);
+  material.opacity *= value;
+  return material;
+}
+
 } // namespace
 
 scene::Material read_material(const Element& bsdf, const Document& document, MaterialRules rules) {
   Properties properties(bsdf, document);
   const std::string type = bsdf.type();
-  const lobes::ModelPointer model = rules.library.find(type);
-  if (!model && type != "twosided")
+  const lobes::ModelPointer model = rough_model(properties, rules.library.find(type));
+  if (!model && type != "twosided" && type != "mask")
     fail(bsdf.where, bsdf.name() + " is not supported",
          supported_bsdfs(rules.library) + "; `lobe` NAME.cl adds a model of your own");
   if (properties.has("ensure_energy_conservation"))
     rules.excess =
         properties.boolean("ensure_energy_conservation", false) ? ExcessEnergy::scale : ExcessEnergy::error;
-  const Material material =
-      model ? read_model(properties, model, rules) : read_two_sided(properties, document, rules);
+  const Material material = model            ? read_model(properties, model, rules)
+                            : type == "mask" ? read_mask(properties, document, rules)
+                                             : read_two_sided(properties, document, rules);
   properties.finish();
   return lobes::simplest(material);
 }

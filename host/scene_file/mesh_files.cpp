@@ -32,8 +32,9 @@ MeshFile read_file(const MeshRequest& request) {
 
 /// Of a mesh without texture coordinates whose material looks different for others.
 void warn_without_uv(const scene::Material& material, const MeshRequest& request) {
-  const bool anisotropic = material.model == lobes::shipped("anisotropicphong") &&
-                           material.value("exponent_u") != material.value("exponent_v");
+  const bool anisotropic = material.model == lobes::shipped("anisotropicphong")
+                               ? material.value("exponent_u") != material.value("exponent_v")
+                               : material.model->needs_tangents;
   if (material.is_textured() || anisotropic)
     warn(request.named_at,
          "the mesh has no texture coordinates: as in Mitsuba, a texture is on each triangle by "

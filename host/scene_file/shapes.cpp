@@ -133,8 +133,13 @@ Attached attached(Properties& properties, const ShapeTarget& target) {
   if (!result.has_bsdf) // Mitsuba's default is grey 0.5, or black if the shape emits
     result.surface.material = share(target.scene.materials, lobes::diffuse(scene::Rgb(emitter ? 0.0 : 0.5)));
   if (emitter)
-    document.problems->attempt(
-        [&] { result.surface.area_emitter = area_emitter_of(*emitter, document, target.scene); });
+    document.problems->attempt([&] {
+      const auto material = static_cast<std::size_t>(result.surface.material);
+      if (material < target.scene.materials.size() && target.scene.materials[material].is_masked())
+        fail(emitter->where, "a masked shape that emits is not supported",
+             "leave out the mask, or make of the shape only what is not masked");
+      result.surface.area_emitter = area_emitter_of(*emitter, document, target.scene);
+    });
   return result;
 }
 

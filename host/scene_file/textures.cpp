@@ -77,6 +77,23 @@ std::array<double, 6> to_uv(Properties& properties) {
   return {us * m[0][0], us * m[1][0], us * m[3][0] + uo, vs * m[0][1], vs * m[1][1], vs * m[3][1] + vo};
 }
 
+/// Of a bitmap whose values are those of one channel: r, g, b or a; empty for all.
+std::string channel_of(Properties& properties) {
+  const std::string channel = properties.string("channel", "");
+  if (channel.empty() || channel == "r" || channel == "g" || channel == "b" || channel == "a") return channel;
+  properties.fail_at("channel", "'" + channel + "' is not supported", "r, g, b or a");
+}
+
+/// Sets all channels of every pixel to this one, unless it is alpha, as which it has been read.
+void keep_channel(ImageFile& image, const std::string& channel) {
+  if (channel.empty() || channel == "a") return;
+  const std::size_t kept = channel == "r" ? 0 : channel == "g" ? 1 : 2;
+  for (std::size_t i = 0; i < image.bytes.size(); i += 4)
+    image.bytes[i] = image.bytes[i + 1] = image.bytes[i + 2] = image.bytes[i + kept];
+  for (std::size_t i = 0; i < image.floats.size(); i += 3)
+    image.floats[i] = image.floats[i + 1] = image.floats[i + 2] = image.floats[i + kept];
+}
+
 double gamma_of(Properties& properties) {
   const double gamma = properties.real("gamma", by_file);
   if (gamma < 0 && gamma != srgb)
@@ -113,7 +130,7 @@ scene::TexturePointer TextureReader::read(const Element& element, const Document
     texture.wrap_u = texture.wrap_v = wrap(properties, "wrap_mode", mode);
     texture.wrap_u = wrap(properties, "wrap_mode_u", mode);
     texture.wrap_v = wrap(properties, "wrap_mode_v", mode);
-    texture.image = image(document.find(name), gamma, properties.where("filename"));
+    texture.image = image(document.find(name), {gamma, channel_of(properties)}, properties.where("filename"));
     properties.pass_over({"cache", "max_anisotropy", "format", "accel"});
   } else {
     fail(element.where, element.name() + " is not supported", "supported are bitmap and checkerboard");
@@ -122,11 +139,14 @@ scene::TexturePointer TextureReader::read(const Element& element, const Document
   return std::make_shared<const Texture>(texture);
 }
 
-const TextureReader::Image& TextureReader::image(const std::filesystem::path& file, double gamma,
+const TextureReader::Image& TextureReader::image(const std::filesystem::path& file, Decoding decoding,
                                                  const Location& named_at) {
-  Image& known = images_[{file, gamma}];
+  Image& known = images_[{file, decoding}];
   if (known) return known;
-  ImageFile read = read_image(file, named_at);
+  const bool alpha = decoding.channel == "a"; // is linear, as in Mitsuba
+  ImageFile read = read_image(file, named_at, alpha ? ImageChannels::alpha : ImageChannels::colors);
+  keep_channel(read, decoding.channel);
+  double gamma = alpha ? linear : decoding.gamma;
   if (gamma == by_file) gamma = read.is_encoded ? srgb : linear;
   TexelImage result;
   result.width = read.width;

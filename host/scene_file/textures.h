@@ -20,10 +20,16 @@ public:
 
 private:
   using Image = std::shared_ptr<const scene::TexelImage>;
-  /// `gamma`: exponent of the encoding, or one of the values in textures.cpp.
-  const Image& image(const std::filesystem::path& file, double gamma, const Location& named_at);
+  /// Of an image: the exponent of the encoding, or one of the values in textures.cpp; r, g, b or a for one
+  /// channel in place of all, else empty.
+  struct Decoding {
+    double gamma;
+    std::string channel;
+    auto operator<=>(const Decoding&) const = default;
+  };
+  const Image& image(const std::filesystem::path& file, Decoding decoding, const Location& named_at);
 
-  std::map<std::pair<std::filesystem::path, double>, Image> images_;
+  std::map<std::pair<std::filesystem::path, Decoding>, Image> images_;
 };
 
 } // namespace phlux::scene_file

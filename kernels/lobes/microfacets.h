@@ -1,5 +1,6 @@
 // Surfaces of microfacets (Torrance and Sparrow 1967; Walter et al. 2007): distributions of their normals h and Smith's
-// masking, for roughness alpha alike in all directions.
+// masking, for one roughness alpha in all directions or two, along x and y of the frame. All of Beckmann's and GGX's surfaces
+// are one with alpha = 1, stretched: a slope is divided by the alpha of its direction.
 //
 // Of what a surface shows to a direction v, facets with normals about h have the part D(h) (v.h)+ / sigma(v), the density of
 // visible normals (Heitz 2014), where sigma(v) = cos / G1(v) is the area of what is seen per area of the surface. Written
@@ -18,24 +19,49 @@
 #define FACETS_PHONG 2
 
 typedef struct {
-  Real alpha;
-  Mask ggx, phong; // neither: Beckmann's
+  Real alpha, alpha_v; // along x and y
+  int anisotropic;     // 0: they are the same
+  Mask ggx, phong;     // neither: Beckmann's
 } Facets;
 
 static inline Facets facets_of(Real alpha, Real distribution) {
   Facets f;
-  f.alpha = alpha;
+  f.alpha = f.alpha_v = alpha;
+  f.anisotropic = 0;
   f.ggx = distribution == (Real)(FACETS_GGX);
   f.phong = distribution == (Real)(FACETS_PHONG);
+  return f;
+}
+
+// Not for Phong's distribution.
+static inline Facets anisotropic_facets(Real alpha_u, Real alpha_v, Real distribution) {
+  Facets f;
+  f.alpha = alpha_u;
+  f.alpha_v = alpha_v;
+  f.anisotropic = 1;
+  f.ggx = distribution == (Real)(FACETS_GGX);
+  f.phong = NO_LANES;
   return f;
 }
 
 // The exponent of Phong's distribution that resembles Beckmann's with this alpha (Walter et al. 2007, equation 40).
 static inline Real facet_exponent(Real alpha) { return 2.0f / (alpha * alpha) - 2.0f; }
 
+// D(h) of two roughnesses: the stretched slope is sqrt(slope2 / cosine2).
+static inline Real anisotropic_density(Facets f, Vec3 h, Real cosine2) {
+  const Real u = h.x / f.alpha, v = h.y / f.alpha_v;
+  const Real slope2 = fma(u, u, v * v), scale = INV_PI / (f.alpha * f.alpha_v);
+  const Real ellipsoid = cosine2 + slope2;
+  const Real ggx = scale / (ellipsoid * ellipsoid);
+  if (all_lanes(f.ggx)) return ggx;
+  const Real beckmann = scale * exp(-slope2 / cosine2) / (cosine2 * cosine2);
+  return f.ggx ? ggx : beckmann;
+}
+
 // D(h), per solid angle, for h.z > 0: the integral of D(h) h.z is 1.
 static inline Real facet_density(Facets f, Vec3 h) {
   const Real sine2 = fma(h.x, h.x, h.y * h.y), cosine2 = larger(1.0f - sine2, (Real)(1e-9f));
+  if (f.anisotropic) return anisotropic_density(f, h, cosine2);
   const Real alpha2 = f.alpha * f.alpha, ellipsoid = fma(alpha2, cosine2, sine2);
   const Real ggx = alpha2 * INV_PI / (ellipsoid * ellipsoid);
   if (all_lanes(f.ggx)) return ggx;
@@ -50,7 +76,11 @@ static inline Real facet_density(Facets f, Vec3 h) {
 // alpha = 1 reflect a third more than arrives.)
 static inline Real shown_area(Facets f, Vec3 v) {
   const Real cosine = fabs(v.z), sine = sqrt(fma(v.x, v.x, v.y * v.y));
-  const Real spread = f.alpha * sine;
+  Real spread = f.alpha * sine;
+  if (f.anisotropic) {
+    const Real u = f.alpha * v.x, w = f.alpha_v * v.y;
+    spread = sqrt(fma(u, u, w * w));
+  }
   const Real ggx = 0.5f * (cosine + sqrt(fma(cosine, cosine, spread * spread)));
   if (all_lanes(f.ggx)) return ggx;
   const Real a = cosine / larger(spread, (Real)(1e-20f));
@@ -67,8 +97,8 @@ static inline Real facet_sample_density(Facets f, Real density, Real shown, Vec3
 }
 
 // A visible normal of GGX (Heitz 2018): of the hemisphere that remains after the surface is stretched by 1 / alpha.
-static inline Vec3 sample_ggx_facet(Real alpha, Vec3 fixed, Real u1, Real u2) {
-  const Vec3 v = vec_normalize(vec3(alpha * fixed.x, alpha * fixed.y, fixed.z));
+static inline Vec3 sample_ggx_facet(Facets f, Vec3 fixed, Real u1, Real u2) {
+  const Vec3 v = vec_normalize(vec3(f.alpha * fixed.x, f.alpha_v * fixed.y, fixed.z));
   const Real length2 = fma(v.x, v.x, v.y * v.y);
   const Mask tilted = length2 > 0.0f;
   const Real inverse = 1.0f / sqrt(tilted ? length2 : (Real)(1.0f));
@@ -80,7 +110,7 @@ static inline Vec3 sample_ggx_facet(Real alpha, Vec3 fixed, Real u1, Real u2) {
   const Real p2 = fma(s, r * sin_phi, (1.0f - s) * sqrt(larger(fma(-p1, p1, (Real)(1.0f)), (Real)(0.0f))));
   const Real p3 = sqrt(larger(fma(-p2, p2, fma(-p1, p1, (Real)(1.0f))), (Real)(0.0f)));
   const Vec3 n = vec_along(vec_along(vec_scale(p3, v), p1, t1), p2, t2);
-  return vec_normalize(vec3(alpha * n.x, alpha * n.y, larger(n.z, (Real)(1e-7f))));
+  return vec_normalize(vec3(f.alpha * n.x, f.alpha_v * n.y, larger(n.z, (Real)(1e-7f))));
 }
 
 // The inverse of the error function, to 3e-7 of its value (Giles 2012).
@@ -110,8 +140,8 @@ static inline Real inverse_erf(Real x) {
 // A visible normal of Beckmann's distribution (Heitz and d'Eon 2014): of the surface stretched to alpha = 1, whose slopes
 // are normally distributed. Across `fixed` the slope is independent of it; along `fixed`, of density
 // (cos - x sin)+ exp(-x^2), its distribution is inverted by Newton's method within a bracket.
-static inline Vec3 sample_beckmann_facet(Real alpha, Vec3 fixed, Real u1, Real u2) {
-  const Vec3 v = vec_normalize(vec3(alpha * fixed.x, alpha * fixed.y, fixed.z));
+static inline Vec3 sample_beckmann_facet(Facets f, Vec3 fixed, Real u1, Real u2) {
+  const Vec3 v = vec_normalize(vec3(f.alpha * fixed.x, f.alpha_v * fixed.y, fixed.z));
   const Real sine = sqrt(fma(v.x, v.x, v.y * v.y));
   const Real tail = 0.28209479f * sine, half_cosine = 0.5f * v.z; // 1 / (2 sqrt(pi))
   Real low = (Real)(-5.0f), high = sine * 5.0f > v.z ? v.z / sine : (Real)(5.0f);
@@ -129,15 +159,16 @@ static inline Vec3 sample_beckmann_facet(Real alpha, Vec3 fixed, Real u1, Real u
   const Real y = inverse_erf(2.0f * u2 - 1.0f);
   const Mask tilted = sine > 0.0f;
   const Real p = tilted ? v.x / sine : (Real)(1.0f), q = tilted ? v.y / sine : (Real)(0.0f);
-  return vec_normalize(vec3(-alpha * fma(p, x, -q * y), -alpha * fma(q, x, p * y), (Real)(1.0f)));
+  return vec_normalize(vec3(-f.alpha * fma(p, x, -q * y), -f.alpha_v * fma(q, x, p * y), (Real)(1.0f)));
 }
 
 // A normal for `fixed`, of facet_sample_density.
 static inline Vec3 sample_facet(Facets f, Vec3 fixed, Real u1, Real u2) {
-  if (all_lanes(f.ggx)) return sample_ggx_facet(f.alpha, fixed, u1, u2);
+  if (all_lanes(f.ggx)) return sample_ggx_facet(f, fixed, u1, u2);
   if (all_lanes(f.phong)) return cosine_power_direction(facet_exponent(f.alpha) + 1.0f, u1, u2);
   const Vec3 visible =
-      vec_select(f.ggx, sample_ggx_facet(f.alpha, fixed, u1, u2), sample_beckmann_facet(f.alpha, fixed, u1, u2));
+      vec_select(f.ggx, sample_ggx_facet(f, fixed, u1, u2), sample_beckmann_facet(f, fixed, u1, u2));
+  if (f.anisotropic) return visible;
   return vec_select(f.phong, cosine_power_direction(facet_exponent(f.alpha) + 1.0f, u1, u2), visible);
 }
 

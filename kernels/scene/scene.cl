@@ -6,6 +6,9 @@
 #include "scene/parts.h"
 #include "scene/scene_data.h"
 
+// Of a table that is not kept in registers, one: an array has at least one entry.
+#define MEMBERS_IN_REGISTERS(kept, members) ((kept) ? (members) : 1)
+
 typedef struct {
   const __global CameraRecord* camera;
   const __global PrimitiveRecord* primitives;
@@ -30,11 +33,11 @@ typedef struct {
   const __global float* texels; // values of bytes, and texels
   const __global float* uv_maps; // UV_FLOATS per primitive
   // Copies of tables with few entries, member by member.
-  float material_members[MATERIAL_WORDS][LANES];
-  float light_members[sizeof(LightRecord) / 4][LANES];
-  float primitive_members[sizeof(PrimitiveRecord) / 4][LANES];
-  float planar_members[PLANAR_FLOATS][LANES];
-  float sphere_members[SPHERE_FLOATS][LANES];
+  float material_members[MEMBERS_IN_REGISTERS(MATERIALS_IN_REGISTERS, MATERIAL_WORDS)][LANES];
+  float light_members[MEMBERS_IN_REGISTERS(LIGHTS_IN_REGISTERS, sizeof(LightRecord) / 4)][LANES];
+  float primitive_members[MEMBERS_IN_REGISTERS(PRIMITIVES_IN_REGISTERS, sizeof(PrimitiveRecord) / 4)][LANES];
+  float planar_members[MEMBERS_IN_REGISTERS(PRIMITIVES_IN_REGISTERS, PLANAR_FLOATS)][LANES];
+  float sphere_members[MEMBERS_IN_REGISTERS(PRIMITIVES_IN_REGISTERS, SPHERE_FLOATS)][LANES];
 } Scene;
 
 // The member of an entry of a table, in every lane.

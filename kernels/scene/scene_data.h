@@ -39,8 +39,17 @@ typedef struct {
 // MATERIAL_WORDS, the length of the longest record of the scene.
 enum MaterialHeader { MATERIAL_MODEL = 0, MATERIAL_FLAGS = 1, MATERIAL_HEADER = 2 };
 // Sides that reflect anything, neither if the material is black; whether light passes through; whether a colour is from a
-// texture.
-enum MaterialFlags { MATERIAL_FRONT = 1, MATERIAL_BACK = 2, MATERIAL_TRANSMITS = 4, MATERIAL_TEXTURED = 8 };
+// texture; whether its opacity is below 1.
+enum MaterialFlags {
+  MATERIAL_FRONT = 1,
+  MATERIAL_BACK = 2,
+  MATERIAL_TRANSMITS = 4,
+  MATERIAL_TEXTURED = 8,
+  MATERIAL_MASKED = 16
+};
+// The opacity of a masked material, at the end of the record of a scene that has some.
+enum { MATERIAL_OPACITY_WORDS = 3 };
+#define MATERIAL_OPACITY (MATERIAL_WORDS - MATERIAL_OPACITY_WORDS)
 
 // A texture: a colour at (u, v) = to_uv (1, its surface's u and v).
 enum TextureKinds { TEXTURE_CHECKERBOARD = 0, TEXTURE_BYTES = 1, TEXTURE_FLOATS = 2 };

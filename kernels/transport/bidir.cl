@@ -45,7 +45,7 @@ static inline int trace_eye_subpaths(WorkItem* work, Batch batch) {
     if (row == work->eye.rows) return 0;
 
     const Mask tracing = alive;
-    const Arrival arrival = next_vertex(scene, &s, work->limits, tracing);
+    const Arrival arrival = next_vertex(scene, &s, 0, work->limits, tracing);
     work->rays += (uint)count_lanes(tracing);
     const Mask leaves_scene = tracing & !arrival.hits;
     if (HAS_SKY && any_lane(leaves_scene)) {

@@ -48,8 +48,9 @@ static inline Real weight_of_hit_light(const Subpath* s, Real light_sample, Real
   return light_sample_possible(s) ? s->density / (s->density + light_sample) : (Real)(1.0f);
 }
 
-// Lanes of m whose hits count: without weights, where no light sample is possible.
+// Lanes of m whose hits count: where the camera may see lights; without weights, where no light sample is possible.
 static inline Mask hits_count(const Subpath* s, Mask m) {
+  if (HAS_HIDDEN_EMITTERS) m &= s->edges > 1;
   const int light_samples_alone = !IS_BIDIR & (CONNECT == CONNECT_LIGHT);
   return light_samples_alone ? m & !light_sample_possible(s) : m;
 }

@@ -71,7 +71,7 @@ static inline void see_sky(const Scene* scene, const Subpath* s, Emission* e, Ca
 
 // Connects the camera to the light's own point (s = 1, t = 1) in the lanes of m.
 static inline void connect_light_to_camera(WorkItem* work, const Subpath* s, Emission e, Mask m) {
-  if (!HAS_HITTABLE_LIGHTS) return;
+  if (!HAS_HITTABLE_LIGHTS | HAS_HIDDEN_EMITTERS) return;
   const Scene* scene = work->scene;
   const CameraSample sample = splat_sample(scene, s, (Int)(0));
   View view = view_of(scene, e.origin.position, sample);
@@ -191,7 +191,7 @@ static inline int trace_light_subpaths(WorkItem* work, Batch batch) {
     if (IS_BIDIR && row == work->light.rows) return 0;
 
     const Mask tracing = alive;
-    const Arrival arrival = next_vertex(scene, &s, work->limits, tracing);
+    const Arrival arrival = next_vertex(scene, &s, 1, work->limits, tracing);
     work->rays += (uint)count_lanes(tracing);
     if (IS_BIDIR) {
       s.mis = mis_arrived_from_light(scene, &s, arrival.vertex, arrival.distance);

@@ -49,7 +49,7 @@ __kernel void trace_paths(SCENE_PARAMETERS, int pixel_count, int first_pixel, in
     const Mask starting = working & !alive;
     if (any_lane(starting)) start_paths(&scene, &path, &radiance, list, job, starting);
 
-    const Arrival arrival = next_vertex(&scene, &path, limits, working);
+    const Arrival arrival = next_vertex(&scene, &path, 0, limits, working);
     rays += working ? (Uint)(1u) : (Uint)(0u);
     const Mask leaves_scene = working & !arrival.hits;
     if (HAS_SKY && any_lane(leaves_scene)) {
@@ -63,7 +63,8 @@ __kernel void trace_paths(SCENE_PARAMETERS, int pixel_count, int first_pixel, in
       LightSample light;
       const Mask reaches = draw_light(&scene, &path, arrival.vertex, &light, arrival.scattered);
       if (any_lane(reaches)) {
-        const Mask lit = reaches & !scene_occluded(&scene, light.ray, light.distance, reaches);
+        const Mask lit =
+            reaches & !shadow_ray_blocked(&scene, light.ray, light.distance, &light.radiance, reaches);
         if (any_lane(lit)) radiance = add_found(radiance, sampled_light(&scene, &path, arrival.vertex, light, lit), lit);
         shadow_rays += reaches ? (Uint)(1u) : (Uint)(0u);
       }

@@ -3,9 +3,9 @@
 #ifndef PHLUX_SHADOW_QUEUE_CL
 #define PHLUX_SHADOW_QUEUE_CL
 
-#include "scene/traverse.cl"
 #include "transport/contributions.cl"
 #include "transport/lane_records.h"
+#include "transport/masks.cl"
 
 typedef struct {
   Ray ray;
@@ -63,8 +63,8 @@ static inline ShadowRay shadow_rays_at(const ShadowQueue* queue, int at) {
 // ray adds 0, so that the host counts the rays of each technique.
 static inline void trace_shadow_rays(const Scene* scene, ShadowQueue* queue, Output* output) {
   const Mask waiting = LANE_NUMBERS < (Int)(queue->count);
-  const ShadowRay shadow = shadow_rays_at(queue, 0);
-  const Mask unoccluded = waiting & !scene_occluded(scene, shadow.ray, shadow.distance, waiting);
+  ShadowRay shadow = shadow_rays_at(queue, 0);
+  const Mask unoccluded = waiting & !shadow_ray_blocked(scene, shadow.ray, shadow.distance, &shadow.value, waiting);
   Contribution c;
   c.path = shadow.path;
   c.own = shadow.pixel < 0;

@@ -5,16 +5,18 @@
 #include "lobes/material.cl"
 #include "math/random.h"
 #include "scene/lights.cl"
+#include "transport/masks.cl"
 #include "transport/mis_weights.cl"
 
 // Dimensions of the random numbers of a path. Eye subpaths: 0 is the position in the pixel, then two for every edge.
 // Light subpaths: two for the first edge, then one for every edge; one for every splat. One for the roulette of
-// connections.
+// connections. For masks, one for every edge of either subpath.
 #define DIMENSION_SCATTERING(edges) int_to_uint(2 * (edges))
 #define DIMENSION_LIGHT_SAMPLE(edges) int_to_uint(2 * (edges) + 1)
 #define DIMENSION_EMISSION 0x40000000u
 #define DIMENSION_LIGHT_SCATTERING(edges) int_to_uint((edges) + 0x40000001)
 #define DIMENSION_CONNECTIONS 0x60000000u
+#define DIMENSION_MASKS(edges, adjoint) int_to_uint((edges) + ((adjoint) ? 0x50000000 : 0x20000000))
 #define DIMENSION_SPLAT(edges) int_to_uint((edges) + 0x70000000)
 
 // A subpath and its next ray.
@@ -69,8 +71,15 @@ typedef struct {
   Vertex vertex;
 } Arrival;
 
-static inline Arrival next_vertex(const Scene* scene, Subpath* s, PathLimits limits, Mask alive) {
-  const Hit hit = scene_intersect(scene, s->ray, alive);
+static inline Hit trace_edge(const Scene* scene, Subpath* s, int adjoint, Mask alive) {
+  if (!HAS_MASKS) return scene_intersect(scene, s->ray, alive);
+  const RandomWords words = random_words(s->sequence, DIMENSION_MASKS(s->edges, adjoint), 0);
+  return first_scattering(scene, s->ray, words, &s->throughput, alive);
+}
+
+// `adjoint`: light subpaths.
+static inline Arrival next_vertex(const Scene* scene, Subpath* s, int adjoint, PathLimits limits, Mask alive) {
+  const Hit hit = trace_edge(scene, s, adjoint, alive);
   s->edges += alive ? (Int)(1) : (Int)(0);
   Arrival a;
   a.distance = hit.distance;

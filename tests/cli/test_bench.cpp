@@ -230,6 +230,8 @@ TEST_CASE("phlux bench: bad input is one line and its exit code") {
       {{"sampling", "--lobe", retro, "--set", "exponent"}, 2, "--set exponent: must be NAME=VALUE"},
       {{"sampling", "--lobe", retro, "--set", "exponent=0"}, 2, "must be from 1 to"},
       {{"sampling", "--lobe", retro, "--strategy", "exact"}, 2, "--lobe: excludes --strategy"},
+      {{"sampling", "--lobe", retro, "--model", "roughconductor"}, 2, "--lobe: excludes --strategy"},
+      {{"sampling", "--model", "mirror"}, 2, "--model mirror"},
       {{"sampling", "--out", "/proc/phlux"}, 5, "/proc/phlux"},
       {{"sampling", "--device", "none such"}, 4, "none such"},
       {{"stability", "--cell", "10"}, 2, "--cell 10: must be N,RADIUS"},

@@ -119,6 +119,7 @@ SMOOTH, FLAT = ("test_images", "a ball of eight*"), ("test_images", "a low gap*"
 CAMERA, EMISSION, LIGHTS, WEIGHTS, BATCHES = (
     ("test_kernels", name + ":*") for name in ("camera", "emission", "lights", "weights", "batches"))
 MIRRORS, MATERIALS = ("test_images", "mirrors: *"), ("test_kernels", "materials:*")
+MASKS = ("test_images", "masks:*")
 GLASS, GLASS_PLANE = ("test_images", "glass: balls*"), ("test_images", "glass: reflectance*")
 MIRROR_BALL = ("test_images", "mirrors: a ball in a furnace*")
 MAPS, MAP_RENDERS = ("test_kernels", "environment maps:*"), ("test_images", "environment maps:*")
@@ -140,7 +141,7 @@ INTEGRATOR_MUTANTS = [
      "return 1.0f / (scene->camera->film_area * cosine * cosine * cosine);", "return 1.0f / scene->camera->film_area;",
      CAMERA),
     ("eye connected through surfaces", "transport/shadow_queue.cl",
-     "const Mask unoccluded = waiting & !scene_occluded", "const Mask unoccluded = waiting | scene_occluded",
+     "const Mask unoccluded = waiting & !shadow_ray_blocked", "const Mask unoccluded = waiting | shadow_ray_blocked",
      INTEGRATORS),
     ("light's point seen from behind", "transport/light_subpath.cl", "Mask faces = e.surface & (cosine > 0.0f);",
      "Mask faces = e.surface;", ("test_images", "an emitter seen from behind*")),
@@ -218,6 +219,14 @@ INTEGRATOR_MUTANTS = [
      "1.0f / index", GLASS_PLANE),
     ("power scaled as radiance", "transport/subpath.cl", "if (HAS_TRANSMISSION && !adjoint)", "if (HAS_TRANSMISSION)",
      GLASS),
+    ("masks passed as often as not", "transport/masks.cl", "< stopping;", "< 0.5f;", MASKS),
+    ("masks black to shadow rays", "transport/masks.cl", "vec_mul(transmittance, *light)", "vec_scale((Real)(0.0f), *light)",
+     MASKS),
+    ("distances behind a mask from the mask", "transport/masks.cl",
+     "hit.distance += passing ? moved - next.distance : (Real)(0.0f);", "hit.distance -= passing ? next.distance : (Real)(0.0f);",
+     MASKS),
+    ("light seen by the camera not hidden from hits", "transport/eye_subpath.cl",
+     "if (HAS_HIDDEN_EMITTERS) m &= s->edges > 1;", "", ("test_images", "hidden emitters*")),
     ("glass that is the same from inside", "lobes/dielectric.cl", "((m).front ? (m).int_ior / (m).ext_ior :",
      "((m).front | 1 ? (m).int_ior / (m).ext_ior :", GLASS_PLANE),
     ("one polarisation", "math/fresnel.h", "return 0.5f * fma(s, s, p * p);", "return s * s;", GLASS_PLANE),

@@ -33,10 +33,10 @@ most() {
 
 # most_stack NAME: the limit on bytes of private memory. A traversal of the hierarchy needs STACK_SIZE (66) distances and
 # children, 528 bytes in float32: path and rays have one, light two (subpaths, and shadow rays to the eye), bidir four. Queues
-# of starts and shadow rays and the rest may use 1700, a fifth more than the largest (glass-bidir) when this was written.
+# of starts and shadow rays and the rest may use 1500, a fifth more than the largest (glass-bidir) when this was written.
 # Double precision needs twice as much.
 most_stack() {
-  others=1700
+  others=1500
   case $1 in
   *-double.*) echo $((2 * (4 * 528 + others))) ;;
   everything-brute-force.*) echo $others ;;

@@ -54,11 +54,12 @@ Parts without(Parts parts, const std::string& name) {
   return parts;
 }
 
-// Without textures and the models of smooth and rough glass, metal and plastic, which have programs of their
-// own: no scene has them all.
+// Without masks, textures and the models of smooth and rough glass, metal and plastic, which have programs of
+// their own: no scene has them all.
 Parts ordinary(Parts parts) {
-  for (const char* name : {"checkerboards", "byte_textures", "float_textures", "conductor", "dielectric",
-                           "thindielectric", "roughconductor", "roughdielectric", "plastic", "roughplastic"})
+  for (const char* name : {"masks", "checkerboards", "byte_textures", "float_textures", "conductor",
+                           "dielectric", "thindielectric", "roughconductor", "roughdielectric", "plastic",
+                           "roughplastic", "anisotropicconductor", "anisotropicdielectric"})
     parts = without(parts, name);
   return parts;
 }
@@ -126,6 +127,10 @@ constexpr char mirrors[] = "parallelograms spheres phong mirror light_planar";
 constexpr char glass[] = "parallelograms spheres two_sided phong dielectric light_planar light_constant";
 constexpr char smooth[] = "parallelograms two_sided conductor thindielectric plastic light_planar";
 constexpr char rough[] = "parallelograms two_sided roughdielectric roughconductor roughplastic light_planar";
+constexpr char brushed[] = "parallelograms two_sided anisotropicdielectric anisotropicconductor light_planar "
+                           "light_constant light_choice hidden_emitters";
+constexpr char masked[] = "parallelograms spheres two_sided phong masks checkerboards light_planar";
+constexpr char masked_mesh[] = "hierarchy triangles diffuse masks byte_textures light_planar";
 constexpr char triangles[] = "hierarchy triangles smooth_normals phong light_planar light_choice light_tree";
 constexpr char textured[] = "parallelograms spheres phong light_planar byte_textures";
 constexpr char textured_mesh[] = "hierarchy triangles ellipses smooth_normals anisotropicphong light_planar "
@@ -190,6 +195,10 @@ const std::vector<SceneProgram>& scene_programs() {
       {"glass-bidir", by(Integrator::bidir, parts_of(glass, "exact"))},
       {"smooth-light", by(Integrator::light, parts_of(smooth, "exact"))},
       {"rough-path", parts_of(rough, "exact")},
+      {"rough-brushed", parts_of(brushed, "exact")},
+      {"masked", parts_of(masked, "exact")},
+      {"masked-light", by(Integrator::light, parts_of(masked, "exact"))},
+      {"masked-mesh-bidir", by(Integrator::bidir, parts_of(masked_mesh, "exact"))},
       // With every part, double precision needs more registers than a thread can have.
       {"brushed-double", in_double(parts_of("parallelograms anisotropicphong light_planar", "exact"))},
       {"mirrors-double", in_double(parts_of(mirrors, "exact"))},

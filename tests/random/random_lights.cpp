@@ -1,7 +1,6 @@
 #include "random/random_lights.h"
 
-#include <algorithm>
-#include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -73,20 +72,16 @@ void RandomLights::spot(const Rgb& light) {
   text.close("transform");
 }
 
-// With dark and with bright texels, in the format RGBE without compression, which narrow images have.
+// With dark and with bright texels.
 void RandomLights::environment_map(const Rgb& color) {
   RandomNumbers& values = draft_.values;
   const int width = 1 + values.below(7), height = 1 + values.below(5);
-  std::string bytes = fmt::format("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {} +X {}\n", height, width);
+  std::vector<Rgb> texels;
   for (int i = 0; i < width * height; ++i) {
     const double level = values.pick({0.0, 0.3, 0.5, 0.8, 1.0, 10.0});
-    const Rgb texel = level * color * triple(values, 0.5, 1);
-    int exponent = 0;
-    std::frexp(std::max({texel.r, texel.g, texel.b}), &exponent);
-    for (int c = 0; c < 3; ++c) bytes += static_cast<char>(std::ldexp(texel[c], 8 - exponent));
-    bytes += static_cast<char>(level > 0 ? exponent + 128 : 0);
+    texels.push_back(level * color * triple(values, 0.5, 1));
   }
-  draft_.files["sky.hdr"] = bytes;
+  draft_.files["sky.hdr"] = rgbe_file(width, texels);
   draft_.text.string("filename", "sky.hdr");
   draft_.text.real("scale", values.uniform(0.5, 1));
   draft_.open_to_world();

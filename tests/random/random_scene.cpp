@@ -29,12 +29,13 @@ Walls choose_walls(SceneDraft& draft) {
   return kind;
 }
 
-void write_integrator(SceneDraft& draft) {
+void write_integrator(SceneDraft& draft, bool hides_emitters) {
   RandomNumbers& values = draft.values;
   draft.text.open("integrator", fmt::format("type=\"{}\"", values.pick({"path", "ptracer", "bdpt"})));
   draft.text.integer("max_depth", values.chance(0.04) ? 1 : values.pick({2, 3, 3, 4, 4, 5, 8, -1, -1}));
   draft.text.integer("rr_depth", values.pick({1, 2, 3, 5}));
   if (values.chance(0.5)) draft.text.boolean("strict_normals", values.chance(0.7));
+  if (hides_emitters) draft.text.boolean("hide_emitters", true);
   draft.text.close("integrator");
 }
 
@@ -119,7 +120,7 @@ RandomScene random_scene(const SceneNumber& number, const std::optional<Twin>& t
   RandomLights lights(draft);
   RandomMaterials materials(draft, most_exponent(number.family));
   const Walls walls = choose_walls(draft);
-  write_integrator(draft);
+  write_integrator(draft, RandomNumbers(number.family << 16).chance(0.1));
   write_sensor(draft);
   materials.write();
   lights.write();

@@ -75,7 +75,7 @@ void RandomShapes::object(bool lamp, int index) {
     steps_to_place(type, size);
     draft_.close_to_world();
   }
-  if (!lamp || draft_.structure.chance(0.5)) materials_.refer_to_one();
+  if (!lamp || draft_.structure.chance(0.5)) materials_.refer_to_one(lamp);
   if (lamp) {
     text.open("emitter", "type=\"area\"");
     text.color("radiance", lights_.color() / (size * size));

@@ -1,5 +1,6 @@
 #include "random/scene_draft.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -39,6 +40,19 @@ void SceneDraft::close_to_world() {
     if (offset != Vec3(0.0)) text.triple("translate", offset);
   }
   text.close("transform");
+}
+
+std::string rgbe_file(int width, const std::vector<scene::Rgb>& pixels) {
+  std::string bytes = fmt::format("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {} +X {}\n",
+                                  static_cast<int>(pixels.size()) / width, width);
+  for (const scene::Rgb& pixel : pixels) {
+    int exponent = 0;
+    const double largest = std::max({pixel.r, pixel.g, pixel.b});
+    std::frexp(largest, &exponent);
+    for (int c = 0; c < 3; ++c) bytes += static_cast<char>(std::ldexp(pixel[c], 8 - exponent));
+    bytes += static_cast<char>(largest > 0 ? exponent + 128 : 0);
+  }
+  return bytes;
 }
 
 Vec3 triple(RandomNumbers& random, double from, double to) {

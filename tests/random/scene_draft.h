@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "random/random_numbers.h"
 #include "random/random_scene.h"
@@ -44,6 +45,8 @@ private:
   std::optional<RandomNumbers> places_;
 };
 
+/// An image in the format RGBE without compression, which narrow images have. No channel is above its colour.
+[[nodiscard]] std::string rgbe_file(int width, const std::vector<scene::Rgb>& pixels);
 [[nodiscard]] scene::Vec3 triple(RandomNumbers& random, double from, double to);
 [[nodiscard]] scene::Vec3 unit_vector(RandomNumbers& random);
 /// A point above the floor and in front of the objects, between two distances from the origin.

@@ -37,6 +37,9 @@ TEST_CASE("The digest of a scene changes with all that its light depends on") {
   const std::vector<std::function<void(Scene&)>> changes = {
       [](Scene& s) { s.materials[1].values[0].g = 0.25; },
       [](Scene& s) { s.materials[1].two_sided = true; },
+      [](Scene& s) { s.materials[1].opacity.b = 0.5; },
+      [](Scene& s) { s.materials[1].opacity_texture = std::make_shared<const Texture>(); },
+      [](Scene& s) { s.hide_emitters = true; },
       [](Scene& s) {
         Model other;
         other.name = "velvet";

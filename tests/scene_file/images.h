@@ -21,6 +21,13 @@ inline std::string png() {
       "d000c40c0e5c22720012e501fc49d2f2030000000049454e44ae426082");
 }
 
+/// 2x1 pixels of 8 bits with alpha: 255 128 0 64, 10 20 30 255.
+inline std::string png_with_alpha() {
+  return from_hex(
+      "89504e470d0a1a0a0000000d4948445200000002000000010806000000f4227f8a000000114944415478da63f8dfc0e0"
+      "c02522f71f000e6002fb8b82fc170000000049454e44ae426082");
+}
+
 /// 2x1 grey pixels of 16 bits: 65535, 1000.
 inline std::string png_of_16_bits() {
   return from_hex(

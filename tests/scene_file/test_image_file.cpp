@@ -66,6 +66,21 @@ TEST_CASE("Images of more bits become floats") {
   CHECK(image_of(exr("Y", {0.5F, 2}, 1)).floats == Floats{0.5F, 0.5F, 0.5F, 2, 2, 2});
 }
 
+TEST_CASE("Alpha is read in place of colours, and must be there") {
+  const TemporaryFolder folder;
+  const auto alpha_of = [&](const std::string& bytes) {
+    folder.write("image", bytes);
+    return scene_file::read_image(folder / "image", here, scene_file::ImageChannels::alpha);
+  };
+  const ImageFile image = alpha_of(png_with_alpha());
+  CHECK(image.bytes == Bytes{64, 64, 64, 255, 255, 255, 255, 255});
+  CHECK_FALSE(image.is_encoded);
+  CHECK(image_of(png_with_alpha()).bytes == Bytes{255, 128, 0, 255, 10, 20, 30, 255});
+  CHECK(alpha_of(exr("ARGB", {0.5F}, 1)).floats == Floats{0.5F, 0.5F, 0.5F});
+  for (const std::string& without : {png(), png_of_16_bits(), hdr(), exr("RGB", {0.5F}, 1)})
+    CHECK_THROWS_WITH(alpha_of(without), Contains("the image has no alpha"));
+}
+
 TEST_CASE("Images that are cut short, damaged or of no known format are errors") {
   for (const std::string& whole : {png(), jpeg(), bmp(), tga(), hdr(), png_of_16_bits()})
     for (const std::size_t lost : {1, 4})

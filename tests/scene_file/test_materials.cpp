@@ -187,10 +187,53 @@ TEST_CASE("Rough surfaces and plastic: Mitsuba's parameters and defaults") {
                                 "<boolean name=\"sampleVisible\" value=\"false\"/>")
             .value("alpha")
             .x == 0.3);
+  const Material brushed = rough("roughconductor", "<float name=\"alphaU\" value=\"0.3\"/>"); // alphaV: 0.1
+  CHECK(brushed.model->name == "anisotropicconductor");
+  CHECK(brushed.value("alpha_u").x == 0.3);
+  CHECK(brushed.value("alpha_v").x == 0.1);
+  CHECK(brushed.value("k").r == Approx(3.27 / 1.000277)); // copper
+  const std::string two = "<float name=\"alphaU\" value=\"0.3\"/><float name=\"alphaV\" value=\"0.2\"/>";
+  const std::string ggx = "<string name=\"distribution\" value=\"ggx\"/>";
+  CHECK(rough("roughdielectric", two + ggx).model->name == "anisotropicdielectric");
+  CHECK(rough("roughdielectric", two + ggx).value("distribution").x == 1);
+  CHECK_THAT(error_in("<bsdf type=\"roughplastic\">\n" + two + "</bsdf>"),
+             StartsWith("scene.xml:3: ") && Contains("a roughplastic of two roughnesses: one alpha"));
+  CHECK_THAT(error_in("<bsdf type=\"roughconductor\">\n" + two +
+                      "<string name=\"distribution\" value=\"phong\"/></bsdf>"),
+             StartsWith("scene.xml:3: ") && Contains("a Phong distribution of two roughnesses"));
   CHECK(rough("plastic", "<boolean name=\"nonlinear\" value=\"true\"/>").value("nonlinear").x == 1);
   CHECK(rough("plastic", "<rgb name=\"specularReflectance\" value=\"0\"/>").model->name == "plastic");
-  for (const char* bad : {"<float name=\"alpha\" value=\"0\"/>", "<float name=\"alphaV\" value=\"0.2\"/>",
+  for (const char* bad : {"<float name=\"alpha\" value=\"0\"/>", "<float name=\"alphaV\" value=\"0\"/>",
                           "<string name=\"distribution\" value=\"cauchy\"/>"})
     CHECK_THAT(error_in("<bsdf type=\"roughconductor\">\n" + std::string(bad) + "</bsdf>"),
                StartsWith("scene.xml:3: "));
+}
+
+TEST_CASE("Masks: opacities, twosided inside and outside, and what they cannot be around") {
+  const std::string half = "<float name=\"opacity\" value=\".5\"/>", grey = "<bsdf type=\"diffuse\"/>";
+  const auto mask = [](const std::string& inside) { return "<bsdf type=\"mask\">" + inside + "</bsdf>"; };
+  const auto twosided = [](const std::string& inside) {
+    return "<bsdf type=\"twosided\">" + inside + "</bsdf>";
+  };
+  CHECK(material(mask(grey)).opacity == Rgb(0.5)); // Mitsuba's default
+  CHECK(material(mask("<rgb name=\"opacity\" value=\".1 .2 .3\"/>" + grey)).opacity == Rgb(.1, .2, .3));
+  CHECK_FALSE(material(mask("<float name=\"opacity\" value=\"1\"/>" + grey)).is_masked());
+  CHECK(material(mask(half + mask(half + grey))).opacity == Rgb(0.25));
+  for (const std::string& both : {mask(half + twosided(grey)), twosided(mask(half + grey))}) {
+    CHECK(material(both).two_sided);
+    CHECK(material(both).opacity == Rgb(0.5));
+  }
+  CHECK(material(mask(half + "<bsdf type=\"dielectric\"/>")).model->name == "dielectric");
+  const Material simple = material(mask(half + phong(".3", "0")));
+  CHECK(simple.model->name == "diffuse");
+  CHECK(simple.opacity == Rgb(0.5));
+  CHECK(load_body("<shape type=\"disk\">" + mask(half + grey) + "</shape><shape type=\"disk\">" + grey +
+                  "</shape>")
+            .materials.size() == 2);
+  CHECK_THAT(error_in(mask(half)), StartsWith("scene.xml:2: <bsdf type=\"mask\"> around nothing"));
+  for (const char* wrong : {"-0.1", "1.1"})
+    CHECK_THAT(error_in(mask("\n<float name=\"opacity\" value=\"" + std::string(wrong) + "\"/>" + grey)),
+               StartsWith("scene.xml:3: ") && Contains("must be in [0, 1]"));
+  CHECK_THAT(error_in("<shape type=\"disk\">" + mask(half + grey) + "\n<emitter type=\"area\"/></shape>"),
+             StartsWith("scene.xml:3: ") && Contains("a masked shape that emits is not supported"));
 }

@@ -124,9 +124,8 @@ TEST_CASE("Integrators") {
       CHECK_THAT(error_in(integrator("path", "<integer name=\"" + std::string(name) + "\" value=\"" + value +
                                                  "\"/>")),
                  StartsWith("scene.xml:3: ") && Contains("is out of range"));
-  CHECK_THAT(error_in(integrator("path", "<boolean name=\"hideEmitters\" value=\"true\"/>")),
-             StartsWith("scene.xml:3: ") && Contains("'hideEmitters' is not supported"));
-  CHECK(error_in(integrator("path", "<boolean name=\"hideEmitters\" value=\"false\"/>")).empty());
+  CHECK(load_body(integrator("path", "<boolean name=\"hideEmitters\" value=\"true\"/>")).hide_emitters);
+  CHECK_FALSE(load_body(integrator("path")).hide_emitters);
 }
 
 TEST_CASE("Methods of Mitsuba for the same radiance are replaced, with a note") {

@@ -89,6 +89,30 @@ TEST_CASE("A bitmap for a reflectance: nested, by reference, of every model") {
               .texture(0));
 }
 
+TEST_CASE("A bitmap for the opacity of a mask: by its colours or one channel") {
+  const auto opacity_of = [](const std::string& channel) {
+    const std::string image = "<string name=\"filename\" value=\"alpha.png\"/>";
+    const std::string name = channel.empty() ? "" : "<string name=\"channel\" value=\"" + channel + "\"/>";
+    const auto scene =
+        load_beside("<shape type=\"disk\"><bsdf type=\"mask\"><texture type=\"bitmap\" name=\"opacity\">" +
+                        image + name + "</texture><bsdf type=\"diffuse\"/></bsdf></shape>",
+                    "0.6.0", {{"alpha.png", png_with_alpha()}});
+    return scene.materials.at(0);
+  };
+  for (const auto& [channel, first] : {std::pair("r", 255), {"g", 128}, {"b", 0}, {"a", 64}}) {
+    CAPTURE(channel);
+    const scene::Material material = opacity_of(channel);
+    REQUIRE(material.opacity_texture);
+    CHECK(material.is_textured());
+    CHECK(material.opacity_texture->image->bytes[0] == first);
+    CHECK(material.opacity_texture->image->bytes[2] == first);
+  }
+  CHECK(static_cast<double>(opacity_of("a").opacity_texture->image->decoded[128]) == Approx(128 / 255.0));
+  CHECK(static_cast<double>(opacity_of("g").opacity_texture->image->decoded[128]) == Approx(0.2158605));
+  CHECK(opacity_of("").opacity.r == 1);
+  CHECK_THROWS_WITH(opacity_of("x"), Contains("'x' is not supported: r, g, b or a"));
+}
+
 TEST_CASE("Encodings, filters, wrap modes and transforms of textures") {
   const auto decoded = [](const std::string& more) {
     return static_cast<double>(texture_of(disk(bitmap(more)))->image->decoded[128]);
