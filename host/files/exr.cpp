@@ -26,6 +26,7 @@
 #include <unistd.h>
 
 #include "errors.h"
+#include "exr_header.h"
 #include "files/output.h"
 #include "printable.h"
 
@@ -274,6 +275,8 @@ Image read_exr(const std::filesystem::path& file) {
                                 missing   ? missing.message()
                                 : regular ? std::strerror(errno)
                                           : "is no file"));
+  if (const auto claim = false_claim(file))
+    throw FileError(fmt::format("{}: is damaged: {}", name, printable(*claim)));
   try {
     Imf::Header::setMaxImageSize(1 << 28, 1 << 28);
     Imf::Header::setMaxTileSize(1 << 14, 1 << 14);

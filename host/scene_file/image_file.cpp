@@ -17,6 +17,7 @@
 #include <OpenEXR/ImfInputFile.h>
 
 #include "errors.h"
+#include "exr_header.h"
 
 namespace phlux::scene_file {
 
@@ -201,6 +202,7 @@ ImageFile read_exr(const std::filesystem::path& file, const Location& where, std
                    bool alpha) {
   ImageFile image;
   std::string damage;
+  if (const auto claim = false_claim(file)) fail(where, "damaged: " + *claim, formats);
   try {
     Imf::InputFile input(file.string().c_str());
     image = pixels_of(where, file_bytes, input, alpha);

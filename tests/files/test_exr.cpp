@@ -160,6 +160,13 @@ TEST_CASE("What is no EXR image is a FileError of one line that names the file")
     write_file(file, bytes);
     CHECK_THROWS_WITH(read_exr(file), Catch::Contains("it claims 16384x16384 pixels"));
   }
+  SECTION("an attribute that claims more bytes than the file has") {
+    std::string bytes = encode_exr(image_of(numbered_film(), render_info, true));
+    const std::string attribute("driver\0string", 14);
+    bytes.replace(bytes.find(attribute) + attribute.size(), 4, "\x44\x33\x73\x69", 4);
+    write_file(file, bytes);
+    CHECK_THROWS_WITH(read_exr(file), Catch::Contains("attribute driver claims 1769157444 bytes"));
+  }
   SECTION("a pipe") {
     REQUIRE(::mkfifo(file.c_str(), 0600) == 0);
   }

@@ -117,6 +117,9 @@ TEST_CASE("The size that an image claims is checked before memory is allocated")
   large = png();
   large.replace(16, 8, from_hex("0000400000004000"));
   CHECK_THAT(error_of_image(large), Contains("damaged: it claims 16384x16384 pixels in 77 bytes"));
+  std::string attribute = exr("Y", {0}, 1); // "compression" is the first with a type of this name
+  attribute.replace(attribute.find("compression", 8) + 24, 4, from_hex("ffffff7f"));
+  CHECK_THAT(error_of_image(attribute), Contains("attribute compression claims 2147483647 bytes"));
   large.replace(16, 8, from_hex("0000000000000001"));
   CHECK_THAT(error_of_image(large), Contains("image: ")); // stb_image's own check
 }
