@@ -167,6 +167,13 @@ TEST_CASE("What is no EXR image is a FileError of one line that names the file")
     write_file(file, bytes);
     CHECK_THROWS_WITH(read_exr(file), Catch::Contains("attribute driver claims 1769157444 bytes"));
   }
+  SECTION("channels that end before their attribute") {
+    std::string bytes = encode_exr(image_of(numbered_film(), render_info, true));
+    const std::size_t channels = bytes.find("channels") + std::string("channels chlist ").size() + 4;
+    bytes[channels] = '\0';
+    write_file(file, bytes);
+    CHECK_THROWS_WITH(read_exr(file), Catch::Contains("attribute channels claims"));
+  }
   SECTION("a pipe") {
     REQUIRE(::mkfifo(file.c_str(), 0600) == 0);
   }
