@@ -131,6 +131,10 @@ TEST_CASE("phlux compare --png writes a picture, and never over an image") {
   };
   CHECK(compare("a.exr", "picture.png").exit_code == 0);
   CHECK_THAT(TemporaryFolder::read(folder / "picture.png"), Catch::StartsWith("\x89PNG"));
+  CHECK(run({{"compare", "a.exr", "b.exr", "--html", "flip.html"}, folder.path(), {}, {}}).exit_code == 3);
+  CHECK(run({{"compare", "a.exr", "a.exr", "--html", "flip.html"}, folder.path(), {}, {}}).exit_code == 0);
+  CHECK_THAT(TemporaryFolder::read(folder / "flip.html"),
+             Catch::StartsWith("<!doctype html>") && Catch::Contains(";base64,iVBORw0KGgo"));
   struct Case {
     std::string reference, picture;
     int exit_code;
