@@ -8,7 +8,6 @@
 #include <fstream>
 #include <memory>
 #include <sstream>
-#include <streambuf>
 #include <string_view>
 #include <vector>
 
@@ -23,6 +22,7 @@
 
 #include "checkpoint/input_archive.h"
 #include "errors.h"
+#include "files/file_buffer.h"
 #include "settings/values.h"
 
 namespace phlux::settings {
@@ -121,10 +121,9 @@ private:
 };
 
 // Adds what is written to a digest, and passes it on by pieces.
-class DigestBuffer final : public std::streambuf {
+class DigestBuffer final : public files::OutputBuffer {
 public:
-  DigestBuffer(std::streambuf& to, Digest& digest) : to_(to), digest_(digest), bytes_(1 << 16) { start(); }
-  ~DigestBuffer() override { static_cast<void>(DigestBuffer::sync()); }
+  DigestBuffer(std::streambuf& to, Digest& digest) : to_(to), digest_(digest) {}
 
 protected:
   int sync() override {
@@ -134,17 +133,10 @@ protected:
     start();
     return written ? 0 : -1;
   }
-  int_type overflow(int_type byte) override {
-    if (sync() != 0) return traits_type::eof();
-    return traits_type::eq_int_type(byte, traits_type::eof()) ? traits_type::not_eof(byte)
-                                                              : sputc(traits_type::to_char_type(byte));
-  }
 
 private:
-  void start() { setp(bytes_.data(), bytes_.data() + bytes_.size()); }
   std::streambuf& to_;
   Digest& digest_;
-  std::vector<char> bytes_;
 };
 
 std::string session_bytes(const Session& session) {

@@ -1,4 +1,4 @@
-// A buffer of standard streams for an open file.
+// Output buffers of standard streams.
 #pragma once
 
 #include <cerrno>
@@ -10,11 +10,28 @@
 
 namespace phlux::files {
 
+/// Collects 64 KiB before sync() has to pass on what is between pbase() and pptr(); it then calls start().
+class OutputBuffer : public std::streambuf {
+protected:
+  OutputBuffer() : bytes_(std::size_t{1} << 16) { start(); }
+
+  void start() { setp(bytes_.data(), bytes_.data() + bytes_.size()); }
+
+  int_type overflow(int_type byte) override {
+    if (sync() != 0) return traits_type::eof();
+    return traits_type::eq_int_type(byte, traits_type::eof()) ? traits_type::not_eof(byte)
+                                                              : sputc(traits_type::to_char_type(byte));
+  }
+
+private:
+  std::vector<char> bytes_;
+};
+
 /// Writes to a file that is open for writing and can seek. After a failure nothing more is written, and the
 /// stream is bad.
-class FileBuffer final : public std::streambuf {
+class FileBuffer final : public OutputBuffer {
 public:
-  explicit FileBuffer(int descriptor) : descriptor_(descriptor), bytes_(std::size_t{1} << 16) { start(); }
+  explicit FileBuffer(int descriptor) : descriptor_(descriptor) {}
   /// errno of the first write that failed; 0: none did
   [[nodiscard]] int error() const { return error_; }
 
@@ -29,11 +46,6 @@ protected:
     }
     start();
     return error_ == 0 ? 0 : -1;
-  }
-  int_type overflow(int_type byte) override {
-    if (sync() != 0) return traits_type::eof();
-    return traits_type::eq_int_type(byte, traits_type::eof()) ? traits_type::not_eof(byte)
-                                                              : sputc(traits_type::to_char_type(byte));
   }
   pos_type seekoff(off_type offset, std::ios_base::seekdir from, std::ios_base::openmode) override {
     const bool asks = offset == 0 && from == std::ios_base::cur; // tellp()
@@ -50,11 +62,8 @@ protected:
   }
 
 private:
-  void start() { setp(bytes_.data(), bytes_.data() + bytes_.size()); }
-
   int descriptor_;
   int error_ = 0;
-  std::vector<char> bytes_;
 };
 
 } // namespace phlux::files

@@ -1,6 +1,7 @@
 #include "render/parts.h"
 
 #include <algorithm>
+#include <cctype>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -75,6 +76,13 @@ void refuse_endless_rejection(const scene::Material& m) {
         fmt::format("`strategy` rejection: a phong of exponent {:g} takes {:.0g} draws a sample: use "
                     "another strategy",
                     m.value("exponent").x, proposals(m)));
+}
+
+// The constant of the kernels for a choice: ROULETTE and "kd-ks" give ROULETTE_KD_KS.
+std::string choice_macro(const std::string& name, const std::string& chosen) {
+  std::string macro = name + "_" + chosen;
+  for (char& c : macro) c = c == '-' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return macro;
 }
 
 } // namespace
@@ -221,6 +229,9 @@ const char* Parts::file() const {
 std::map<std::string, std::string> Parts::defines() const {
   std::map<std::string, std::string> macros;
   const auto define = [&](const char* name, bool value) { macros[name] = value ? "1" : "0"; };
+  const auto choose = [&](const char* name, const std::vector<std::string>& names, auto value) {
+    macros[name] = choice_macro(name, names[static_cast<std::size_t>(value)]);
+  };
   for (const NamedPart& part : named_parts) define(part.macro, this->*part.member);
   define("ONE_LIGHT", one_light);
   define("FEW_LIGHTS", few_lights);
@@ -231,17 +242,10 @@ std::map<std::string, std::string> Parts::defines() const {
   define("IS_BIDIR", integrator == Integrator::bidir);
   macros["CLAMP_RADIANCE"] = fmt::format("{:a}f", clamp.value_or(0));
   macros["CONNECTIONS"] = std::to_string(integrator == Integrator::bidir ? connections : 0);
-  macros["WEIGHTS"] = weights == Weights::balance ? "WEIGHTS_BALANCE"
-                      : weights == Weights::power ? "WEIGHTS_POWER"
-                                                  : "WEIGHTS_UNIFORM";
-  macros["SAMPLER"] = sampler == Sampler::independent ? "SAMPLER_INDEPENDENT"
-                      : sampler == Sampler::sobol     ? "SAMPLER_SOBOL"
-                                                      : "SAMPLER_LATTICE";
-  macros["ROULETTE"] = roulette == Roulette::strategy       ? "ROULETTE_STRATEGY"
-                       : roulette == Roulette::reflectivity ? "ROULETTE_REFLECTIVITY"
-                       : roulette == Roulette::kd_ks        ? "ROULETTE_KD_KS"
-                       : roulette == Roulette::throughput   ? "ROULETTE_THROUGHPUT"
-                                                            : "ROULETTE_EFFICIENCY";
+  choose("WEIGHTS", settings::weights_names(), weights);
+  choose("SAMPLER", settings::sampler_names(), sampler);
+  choose("ROULETTE", settings::roulette_names(), roulette);
+  choose("CONNECT", settings::connect_names(), connect);
   macros["PHONG_TABLE_INTERVALS"] = std::to_string(phong::reflectivity_intervals);
   if (double_precision) macros["PHLUX_DOUBLE"] = "1";
   macros["WIDTH"] = std::to_string(lanes);
@@ -249,9 +253,6 @@ std::map<std::string, std::string> Parts::defines() const {
                                  ? fmt::format("\"{}\"", strategy)
                                  : fmt::format("\"phong/strategies/{}.cl\"", strategy);
   macros.merge(lobes::defines_of(models));
-  macros["CONNECT"] = connect == Connect::none    ? "CONNECT_NONE"
-                      : connect == Connect::light ? "CONNECT_LIGHT"
-                                                  : "CONNECT_MIS";
   return macros;
 }
 

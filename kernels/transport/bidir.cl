@@ -59,10 +59,12 @@ static inline int trace_eye_subpaths(WorkItem* work, Batch batch) {
     s.mis = mis_arrived(s.mis, length * length, -vec_dot(arrival.vertex.point.normal, s.ray.direction));
     store_vertices(&work->eye, row, &s, arrival.vertex, &stored, starting, arrival.scattered);
     LightSample light;
-    const FoundLight sampled = sample_light(scene, &s, arrival.vertex, &light, arrival.scattered);
-    if (any_lane(sampled.found))
+    const Mask reaches = draw_light(scene, &s, arrival.vertex, &light, arrival.scattered);
+    if (any_lane(reaches)) {
+      const FoundLight sampled = sampled_light(scene, &s, arrival.vertex, light, reaches);
       add_if_unoccluded(scene, &work->queue, &work->output, light.ray, light.distance, found_by(&s, sampled, 1),
-                        sampled.found & brings_light(sampled.value));
+                        reaches & brings_light(sampled.value));
+    }
     MaterialSample sample;
     alive =
         scatter(&s, arrival.vertex, 0, DIMENSION_SCATTERING(s.edges), work->limits, &sample, arrival.scattered);

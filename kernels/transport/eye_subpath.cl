@@ -105,22 +105,27 @@ static inline Real weight_of_sampled_light(const Scene* scene, const Subpath* s,
   return light.hittable ? light.density / (light.density + lobe.density) : (Real)(1.0f);
 }
 
-// A light sample at the vertices of m: unoccluded light along light.ray, before light.distance.
-static inline FoundLight sample_light(const Scene* scene, const Subpath* s, Vertex v, LightSample* light, Mask m) {
+// Draws a light sample at the vertices of m. Returns the lanes in which light may arrive and be scattered, unless
+// light->ray is occluded before light->distance.
+static inline Mask draw_light(const Scene* scene, const Subpath* s, Vertex v, LightSample* light, Mask m) {
   *light = light_sample(scene, v.point, random_draws(s->sequence, DIMENSION_LIGHT_SAMPLE(s->edges)));
   const Vec3 generated = to_frame(v.point.frame, light->ray.direction);
-  const Real cosine = vec_dot(v.point.normal, light->ray.direction);
-  FoundLight found;
-  found.value = vec_all((Real)(0.0f));
-  found.weight = (Real)(1.0f);
-  found.found = m & light->valid & leaves(generated, cosine);
-  if (!any_lane(found.found)) return found;
+  Mask reaches = m & light->valid & leaves(generated, vec_dot(v.point.normal, light->ray.direction));
+  if (HAS_DELTA) reaches &= vec_max(material_evaluate(v.material, v.fixed, generated).value) > 0.0f;
+  return reaches;
+}
+
+// The light of the sample that draw_light drew, in the lanes of m.
+static inline FoundLight sampled_light(const Scene* scene, const Subpath* s, Vertex v, LightSample light, Mask m) {
+  const Vec3 generated = to_frame(v.point.frame, light.ray.direction);
+  const Real cosine = vec_dot(v.point.normal, light.ray.direction);
   const LobeValue lobe = material_evaluate(v.material, v.fixed, generated);
   const Vec3 scattered = vec_mul(s->throughput, lobe.value);
-  found.value = vec_scale(size_of_cosine(generated.z) / light->density, vec_mul(light->radiance, scattered));
+  FoundLight found;
+  found.value = vec_scale(size_of_cosine(generated.z) / light.density, vec_mul(light.radiance, scattered));
   if (HAS_TRANSMISSION) found.value = vec_scale(radiance_scale(v.material, generated), found.value);
-  found.weight = weight_of_sampled_light(scene, s, *light, lobe, size_of_cosine(cosine));
-  if (HAS_DELTA) found.found &= vec_max(lobe.value) > 0.0f;
+  found.weight = weight_of_sampled_light(scene, s, light, lobe, size_of_cosine(cosine));
+  found.found = m;
   return found;
 }
 

@@ -61,11 +61,11 @@ __kernel void trace_paths(SCENE_PARAMETERS, int pixel_count, int first_pixel, in
 
     if (CONNECT != CONNECT_NONE) {
       LightSample light;
-      const FoundLight sampled = sample_light(&scene, &path, arrival.vertex, &light, arrival.scattered);
-      if (any_lane(sampled.found)) {
-        const Mask occluded = scene_occluded(&scene, light.ray, light.distance, sampled.found);
-        radiance = add_found(radiance, sampled, sampled.found & !occluded);
-        shadow_rays += sampled.found ? (Uint)(1u) : (Uint)(0u);
+      const Mask reaches = draw_light(&scene, &path, arrival.vertex, &light, arrival.scattered);
+      if (any_lane(reaches)) {
+        const Mask lit = reaches & !scene_occluded(&scene, light.ray, light.distance, reaches);
+        if (any_lane(lit)) radiance = add_found(radiance, sampled_light(&scene, &path, arrival.vertex, light, lit), lit);
+        shadow_rays += reaches ? (Uint)(1u) : (Uint)(0u);
       }
     }
     MaterialSample sample;

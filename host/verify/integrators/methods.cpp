@@ -15,7 +15,7 @@ using settings::Weights;
 constexpr int of_path = 128, of_light = 512, of_bidir = 64, of_uniform = 256;
 
 constexpr const char* hits = "hit_light (kernels/transport/eye_subpath.cl)";
-constexpr const char* light_samples = "sample_light (kernels/transport/eye_subpath.cl)";
+constexpr const char* light_samples = "sampled_light (kernels/transport/eye_subpath.cl)";
 constexpr const char* splats = "connect_to_camera (kernels/transport/light_subpath.cl)";
 
 Method path_by(Connect connect, const char* look_at) {
