@@ -220,6 +220,8 @@ std::string material_text(const ordered_json& material) {
 
 ordered_json scene_json(const std::string& file, const scene::Scene& scene,
                         const render::Settings& settings) {
+  Outputs outputs;
+  outputs.preview = "preview";
   ordered_json json = {
       {"scene", file},
       {"digest", scene::digest(scene)},
@@ -230,8 +232,8 @@ ordered_json scene_json(const std::string& file, const scene::Scene& scene,
       {"lights", lights_json(scene)},
       {"memory",
        {{"scene", data_bytes(scene)},
-        {"image", memory_needed(static_cast<double>(scene.camera.width) * scene.camera.height, settings,
-                                Outputs{.preview = "preview"})}}},
+        {"image",
+         memory_needed(static_cast<double>(scene.camera.width) * scene.camera.height, settings, outputs)}}},
       {"device", nullptr},
       {"kernel", nullptr}};
   try {

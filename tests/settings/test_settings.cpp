@@ -82,7 +82,7 @@ TEST_CASE("An invalid value of a setting is refused with the name of the setting
 
 TEST_CASE("The user overrides the scene, and the scene the defaults") {
   const scene::RenderDefaults scene{
-      .integrator = "bidir", .samples_per_pixel = 9, .max_depth = 8, .rr_depth = 3};
+      .integrator = "bidir", .samples_per_pixel = 9, .max_depth = 8, .rr_depth = 3, .crop = {}};
   Settings defaults;
   defaults.seed = 5;
   defaults.max_depth = 2;
