@@ -154,7 +154,7 @@ TEST_CASE("phlux compare --png writes a picture, and never over an image") {
     CHECK(outcome.out.empty());
   }
   CHECK(phlux::files::read_exr(folder / "a.exr").width == 2);
-  CHECK(folder.names() == std::set<std::string>{"a.exr", "b.exr", "link.png", "picture.png"});
+  CHECK(folder.names() == std::set<std::string>{"a.exr", "b.exr", "flip.html", "link.png", "picture.png"});
 }
 
 TEST_CASE("phlux devices lists every device and marks the default") {

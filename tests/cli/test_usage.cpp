@@ -132,7 +132,6 @@ TEST_CASE("Help fits a terminal of 100 columns") {
                                                           {"bench", "sampling"},
                                                           {"bench", "stability"},
                                                           {"bench", "rays"},
-                                                          {"bench"},
                                                           {"completion"}};
   for (std::vector<std::string> arguments : commands) {
     arguments.emplace_back("--help");

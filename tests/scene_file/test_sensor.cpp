@@ -158,7 +158,7 @@ TEST_CASE("Films: sizes, crops, filters") {
                 "<integer name=\"cropWidth\" value=\"3\"/><integer name=\"cropHeight\" value=\"2\"/>") ==
         phlux::scene::Window{5, 1, 3, 2});
   CHECK_THAT(error_of(sensor(film(8, 8, "\n<integer name=\"cropOffsetX\" value=\"5\"/>"))),
-             StartsWith("scene.xml:3: ") && Contains("the crop window is not within the film"));
+             StartsWith("scene.xml:4: ") && Contains("the crop window is not within the film"));
   CHECK_THAT(error_of(sensor("<film type=\"paper\"/>")),
              StartsWith("scene.xml:3: <film type=\"paper\"> is not supported"));
   const std::string ldr = "<film type=\"ldrfilm\"><integer name=\"width\" value=\"7\"/>\n"
