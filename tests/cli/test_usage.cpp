@@ -27,7 +27,7 @@ const std::vector<Wrong> wrong_usage = {
     {{"render", "scene.xml", "--threads", "0"}, "--threads 0: must be a whole number from 1"},
     {{"render", "scene.xml", "--exposure", "bright"}, "--exposure bright: must be a number"},
     {{"view", "a.exr", "--exposure", "1"}, "--exposure 1: is for --png"},
-    {{"completion", "fish"}, "must be one of bash, zsh"},
+    {{"completion", "fish"}, "unknown command fish"},
     {{"render", "scene.xml", "--ssp", "4"}, "unknown option --ssp: did you mean --spp?"},
     {{"render", "scene.xml", "--denoise", "a"}, "unknown option --denoise"},
     {{"render", "scene.xml", "--checkpoint-every", "0"}, "--checkpoint-every 0: must be a number from 0.01"},
