@@ -232,7 +232,7 @@ bool measure_precision(const PrecisionOptions& options) try {
   const int lanes = options.lanes_on(device.info);
   std::string command =
       fmt::format("phlux bench precision{} --width {}", options.quick ? " --quick" : "", lanes);
-  for (const auto& file : options.scenes) command += " --scene " + file.filename().string();
+  for (const auto& file : options.scenes) command += " --scene " + file.string();
   write_provenance(
       options.folder, "precision",
       {command, device.info, lanes, "built before anything is timed",

@@ -138,7 +138,7 @@ std::string command_of(const RouletteOptions& options) {
       for (const std::string& value : values) command += fmt::format(" {} {}", option, value);
   };
   if (options.quick) command += " --quick";
-  for (const auto& scene : options.scenes) command += " --scene " + scene.filename().string();
+  for (const auto& scene : options.scenes) command += " --scene " + scene.string();
   add("--integrator", options.integrators, defaults.integrators);
   add("--strategy", options.strategies, defaults.strategies);
   add("--roulette", options.roulettes, defaults.roulettes);

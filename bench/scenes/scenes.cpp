@@ -225,7 +225,7 @@ std::string command_of(const ScenesOptions& options) {
   std::string command = "phlux bench scenes";
   if (options.quick) command += " --quick";
   command += text_of_amount(options) + text_of_strategies(options);
-  for (const auto& scene : options.scenes) command += " --scene " + scene.filename().string();
+  for (const auto& scene : options.scenes) command += " --scene " + scene.string();
   return command;
 }
 

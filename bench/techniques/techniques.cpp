@@ -152,7 +152,7 @@ void print(const std::string& scene, const std::vector<TechniqueShare>& shares) 
 std::string command_of(const TechniquesOptions& options) {
   std::string command = "phlux bench techniques";
   if (options.quick) command += " --quick";
-  for (const auto& scene : options.scenes) command += " --scene " + scene.filename().string();
+  for (const auto& scene : options.scenes) command += " --scene " + scene.string();
   if (options.integrator != TechniquesOptions().integrator) command += " --integrator " + options.integrator;
   if (options.weights != TechniquesOptions().weights) command += " --weights " + options.weights;
   if (options.samples > 0) command += fmt::format(" --samples {}", options.samples);

@@ -127,6 +127,8 @@ void check_state(const Checkpoint& earlier, const render::Settings& now, const s
 void check_same(const Checkpoint& earlier, const Session& now, int width, int height,
                 const std::filesystem::path& file) {
   const film::Film& film = earlier.film;
+  if (earlier.session.settings.crop != now.settings.crop)
+    check_settings(earlier.session.settings, now.settings, file.string());
   if (film.width() != width || film.height() != height)
     throw FileError(fmt::format("{}: is of {}x{} pixels, not {}x{}: give `size` {}x{}", file.string(),
                                 film.width(), film.height(), width, height, film.width(), film.height()));

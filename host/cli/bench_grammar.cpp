@@ -161,8 +161,8 @@ void add_sampling(CLI::App& bench, std::optional<Command>& command) {
                                                     "sampling-no-roulette.csv");
   const auto options = std::make_shared<bench::SamplingOptions>();
   add_common(app, *options);
-  app.add_flag("--quick", options->quick, "13 cases with 2^18 samples per row");
-  app.add_flag("--fresh", options->fresh, "measures everything again instead of resuming an earlier run");
+  add_flag(app, "--quick", "13 cases with 2^18 samples per row", options->quick);
+  add_flag(app, "--fresh", "measures everything again instead of resuming an earlier run", options->fresh);
   add_value(app, "--samples", "N", "samples per row; default: 2^19, or 2^18 with --quick",
             [options](const std::string& text) {
               constexpr std::uint64_t most = 1'000'000'000'000;
@@ -203,7 +203,7 @@ void add_arithmetic(CLI::App& bench, std::optional<Command>& command) {
       "arithmetic", "Measures error and speed of formulas for the kernels: arithmetic.csv");
   const auto options = std::make_shared<bench::ArithmeticOptions>();
   add_common(app, *options);
-  app.add_flag("--quick", options->quick, "2^15 instead of 2^18 values per formula, shorter timings");
+  add_flag(app, "--quick", "2^15 instead of 2^18 values per formula, shorter timings", options->quick);
   measure_by(bench::measure_arithmetic, app, command, options);
 }
 
@@ -213,7 +213,7 @@ void add_precision(CLI::App& bench, std::optional<Command>& command) {
   const auto options = std::make_shared<bench::PrecisionOptions>();
   add_common(app, *options);
   add_scene_files(app, "scenes/*.xml and scenes/stability/*.xml", options->scenes);
-  app.add_flag("--quick", options->quick, "only path tracing, without scenes/stability; fewer samples");
+  add_flag(app, "--quick", "only path tracing, without scenes/stability; fewer samples", options->quick);
   app.footer("Measures WIDTH 1 and that of --width. The device must support doubles.");
   measure_by(bench::measure_precision, app, command, options);
 }
@@ -231,7 +231,7 @@ void add_remedies(CLI::App& bench, std::optional<Command>& command) {
                const auto& names = bench::remedy_names();
                options->remedies.push_back(names[settings::choice("--remedy", text, names)]);
              });
-  app.add_flag("--quick", options->quick, "fewer and easier scenes; shorter renders");
+  add_flag(app, "--quick", "fewer and easier scenes; shorter renders", options->quick);
   measure_by(bench::measure_remedies, app, command, options);
 }
 
@@ -292,7 +292,7 @@ void add_scenes(CLI::App& bench, std::optional<Command>& command) {
   add_common(app, *options);
   add_scene_files(app, "scenes/*.xml", options->scenes);
   add_strategies(app, options->strategies);
-  app.add_flag("--quick", options->quick, "less time per scene: under two minutes for scenes/*.xml");
+  add_flag(app, "--quick", "less time per scene: under two minutes for scenes/*.xml", options->quick);
   add_amount(app, *options, "seconds per scene; default: 120, or 11 with --quick, less for many scenes",
              "largest side of the images in pixels; default: 128, or 64 with --quick");
   measure_by(bench::measure_scenes, app, command, options);
@@ -313,7 +313,8 @@ void add_stability(CLI::App& bench, std::optional<Command>& command) {
   const auto options = std::make_shared<bench::StabilityOptions>();
   options->build_ahead = true;
   add_common(app, *options);
-  app.add_flag("--quick", options->quick, "nine cells and five methods in under two minutes; smaller images");
+  add_flag(app, "--quick", "nine cells and five methods in under two minutes; smaller images",
+           options->quick);
   add_values(app, "--cell", "N,RADIUS",
              "only this exponent of the lobe and radius of the light; may be repeated; default: a grid",
              [options](const std::string& text) { options->cells.push_back(cell_of(text)); });

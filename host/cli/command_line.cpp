@@ -10,120 +10,23 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "cli/checkpoints.h"
 #include "cli/commands.h"
 #include "cli/grammar.h"
+#include "cli/shell.h"
 #include "cli/version.h"
 #include "errors.h"
 #include "files/compare.h"
+#include "files/tev.h"
 #include "settings/values.h"
+#include "terminal.h"
 
 namespace phlux::cli {
 namespace {
 
-using settings::Affects;
-
-void add_settings(CLI::App& app, RenderOptions& options, const std::function<bool(Affects)>& wanted) {
-  for (const settings::Setting& setting : settings::all())
-    if (wanted(setting.affects) && !setting.help.empty()) add_setting(app, setting, options);
-}
-
-void add_method(CLI::App& app, RenderOptions& options) {
-  app.option_defaults()->group("Light transport");
-  add_lobes(app,
-            "kernel file with a reflectance model of your own, which the scene uses as <bsdf type=\"NAME\">; "
-            "may be repeated",
-            options.lobes);
-  add_settings(app, options, [](Affects affects) {
-    return affects == Affects::expectation || affects == Affects::estimate;
-  });
-}
-
-void add_amount(CLI::App& app, RenderOptions& options) {
-  app.option_defaults()->group("Samples and size");
-  add_settings(app, options, [](Affects affects) { return affects == Affects::amount; });
-  add_value(app, "--size", "WxH",
-            "image size in pixels; default: the scene's. The field of view along fovAxis is kept",
-            [&](const std::string& text) { options.size = settings::size("--size", text); });
-  add_settings(app, options, [](Affects affects) { return affects == Affects::samples; });
-  add_values(app, "-D", "NAME=VALUE", "replaces $NAME in the scene; may be repeated",
-             [&](const std::string& text) {
-               auto [name, value] = settings::definition("-D", text);
-               options.definitions.insert_or_assign(std::move(name), std::move(value));
-             });
-}
-
-void add_device(CLI::App& app, RenderOptions& options) {
-  app.option_defaults()->group("Device");
-  add_values(app, "--device", "SPEC",
-             "P:D (platform:device, see phlux devices), cpu, gpu, all, or part of a platform's or device's "
-             "name; may be repeated. Where two drivers offer the same CPU, cpu and names choose the first",
-             [&](const std::string& text) { options.devices.push_back(text); });
-  add_settings(app, options, [](Affects affects) { return affects == Affects::execution; });
-  add_kernel_dir(app, options.kernel_dir);
-}
-
-void add_files(CLI::App& app, RenderOptions& options) {
-  app.option_defaults()->group("Files and messages");
-  add_file(app, "-o,--output", "FILE.exr", "the image; default: the scene's name in the working directory",
-           options.output);
-  add_file(app, "--png", "FILE",
-           "tone-mapped preview, updated while rendering; default: beside the image; none: no preview",
-           options.preview);
-  add_file(app, "--contributions", "DIR",
-           "bidir and light: a folder with an image for every technique (s light and t eye vertices), "
-           "weighted and unweighted, and a contact sheet",
-           options.contributions);
-  add_file(app, "--stats", "FILE.json", "statistics of the render, as JSON", options.statistics);
-  add_file(app, "--checkpoint", "FILE",
-           "file to resume from, written at intervals, at the end and on interruption; default: the file of "
-           "--resume, if given; none: no checkpoint",
-           options.checkpoint);
-  add_value(app, "--checkpoint-every", "SECONDS",
-            fmt::format("seconds between checkpoints; default: {:g}", default_checkpoint_seconds),
-            [&](const std::string& text) {
-              options.checkpoint_seconds = settings::number_within("--checkpoint-every", text, 0.01, 1e9);
-            });
-  add_file(
-      app, "--resume", "FILE",
-      "continues from a checkpoint, with its options where this command gives none; -n, --time and --error "
-      "include what was rendered before",
-      options.resume);
-  app.add_flag(
-      "--moments", options.moments,
-      "adds the channels variance.R, .G and .B (variance of the mean) and reliability (predicted probability "
-      "that mean +- 1.96 standard errors holds the right value)");
-  app.add_flag(
-      "--advise", options.advise,
-      "tries the other integrators for a second each and says which is better, if any; without this option "
-      "only where the error estimate is unreliable and that takes at most 3% of the render time");
-  app.add_flag("-q,--quiet", options.quiet,
-               "no progress, no summary and no warning of an unreliable error estimate");
-  app.add_flag("--verbose", options.verbose, "also notes: what was ignored, and what was chosen");
-}
-
-void add_render(CLI::App& program, std::optional<Command>& command) {
-  CLI::App& app = *program.add_subcommand("render", "Renders a scene to an OpenEXR image and a PNG preview");
-  const auto options = std::make_shared<RenderOptions>();
-  app.add_option("SCENE.xml", options->scene_file, "Mitsuba scene file")->type_name("")->required();
-  add_files(app, *options);
-  add_amount(app, *options);
-  add_method(app, *options);
-  add_device(app, *options);
-  app.footer(" "); // instead of the program's footer
-  app.final_callback([&command, options] {
-    if (options->has("spp") && (options->has("time") || options->has("error")))
-      throw UsageError("--spp: cannot go with --time or --error, which decide how many samples are taken");
-    if (options->checkpoint_seconds && options->checkpoint.empty() && options->resume.empty())
-      throw UsageError("--checkpoint-every: no checkpoint is written: give --checkpoint FILE too");
-    command = [options] { return render(*options); };
-  });
-}
-
 void add_devices(CLI::App& program, std::optional<Command>& command) {
   CLI::App& app = *program.add_subcommand("devices", "Lists the OpenCL devices and what phlux would use");
   const auto options = std::make_shared<DevicesOptions>();
-  app.add_flag("--json", options->json, "as JSON");
+  add_flag(app, "--json", "as JSON", options->json);
   app.final_callback([&command, options] { command = [options] { return list_devices(*options); }; });
 }
 
@@ -145,7 +48,7 @@ void add_compare(CLI::App& program, std::optional<Command>& command) {
   const auto options = std::make_shared<CompareOptions>();
   app.add_option("A.exr", options->a, "image")->type_name("")->required();
   app.add_option("B.exr", options->b, "reference")->type_name("")->required();
-  app.add_flag("--json", options->json, "as JSON");
+  add_flag(app, "--json", "as JSON", options->json);
   add_values(app, "--fail-above", "METRIC=VALUE",
              fmt::format("exit code 1 if the metric is above the value, or undefined: {}; may be repeated",
                          fmt::join(files::metric_names, ", ")),
@@ -154,6 +57,7 @@ void add_compare(CLI::App& program, std::optional<Command>& command) {
            "picture of A, B and their relative difference in false colours: of R, G and B the one that "
            "differs most; A is exposed as B is",
            options->picture);
+  add_file(app, "--html", "FILE", "page that flips between A, B and the difference", options->page);
   app.footer("mean_a_rgb and mean_b_rgb are the means of R, G and B; mean_error is |mean_a / mean_b - 1|.\n"
              "relmse is the mean of (a-b)^2 / (b^2 + 1e-4), relmse_trimmed the same without the largest 0.1% "
              "of pixels;\n"
@@ -175,6 +79,47 @@ void add_merge(CLI::App& program, std::optional<Command>& command) {
   app.add_option("-o,--output", options->output, "the merged image")->type_name("OUT.exr")->required();
   app.footer("Images are weighted by their samples. Variances are merged where all images have them.");
   app.final_callback([&command, options] { command = [options] { return merge(*options); }; });
+}
+
+void add_view(CLI::App& program, std::optional<Command>& command) {
+  CLI::App& app = *program.add_subcommand("view", "Shows an image in the viewer tev, or converts it to PNG");
+  const auto options = std::make_shared<ViewOptions>();
+  app.add_option("FILE.exr", options->image, "image")->type_name("")->required();
+  add_file(app, "--png", "FILE", "writes a tone-mapped picture instead", options->picture);
+  add_exposure(app, options->exposure);
+  options->tev = files::tev_address;
+  add_value(app, "--tev", "HOST:PORT", fmt::format("where tev listens; default: {}", files::tev_address),
+            [options](const std::string& text) { options->tev = text; });
+  app.footer("tev is at github.com/Tom94/tev. It shows every channel, those of --moments and --aov too.");
+  app.final_callback([&command, options] {
+    if (options->exposure && options->picture.empty())
+      throw UsageError(
+          fmt::format("--exposure {:g}: is for --png: tev has its own exposure", *options->exposure));
+    command = [options] { return view(*options); };
+  });
+}
+
+// Prints a text that is made from the grammar of the whole program.
+void add_text(CLI::App& app, std::optional<Command>& command, const CLI::App& program,
+              std::string (*text)(const std::vector<CommandText>&)) {
+  app.final_callback([&command, &program, text] {
+    command = [printed = text(commands_of(program))] {
+      say("{}", printed);
+      return 0;
+    };
+  });
+}
+
+void add_completion(CLI::App& program, std::optional<Command>& command) {
+  CLI::App& app =
+      *program.add_subcommand("completion", "Prints a script for the completion of commands and options");
+  app.require_subcommand(1);
+  app.footer("For bash: source <(phlux completion bash)\n"
+             "For zsh: phlux completion zsh > FOLDER/_phlux, where FOLDER is in $fpath\n"
+             "cmake --install writes both to where the shells look for them.");
+  add_text(*app.add_subcommand("bash", "Prints it for bash"), command, program, bash_completion);
+  add_text(*app.add_subcommand("zsh", "Prints it for zsh"), command, program, zsh_completion);
+  add_text(*program.add_subcommand("man", "Prints the manual page, phlux.1"), command, program, manual_page);
 }
 
 std::vector<std::string> option_names(const CLI::App& app) {
@@ -242,11 +187,14 @@ std::optional<Command> parse(int argc, char** argv) {
                  "Exit codes: 0 done, 1 a check or comparison failed, 2 wrong usage, 3 bad scene or file,\n"
                  "4 no device or it failed, 5 write failed, 130 interrupted.");
   add_render(program, command);
+  add_info(program, command);
   add_devices(program, command);
   add_compare(program, command);
   add_merge(program, command);
+  add_view(program, command);
   add_bench(program, command);
   add_verify(program, command);
+  add_completion(program, command);
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& help_or_version) {

@@ -2,11 +2,21 @@
 #pragma once
 
 #include "cli/options.h"
+#include "render/render.h"
 
 namespace phlux::cli {
 
 /// 0, or 130 when SIGINT or SIGTERM ended it; the image so far is then written.
 [[nodiscard]] int render(const RenderOptions& options);
+
+/// The settings that options other than those of settings::all() give.
+[[nodiscard]] render::Settings defaults_of(const RenderOptions& options);
+
+/// Makes the camera's image the part that the settings name. @throws UsageError if it is no part
+void crop(scene::Camera& camera, const render::Settings& settings);
+
+/// 0.
+[[nodiscard]] int info(const InfoOptions& options);
 
 /// 0.
 [[nodiscard]] int list_devices(const DevicesOptions& options);
@@ -17,6 +27,9 @@ namespace phlux::cli {
 
 /// 0.
 [[nodiscard]] int merge(const MergeOptions& options);
+
+/// 0. @throws WriteError if no tev listens and no picture is wanted
+[[nodiscard]] int view(const ViewOptions& options);
 
 /// 0, or 1 when a check failed; its histograms are then written to the working directory.
 [[nodiscard]] int verify(const VerifyOptions& options);

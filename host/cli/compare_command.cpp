@@ -13,6 +13,7 @@
 #include "files/compare.h"
 #include "files/compare_picture.h"
 #include "files/exr.h"
+#include "files/flip_page.h"
 #include "files/json.h"
 #include "files/output.h"
 #include "files/png.h"
@@ -24,13 +25,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void check_picture_file(const CompareOptions& options) {
-  const std::string name = options.picture.string();
+void check_outputs(const CompareOptions& options) {
   if (is_of_another_format(options.picture, ".png"))
-    throw UsageError(fmt::format("--png {}: the picture is a PNG file, such as {}", name,
+    throw UsageError(fmt::format("--png {}: the picture is a PNG file, such as {}", options.picture.string(),
                                  fs::path(options.picture).replace_extension(".png").string()));
-  reject_inputs({options.picture}, {options.a, options.b});
-  files::check_writable(options.picture);
+  for (const fs::path& file : {options.picture, options.page}) {
+    if (file.empty()) continue;
+    reject_inputs({file}, {options.a, options.b});
+    files::check_writable(file);
+  }
 }
 
 // Metrics that these images have.
@@ -84,13 +87,14 @@ bool too_many_not_finite(const CompareOptions& options, std::uint64_t count) {
 
 int compare(const CompareOptions& options) {
   const std::string a = options.a.string(), b = options.b.string();
-  if (!options.picture.empty()) check_picture_file(options);
+  check_outputs(options);
   const files::Image image_a = files::read_exr(options.a), image_b = files::read_exr(options.b);
   const files::Comparison comparison = files::compare(image_a, image_b, a, b);
   const nlohmann::ordered_json json = files::to_json(comparison);
   require_metrics(options, json);
   if (!options.picture.empty())
     files::write_file(options.picture, files::encode_png(files::compare_picture(image_a, image_b, a, b)));
+  if (!options.page.empty()) files::write_file(options.page, files::flip_page(image_a, image_b, a, b));
   if (options.json)
     say("{}", files::json_text(json));
   else

@@ -33,14 +33,16 @@ std::string remedies(const Diagnosis& diagnosis, const render::Settings& setting
 }
 
 // The error that the render states, the error that it may have, and why.
-std::string doubt(const film::Reliability& r, const film::Film& film) {
+std::string doubt(const film::Reliability& r, const film::Film& film, const render::Settings& settings) {
   if (!(r.variance > 0.0)) return fmt::format("the error is unknown: {}", r.reasons.front());
   const double stated = film.relative_standard_error();
   std::string text =
       fmt::format("the relative standard error of {:.3g}% may be {:.3g}% ({}", 100.0 * stated,
                   100.0 * std::max(stated, r.relative_standard_error), fmt::join(r.reasons, "; "));
-  if (r.worst_share > 0.5 && film.evidence().tiles().count() > 2)
-    text += fmt::format("; most of the variance is near pixel ({}, {})", r.worst_x, r.worst_y);
+  if (r.worst_share > 0.5 && film.evidence().tiles().count() > 2) {
+    const auto [x, y] = place_of(std::int64_t{r.worst_y} * film.width() + r.worst_x, film, settings);
+    text += fmt::format("; most of the variance is near pixel ({}, {})", x, y);
+  }
   return text + ")";
 }
 
@@ -64,13 +66,15 @@ void diagnose(const film::Film& film, const render::Statistics& statistics, cons
 
 void report(const Diagnosis& diagnosis, const film::Film& film, const render::Statistics& statistics,
             const render::Settings& settings, bool quiet) {
-  if (const auto& origin = statistics.first_nonfinite)
+  if (const auto& origin = statistics.first_nonfinite) {
+    const auto [x, y] = place_of(origin->pixel, film, settings);
     spdlog::warn(
         "{} contributions were not finite and count as black: the first is of pixel ({}, {}), sample {}{}, "
         "seed {}",
-        statistics.nonfinite, origin->pixel % film.width(), origin->pixel / film.width(), origin->sample,
+        statistics.nonfinite, x, y, origin->sample,
         origin->samples > 1 ? fmt::format(" to {}", origin->sample + origin->samples - 1) : "",
         settings.seed);
+  }
   if (settings.clamp)
     spdlog::warn("--clamp {:g}: the image is biased: {:.3g}% of its light was taken away", *settings.clamp,
                  100.0 * film.clamped_share());
@@ -78,7 +82,7 @@ void report(const Diagnosis& diagnosis, const film::Film& film, const render::St
   const film::Reliability& r = diagnosis.reliability;
   if (statistics.shines && !r.trusted && !r.reasons.empty() &&
       film.samples_per_pixel() >= film::least_samples)
-    spdlog::warn("{}: {}", doubt(r, film), remedies(diagnosis, settings));
+    spdlog::warn("{}: {}", doubt(r, film, settings), remedies(diagnosis, settings));
   else if (!diagnosis.advice.empty())
     say("advice: {}\n", diagnosis.advice);
 }

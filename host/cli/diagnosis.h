@@ -1,6 +1,8 @@
 // The report at the end of a render: reliability of its error estimate, and advice.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <string>
 
 #include "film/reliability.h"
@@ -20,6 +22,13 @@ struct Diagnosis {
 /// trial if `insist`
 void diagnose(const film::Film& film, const render::Statistics& statistics, const render::Settings& settings,
               scene::Scene&& scene, bool insist, Diagnosis& diagnosis);
+
+/// Column and row in the whole image of a pixel of the film, which may be a part of it.
+[[nodiscard]] inline std::array<int, 2> place_of(std::int64_t pixel, const film::Film& film,
+                                                 const render::Settings& settings) {
+  const scene::Window crop = settings.crop.value_or(scene::Window());
+  return {crop.x + static_cast<int>(pixel % film.width()), crop.y + static_cast<int>(pixel / film.width())};
+}
 
 /// Logs contributions that were not finite or clamped. Unless `quiet`, also logs the likely error and the
 /// remedy where the error estimate is unreliable, and else prints the advice.

@@ -34,6 +34,16 @@ void add_file(CLI::App& app, const std::string& names, const std::string& value,
   });
 }
 
+void add_exposure(CLI::App& app, std::optional<double>& stops) {
+  add_value(app, "--exposure", "EV",
+            "of the picture: radiance is multiplied by 2^EV; default: such that the image's log-average is "
+            "middle grey",
+            [&stops](const std::string& text) {
+              constexpr double most = 100.0;
+              stops = settings::number_within("--exposure", text, -most, most);
+            });
+}
+
 void add_setting(CLI::App& app, const settings::Setting& setting, settings::Choices& choices) {
   std::string names = "--" + setting.name, help = with_options(setting.help);
   for (const auto& [name, letter] : letters)

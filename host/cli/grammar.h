@@ -49,6 +49,14 @@ CLI::Option* add_values(CLI::App& app, const std::string& names, const std::stri
 void add_file(CLI::App& app, const std::string& names, const std::string& value, const std::string& help,
               std::filesystem::path& file);
 
+// An option without a value.
+inline void add_flag(CLI::App& app, const std::string& names, const std::string& help, bool& flag) {
+  app.add_flag(names, flag, wrapped(help));
+}
+
+// --exposure of a PNG picture.
+void add_exposure(CLI::App& app, std::optional<double>& stops);
+
 // The option of a setting.
 void add_setting(CLI::App& app, const settings::Setting& setting, settings::Choices& choices);
 
@@ -66,6 +74,12 @@ void add_one_device(CLI::App& app, std::vector<std::string>& devices, int& lanes
 
 /// `phlux bench` and its subcommands. @throws UsageError while parsing
 void add_bench(CLI::App& program, std::optional<Command>& command);
+
+/// `phlux render`, for one scene or several. @throws UsageError while parsing
+void add_render(CLI::App& program, std::optional<Command>& command);
+
+/// `phlux info`. @throws UsageError while parsing
+void add_info(CLI::App& program, std::optional<Command>& command);
 
 /// `phlux verify`. @throws UsageError while parsing
 void add_verify(CLI::App& program, std::optional<Command>& command);

@@ -11,6 +11,7 @@
 
 #include "errors.h"
 #include "film/film.h"
+#include "film/first_hit.h"
 
 namespace phlux::cli {
 namespace {
@@ -49,7 +50,7 @@ double memory_needed(double pixels, const settings::Settings& settings, const Ou
   const settings::IntegratorInfo& integrator = settings::integrator_named(settings.integrator);
   const double film = film::Film::bytes(pixels, integrator.eye_paths ? 1 : 0, integrator.light_paths ? 1 : 0,
                                         settings::samples_point_sets(settings) ? 1 : 0, techniques(settings));
-  return film +
+  return film + pixels * (outputs.aov.empty() ? 0.0 : double{sizeof(film::FirstHit)}) +
          pixels * std::max(outputs.preview.empty() ? 0 : preview, settings.techniques ? contribution : 0);
 }
 

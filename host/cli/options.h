@@ -26,9 +26,16 @@ struct RenderOptions : settings::Choices {
   std::filesystem::path resume;        ///< empty: from the beginning
   std::filesystem::path checkpoint;    ///< empty: that of `resume`, if any
   std::optional<double> checkpoint_seconds;
+  std::optional<double> exposure; ///< of the preview, in stops; absent: automatic
+  std::vector<std::string> aov;   ///< names of files::aov_names
   bool moments = false, advise = false, quiet = false, verbose = false;
   std::string
       choice; ///< why `--integrator auto` stands for the integrator in `texts`; empty: it was not auto
+};
+
+/// Options of `phlux info`: those of a render that decide on its kernel and memory.
+struct InfoOptions : RenderOptions {
+  bool json = false;
 };
 
 struct CompareOptions {
@@ -38,7 +45,7 @@ struct CompareOptions {
     double value = 0.0;
   };
   std::filesystem::path a, b;
-  std::filesystem::path picture; ///< empty: none
+  std::filesystem::path picture, page; ///< empty: none
   std::vector<Limit> limits;
   bool json = false;
 };
@@ -46,6 +53,13 @@ struct CompareOptions {
 struct MergeOptions {
   std::vector<std::filesystem::path> images;
   std::filesystem::path output;
+};
+
+struct ViewOptions {
+  std::filesystem::path image;
+  std::filesystem::path picture;  ///< empty: shown in tev
+  std::optional<double> exposure; ///< of the picture, in stops; absent: automatic
+  std::string tev;                ///< HOST:PORT
 };
 
 struct DevicesOptions {

@@ -84,8 +84,9 @@ std::vector<fs::path> Outputs::files() const {
 }
 
 Outputs outputs_of(const RenderOptions& options) {
-  Outputs outputs{options.output, options.preview, options.statistics,
-                  options.checkpoint.empty() ? options.resume : options.checkpoint, options.contributions};
+  Outputs outputs{options.output,        options.preview,
+                  options.statistics,    options.checkpoint.empty() ? options.resume : options.checkpoint,
+                  options.contributions, options.aov};
   if (outputs.checkpoint == "none") outputs.checkpoint.clear();
   if (outputs.image.empty()) outputs.image = options.scene_file.stem() += ".exr";
   reject_other_formats(outputs.image, outputs.preview);
@@ -135,7 +136,7 @@ void PreviewRefresher::update(const film::Film& film, double seconds) {
   if (file_.empty() || seconds < next_) return;
   const spdlog::stopwatch watch;
   try {
-    files::write_png(file_, files::rows_of(film, false));
+    files::write_png(file_, files::rows_of(film, false), exposure_);
   } catch (const std::exception& error) {
     spdlog::info("{}", error.what());
   }

@@ -15,6 +15,7 @@ namespace phlux::cli {
 struct Outputs {
   std::filesystem::path image, preview, statistics, checkpoint;
   std::filesystem::path contributions; ///< folder
+  std::vector<std::string> aov;        ///< further channels of the image
 
   [[nodiscard]] std::vector<std::filesystem::path> files() const; ///< those that have a name
 };
@@ -44,12 +45,15 @@ void check_writable(const Outputs& outputs);
 /// failure is only noted.
 class PreviewRefresher {
 public:
-  explicit PreviewRefresher(std::filesystem::path file) : file_(std::move(file)) {}
+  /// `exposure` as RenderOptions'.
+  PreviewRefresher(std::filesystem::path file, std::optional<double> exposure)
+      : file_(std::move(file)), exposure_(exposure) {}
   /// `seconds` of rendering so far.
   void update(const film::Film& film, double seconds);
 
 private:
   std::filesystem::path file_;
+  std::optional<double> exposure_;
   double next_ = seconds_between;
   static constexpr double seconds_between = 3.0;
 };

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
+#include <string_view>
 
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -42,6 +44,12 @@ std::string bar_line(double fraction, const std::string& text, std::size_t colum
   return fmt::format("[{:<{}}] {}", std::string(filled, '#'), width, text);
 }
 
+// Whether standard error is a terminal that understands escape sequences.
+bool can_erase_lines() {
+  const char* terminal = std::getenv("TERM");
+  return ::isatty(STDERR_FILENO) == 1 && (terminal == nullptr || std::string_view(terminal) != "dumb");
+}
+
 } // namespace
 
 double fraction_done(const render::Progress& progress, std::optional<double> time_limit,
@@ -70,8 +78,8 @@ std::string progress_text(const render::Progress& progress, double fraction, dou
 
 ProgressDisplay::ProgressDisplay(bool quiet, std::optional<double> time_limit,
                                  std::optional<double> target_error)
-    : quiet_(quiet), terminal_(::isatty(STDERR_FILENO) == 1), time_limit_(time_limit),
-      target_error_(target_error), next_update_(terminal_ ? seconds_between_bars : seconds_between_lines) {}
+    : quiet_(quiet), terminal_(can_erase_lines()), time_limit_(time_limit), target_error_(target_error),
+      next_update_(terminal_ ? seconds_between_bars : seconds_between_lines) {}
 
 void ProgressDisplay::building_kernels() {
   if (!quiet_) show("building kernels");

@@ -26,7 +26,9 @@
 #include "files/output.h"
 #include "files/png.h"
 #include "printable.h"
+#include "render/first_hits.h"
 #include "scene/digest.h"
+#include "scene/image_size.h"
 #include "scene_file/load.h"
 #include "terminal.h"
 
@@ -82,7 +84,7 @@ render::Statistics run(const scene::Scene& scene, const render::Settings& settin
                        const render::RenderState& from, const cluster::Team& team,
                        const InterruptGuard& interrupt, Attempts& attempts) {
   ProgressDisplay display(options.quiet, settings.time_limit, settings.target_error);
-  PreviewRefresher preview(outputs.preview);
+  PreviewRefresher preview(outputs.preview, options.exposure);
   ErrorSoFar error(film);
   bool interrupted = false;
   render::Events events;
@@ -111,7 +113,8 @@ render::Statistics run(const scene::Scene& scene, const render::Settings& settin
 }
 
 files::RenderInfo info_of(const checkpoint::Session& session, const std::string& choice,
-                          const film::Film& film, const render::Statistics& statistics) {
+                          const scene::Camera& camera, const film::Film& film,
+                          const render::Statistics& statistics) {
   const render::Settings& settings = session.settings;
   return {
       .version = PHLUX_VERSION,
@@ -125,7 +128,9 @@ files::RenderInfo info_of(const checkpoint::Session& session, const std::string&
       .device = statistics.device,
       .driver = statistics.driver,
       .seconds = statistics.seconds_render,
-      .clamped_share = film.clamped_share()};
+      .clamped_share = film.clamped_share(),
+      .origin = camera.origin,
+      .whole = camera.whole};
 }
 
 // Writes the image where it can. Returns its path, empty if it cannot be written.
@@ -175,12 +180,15 @@ void write_all(const Outputs& outputs, const RenderOptions& options, const check
                film::Film& film, const render::Statistics& statistics, scene::Scene&& scene,
                Checkpoints& checkpoints, Attempts& attempts) {
   const render::Settings& settings = session.settings;
-  const files::RenderInfo info = info_of(session, options.choice, film, statistics);
+  const files::RenderInfo info = info_of(session, options.choice, scene.camera, film, statistics);
   std::filesystem::path image_file, checkpoint_file;
+  std::vector<film::FirstHit> hits;
+  if (!outputs.aov.empty()) attempts("--aov", [&] { hits = render::first_hits(scene, settings); });
   attempts(outputs.image, [&] {
     if (options.moments && !film.has_variance())
       spdlog::warn("--moments: variances need two samples in every pixel: their channels are left out");
-    const files::Rows rows = files::rows_of(film, options.moments && film.has_variance());
+    files::Rows rows = files::rows_of(film, options.moments && film.has_variance());
+    if (!hits.empty()) files::add_first_hits(rows, hits, outputs.aov);
     image_file = write_image(outputs.image, rows, info, attempts);
   });
   attempts(outputs.checkpoint, [&] {
@@ -188,7 +196,8 @@ void write_all(const Outputs& outputs, const RenderOptions& options, const check
     checkpoint_file = outputs.checkpoint;
   });
   if (!outputs.preview.empty())
-    attempts(outputs.preview, [&] { files::write_png(outputs.preview, files::rows_of(film, false)); });
+    attempts(outputs.preview,
+             [&] { files::write_png(outputs.preview, files::rows_of(film, false), options.exposure); });
   if (settings.techniques)
     attempts(options.contributions, [&] { write_techniques(options.contributions, film, info); });
   Diagnosis diagnosis;
@@ -205,6 +214,22 @@ void write_all(const Outputs& outputs, const RenderOptions& options, const check
 }
 
 } // namespace
+
+render::Settings defaults_of(const RenderOptions& options) {
+  render::Settings defaults;
+  defaults.techniques = !options.contributions.empty();
+  defaults.devices = options.devices;
+  defaults.kernel_dir = options.kernel_dir;
+  return defaults;
+}
+
+void crop(scene::Camera& camera, const render::Settings& settings) {
+  if (!settings.crop) return;
+  if (!scene::is_within(*settings.crop, camera))
+    throw UsageError(fmt::format("--crop {}: is not within the image of {}x{} pixels",
+                                 settings::named("crop").text(settings), camera.width, camera.height));
+  scene::crop_image(camera, *settings.crop);
+}
 
 int render(const RenderOptions& given) {
   cluster::Group group;
@@ -227,6 +252,7 @@ int render(const RenderOptions& given) {
       .choices = options,
       .settings = settings::settings_of(options, scene.defaults, defaults_of(options, group)),
       .state = {}};
+  crop(scene.camera, session.settings);
   if (earlier) check_same(*earlier, session, camera, options.resume);
   if (!earlier) require_memory(camera, session.settings, outputs);
   film::Film film = earlier ? std::move(earlier->film) : film::Film(camera.width, camera.height);

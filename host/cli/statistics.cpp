@@ -12,7 +12,9 @@ nlohmann::ordered_json value_or_null(const std::optional<T>& value) {
   return value ? nlohmann::ordered_json(*value) : nullptr;
 }
 
-nlohmann::ordered_json reliability_json(const film::Reliability& r, const film::Film& film) {
+nlohmann::ordered_json reliability_json(const film::Reliability& r, const film::Film& film,
+                                        const render::Settings& settings) {
+  const auto [x, y] = place_of(std::int64_t{r.worst_y} * film.width() + r.worst_x, film, settings);
   auto history = nlohmann::ordered_json::array();
   for (const film::Growth& then : film.evidence().history())
     history.push_back({{"samples", then.samples}, {"largest", then.largest}});
@@ -25,16 +27,15 @@ nlohmann::ordered_json reliability_json(const film::Reliability& r, const film::
           {"top_share", r.top_share},
           {"tail_index", value_or_null(r.tail_index)},
           {"growth", value_or_null(r.growth)},
-          {"worst", {{"x", r.worst_x}, {"y", r.worst_y}, {"share", r.worst_share}}},
+          {"worst", {{"x", x}, {"y", y}, {"share", r.worst_share}}},
           {"history", history}};
 }
 
-nlohmann::ordered_json origin_json(const std::optional<render::Origin>& origin, const film::Film& film) {
+nlohmann::ordered_json origin_json(const std::optional<render::Origin>& origin, const film::Film& film,
+                                   const render::Settings& settings) {
   if (!origin) return nullptr;
-  return {{"x", origin->pixel % film.width()},
-          {"y", origin->pixel / film.width()},
-          {"sample", origin->sample},
-          {"samples", origin->samples}};
+  const auto [x, y] = place_of(origin->pixel, film, settings);
+  return {{"x", x}, {"y", y}, {"sample", origin->sample}, {"samples", origin->samples}};
 }
 
 nlohmann::ordered_json json_of(const settings::Value& value) {
@@ -86,8 +87,8 @@ nlohmann::ordered_json statistics_json(const render::Statistics& statistics, con
                {"kernel_cache", statistics.kernels_from_cache ? "hit" : "miss"},
                {"variance", film.has_variance() ? nlohmann::ordered_json(film.relative_variance()) : nullptr},
                {"relative_standard_error", film.relative_standard_error()},
-               {"reliability", reliability_json(diagnosis.reliability, film)},
-               {"first_nonfinite", origin_json(statistics.first_nonfinite, film)},
+               {"reliability", reliability_json(diagnosis.reliability, film, settings)},
+               {"first_nonfinite", origin_json(statistics.first_nonfinite, film, settings)},
                {"clamped_share", info.clamped_share},
                {"advice", diagnosis.advice},
                {"interrupted", statistics.interrupted}});

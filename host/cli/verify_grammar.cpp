@@ -31,8 +31,9 @@ void add_amount(CLI::App& app, VerifyOptions& options) {
              [&options](const std::string& text) {
                options.integrators.push_back(settings::integrator_named(text).name);
              });
-  app.add_flag("--quick", options.quick,
-               "fewer materials, angles, samples and variants of integrators: about a third of the time");
+  add_flag(app, "--quick",
+           "fewer materials, angles, samples and variants of integrators: about a third of the time",
+           options.quick);
   add_value(app, "--samples", "N", "samples per material and angle; default: 16384, or 8192 with --quick",
             [&options](const std::string& text) {
               constexpr std::uint64_t least = 16, most = 1u << 24;

@@ -5,6 +5,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "errors.h"
 #include "scene/digest.h"
@@ -14,23 +15,22 @@ namespace phlux::cli {
 namespace {
 
 void work_on(const RenderOptions& options, cluster::Group& group) {
-  const scene::Scene scene =
+  scene::Scene scene =
       scene_file::load(options.scene_file, options.definitions, options.size, lobes::Library(options.lobes));
   const render::Settings settings =
       settings::settings_of(options, scene.defaults, defaults_of(options, group));
+  const std::string digest = scene::digest(scene); // of the whole image
+  crop(scene.camera, settings);
   if (!cluster::wait_for_kernels(group)) return;
   const render::Renderer renderer(scene, settings, {});
-  cluster::serve(group, *renderer.processors().front(), settings, scene::digest(scene));
+  cluster::serve(group, *renderer.processors().front(), settings, digest);
 }
 
 } // namespace
 
 render::Settings defaults_of(const RenderOptions& options, const cluster::Group& group) {
-  render::Settings defaults;
-  defaults.techniques = !options.contributions.empty();
-  defaults.devices = options.devices;
+  render::Settings defaults = defaults_of(options);
   if (group.size() > 1) defaults.devices = {cluster::own_device(group, options.devices)};
-  defaults.kernel_dir = options.kernel_dir;
   return defaults;
 }
 

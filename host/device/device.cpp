@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
-#include <iterator>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -160,10 +161,34 @@ Device open(const DeviceInfo& info, const cl::Device& handle) {
   }
 }
 
-// By their places in all_found(), and those that were forgotten. Never destroyed, as all_found().
+// A part of a CPU with so many threads. The part is never released, as all_found().
+Device open_part(DeviceInfo info, cl::Device device, std::uint32_t threads) {
+  const std::string wrong = fmt::format("`threads` {}: OpenCL device {}:{} ({})", threads,
+                                        info.platform_index, info.device_index, info.name);
+  if (info.type != "cpu") throw DeviceError(wrong + " is no CPU: leave it out, or name a CPU by `device`");
+  if (threads > info.compute_units)
+    throw DeviceError(fmt::format("{} has {}: give as many or fewer", wrong, info.compute_units));
+  if (threads == info.compute_units) return open(info, device);
+  const cl_device_partition_property by_counts[] = {CL_DEVICE_PARTITION_BY_COUNTS,
+                                                    static_cast<cl_device_partition_property>(threads),
+                                                    CL_DEVICE_PARTITION_BY_COUNTS_LIST_END, 0};
+  auto& part = *new std::vector<cl::Device>;
+  try {
+    device.createSubDevices(by_counts, &part);
+  } catch (const cl::Error& error) {
+    throw DeviceError(fmt::format("{} cannot be divided ({}): leave it out, or limit the process by taskset",
+                                  wrong, describe(error)));
+  }
+  info.compute_units = threads;
+  return open(info, part.front());
+}
+
+// By their places in all_found() and numbers of threads (0: all), and those that were forgotten. Never
+// destroyed, as all_found().
 struct Opened {
   std::mutex mutex;
-  std::vector<std::optional<Device>> devices, forgotten;
+  std::map<std::pair<std::size_t, int>, Device> devices;
+  std::vector<decltype(devices)> forgotten;
 };
 
 Opened& opened() {
@@ -188,7 +213,7 @@ std::vector<DeviceInfo> chosen_devices(const std::vector<std::string>& specifica
   return devices;
 }
 
-std::vector<Device> open_devices(const std::vector<std::string>& specifications) {
+std::vector<Device> open_devices(const std::vector<std::string>& specifications, std::optional<int> threads) {
   static std::set<std::string> told;
   Opened& all = opened();
   const std::lock_guard lock(all.mutex);
@@ -196,11 +221,17 @@ std::vector<Device> open_devices(const std::vector<std::string>& specifications)
   const Choice choice = choice_of(specifications, found);
   for (const std::string& note : choice.notes)
     if (told.insert(note).second) spdlog::warn("{}", note);
-  all.devices.resize(found.devices.size());
   std::vector<Device> devices;
   for (const std::size_t i : choice.devices) {
-    if (!all.devices[i]) all.devices[i] = open(found.devices[i], found.handles[i]);
-    devices.push_back(*all.devices[i]);
+    const DeviceInfo& info = found.devices[i];
+    auto place = all.devices.find({i, threads.value_or(0)});
+    if (place == all.devices.end())
+      place = all.devices
+                  .emplace(std::pair(i, threads.value_or(0)),
+                           threads ? open_part(info, found.handles[i], static_cast<std::uint32_t>(*threads))
+                                   : open(info, found.handles[i]))
+                  .first;
+    devices.push_back(place->second);
   }
   return devices;
 }
@@ -208,8 +239,7 @@ std::vector<Device> open_devices(const std::vector<std::string>& specifications)
 void reopen_devices() {
   Opened& all = opened();
   const std::lock_guard lock(all.mutex);
-  std::ranges::move(all.devices, std::back_inserter(all.forgotten));
-  all.devices.clear();
+  all.forgotten.push_back(std::exchange(all.devices, {}));
 }
 
 } // namespace phlux::device

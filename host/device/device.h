@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,9 +47,11 @@ struct Device {
 };
 
 /// Opens the devices that choose() selects; without specifications, by the environment variable PHLUX_DEVICE
-/// if set. Each note of the choice is logged once, as a warning.
-/// @throws DeviceError as choose(), and when a device cannot be opened
-[[nodiscard]] std::vector<Device> open_devices(const std::vector<std::string>& specifications);
+/// if set. Each note of the choice is logged once, as a warning. With `threads`, each is a CPU of which only
+/// so many compute units are used, as a sub-device.
+/// @throws DeviceError as choose(), and when a device cannot be opened or divided
+[[nodiscard]] std::vector<Device> open_devices(const std::vector<std::string>& specifications,
+                                               std::optional<int> threads = {});
 
 /// Those that open_devices() opens. @throws DeviceError as choose()
 [[nodiscard]] std::vector<DeviceInfo> chosen_devices(const std::vector<std::string>& specifications);

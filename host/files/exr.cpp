@@ -161,8 +161,25 @@ RenderInfo find_attributes(const Imf::Header& header) {
   return info;
 }
 
-constexpr std::array<const char*, 7> known_channels = {"R",          "G",          "B",          "variance.R",
-                                                       "variance.G", "variance.B", "reliability"};
+constexpr int largest_side = 1 << 28; // of a whole image
+
+constexpr std::array<const char*, 14> known_channels = {
+    "R",        "G",        "B",        "variance.R", "variance.G", "variance.B", "reliability",
+    "albedo.R", "albedo.G", "albedo.B", "normal.X",   "normal.Y",   "normal.Z",   "depth.Z"};
+
+Imath::Box2i box(int left, int top, int width, int height) {
+  return {Imath::V2i(left, top), Imath::V2i(left + width - 1, top + height - 1)};
+}
+
+// The place of a part of an image.
+void find_place(const Imf::Header& header, RenderInfo& info) {
+  const Imath::Box2i &data = header.dataWindow(), &display = header.displayWindow();
+  if (data == display || display.min != Imath::V2i(0, 0) || !display.intersects(data.min) ||
+      !display.intersects(data.max) || display.max.x > largest_side || display.max.y > largest_side)
+    return;
+  info.origin = {data.min.x, data.min.y};
+  info.whole = {display.max.x + 1, display.max.y + 1};
+}
 
 // Bytes that one level of a tiled file, or one chunk of lines, takes in memory.
 double chunk_bytes(const Imf::Header& header, double width) {
@@ -206,6 +223,7 @@ Image read_pixels(Imf::MultiPartInputFile& file, double file_bytes) {
               .height = static_cast<int>(height),
               .channels = {},
               .info = find_attributes(header)};
+  find_place(header, image.info);
   Imf::FrameBuffer frame;
   for (const char* name : names) {
     const auto [entry, _] = image.channels.emplace(name, static_cast<std::size_t>(width * height));
@@ -223,7 +241,9 @@ NonFinite encode_exr(const Rows& rows, const RenderInfo& info, std::ostream& to)
   constexpr int strip_lines = 16; // those that ZIP compresses together
   const auto width = static_cast<std::size_t>(rows.width);
   std::vector<float> strip(strip_lines * width * rows.channels.size());
-  Imf::Header header(rows.width, rows.height);
+  const auto [left, top] = info.origin;
+  const Imath::Box2i data = box(left, top, rows.width, rows.height);
+  Imf::Header header(info.whole[0] > 0 ? box(0, 0, info.whole[0], info.whole[1]) : data, data);
   header.compression() = Imf::ZIP_COMPRESSION;
   insert_attributes(header, info);
   for (const std::string& name : rows.channels) header.channels().insert(name, Imf::Channel(Imf::FLOAT));
@@ -241,7 +261,7 @@ NonFinite encode_exr(const Rows& rows, const RenderInfo& info, std::ostream& to)
       const auto count = std::count_if(values, values + static_cast<std::size_t>(lines) * width,
                                        [](float v) { return !std::isfinite(v); });
       if (count > 0) not_finite[rows.channels[channel]] += static_cast<std::uint64_t>(count);
-      const Imath::Box2i window({0, first}, {rows.width - 1, first + lines - 1});
+      const Imath::Box2i window = box(left, top + first, rows.width, lines);
       frame.insert(rows.channels[channel], Imf::Slice::Make(Imf::FLOAT, values, window));
     }
     file.setFrameBuffer(frame);

@@ -75,6 +75,27 @@ Rows rows_of(const film::Film& film, bool moments) {
   return rows;
 }
 
+void add_first_hits(Rows& rows, const std::vector<film::FirstHit>& hits,
+                    const std::vector<std::string>& aov) {
+  std::vector<std::size_t> added; // indices into first_hit_channels
+  const std::size_t before = rows.channels.size();
+  for (std::size_t i = 0; i < first_hit_channels.size(); ++i) {
+    const std::string channel = first_hit_channels[i];
+    if (std::ranges::find(aov, channel.substr(0, channel.find('.'))) == aov.end()) continue;
+    rows.channels.push_back(channel);
+    added.push_back(i);
+  }
+  rows.fill = [&hits, before, added, width = static_cast<std::size_t>(rows.width),
+               others = std::move(rows.fill)](int row, std::size_t channel, float* to) {
+    if (channel < before) return others(row, channel, to);
+    const std::size_t value = added[channel - before], first = static_cast<std::size_t>(row) * width;
+    for (std::size_t pixel = first; pixel < first + width; ++pixel)
+      *to++ = value < 3   ? hits[pixel].albedo[value]
+              : value < 6 ? hits[pixel].normal[value - 3]
+                          : hits[pixel].depth;
+  };
+}
+
 Image image_of(const film::Film& film, const RenderInfo& info, bool moments) {
   Image image{.width = film.width(), .height = film.height(), .channels = {}, .info = info};
   const Rows rows = rows_of(film, moments);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "film/film.h"
+#include "film/first_hit.h"
 #include "settings/settings.h"
 
 namespace phlux::files {
@@ -37,6 +38,9 @@ struct RenderInfo {
   std::string device, driver;
   double seconds = 0.0;       ///< of rendering
   double clamped_share = 0.0; ///< share of the light that clamping removed
+  /// Column and row of its upper left pixel in the image of which it is a part, and the size of that image;
+  /// 0: it is whole.
+  std::array<int, 2> origin{}, whole{};
 
   /// A setting as text; empty if it is absent.
   [[nodiscard]] std::string text(const std::string& setting) const;
@@ -83,6 +87,13 @@ private:
 [[nodiscard]] Rows rows_of(const Image& image);
 /// The channels of image_of(film, ...). `film` must live as long as the result.
 [[nodiscard]] Rows rows_of(const film::Film& film, bool moments);
+
+/// The names of the first hits' values, each before the point of its channels.
+inline const std::vector<std::string> aov_names = {"albedo", "normal", "depth"};
+inline constexpr std::array<const char*, 7> first_hit_channels = {
+    "albedo.R", "albedo.G", "albedo.B", "normal.X", "normal.Y", "normal.Z", "depth.Z"};
+/// Adds the channels of the names `aov`, one value per pixel each. `hits` must live as long as the rows.
+void add_first_hits(Rows& rows, const std::vector<film::FirstHit>& hits, const std::vector<std::string>& aov);
 
 /// Channels R, G, B: mean radiance, linear, neither exposed nor clamped. With `moments` also variance.R, .G
 /// and .B, the variance of that mean, and reliability, see film::reliability_map.

@@ -1,5 +1,6 @@
 #include "files/png.h"
 
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -43,9 +44,9 @@ std::string encode_png(const Canvas& canvas) {
   return bytes;
 }
 
-std::string encode_png(const Rows& rows) {
+std::string encode_png(const Rows& rows, std::optional<double> stops) {
   Canvas canvas(rows.width, rows.height, {});
-  const float scale = exposure(rows);
+  const float scale = stops ? static_cast<float>(std::exp2(*stops)) : exposure(rows);
   RadianceRow radiance(rows);
   for (int y = 0; y < rows.height; ++y) {
     radiance.read(y);
@@ -59,8 +60,8 @@ std::string encode_png(const Rows& rows) {
   return encode_png(canvas);
 }
 
-void write_png(const std::filesystem::path& file, const Rows& rows) {
-  write_file(file, encode_png(rows));
+void write_png(const std::filesystem::path& file, const Rows& rows, std::optional<double> stops) {
+  write_file(file, encode_png(rows, stops));
 }
 
 } // namespace phlux::files

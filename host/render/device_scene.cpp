@@ -106,4 +106,11 @@ void DeviceScene::bind(device::Kernel& kernel) const {
     std::visit([&](const auto& of) { kernel.set(name, of); }, value);
 }
 
+std::size_t DeviceScene::bytes() const {
+  std::size_t sum = 0;
+  for (const auto& [name, value] : arguments_)
+    if (const auto* buffer = std::get_if<cl::Buffer>(&value)) sum += buffer->getInfo<CL_MEM_SIZE>();
+  return sum;
+}
+
 } // namespace phlux::render

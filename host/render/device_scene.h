@@ -22,6 +22,8 @@ public:
   /// Sets the arguments that SCENE_PARAMETERS (kernels/scene/scene.cl) declares.
   void bind(device::Kernel& kernel) const;
 
+  [[nodiscard]] std::size_t bytes() const; ///< of the tables
+
 private:
   std::vector<std::pair<const char*, std::variant<cl::Buffer, cl_int, cl_float>>>
       arguments_; // by their names

@@ -205,7 +205,7 @@ Renderer::Renderer(const scene::Scene& scene, const Settings& settings, const Ev
     warn(scene, settings, events);
     std::deque<Programs> of_devices;
     std::vector<Programs*> devices;
-    for (const device::Device& device : device::open_devices(settings.devices))
+    for (const device::Device& device : device::open_devices(settings.devices, settings.threads))
       devices.push_back(&of_devices.emplace_back(device, sources::KernelFiles(settings.kernel_dir)));
     ready_->prepare(devices, scene, settings, events);
   });

@@ -130,7 +130,7 @@ private:
   }
   void add_one(const Camera& camera) {
     const auto& [orthographic, position, left, up, forward, tan_half_fov_x, principal_x, principal_y,
-                 aperture_radius, focus_distance, filter, width, height] = camera;
+                 aperture_radius, focus_distance, filter, width, height, origin, whole] = camera;
     add(orthographic, position, left, up, forward, tan_half_fov_x, principal_x, principal_y, aperture_radius,
         focus_distance, filter.kind, filter.size);
   }

@@ -114,14 +114,24 @@ struct Camera {
   double focus_distance = 1.0;  ///< from the lens to the plane in focus
   Filter filter;
   int width = 768, height = 576; ///< pixels, square
+  /// Of a part of an image (crop_image): the place of its upper left pixel, and the size of the whole; 0: it
+  /// is whole.
+  std::array<int, 2> origin{}, whole{};
+};
+
+/// A part of an image, in pixels; x and y are of its upper left pixel.
+struct Window {
+  int x = 0, y = 0, width = 0, height = 0;
+  bool operator==(const Window&) const = default;
 };
 
 /// Settings of the scene file; the command line overrides them.
 struct RenderDefaults {
   std::string integrator = "path"; ///< path, light or bidir
   int samples_per_pixel = 4;
-  int max_depth = -1; ///< largest number of edges of a path, -1: unbounded; 1 is emission alone
-  int rr_depth = 5;   ///< number of edges from which roulette may end a path, -1: never
+  int max_depth = -1;         ///< largest number of edges of a path, -1: unbounded; 1 is emission alone
+  int rr_depth = 5;           ///< number of edges from which roulette may end a path, -1: never
+  std::optional<Window> crop; ///< the part of the image to render
 };
 
 struct Scene {

@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "scene/image_size.h"
 #include "scene_file/properties.h"
 #include "scene_file/transform.h"
 #include "scene_file/values.h"
@@ -65,7 +66,35 @@ scene::Filter read_filter(const Element& element, const Document& document) {
   return filter;
 }
 
-void read_film(const Element& film, const Document& document, scene::Camera& camera) {
+/// Mitsuba's crop window, if it is a part of the film.
+std::optional<scene::Window> read_crop(Properties& properties, const scene::Camera& camera) {
+  const scene::Window whole{0, 0, camera.width, camera.height};
+  const scene::Window crop{properties.integer("crop_offset_x", 0), properties.integer("crop_offset_y", 0),
+                           properties.integer("crop_width", camera.width),
+                           properties.integer("crop_height", camera.height)};
+  if (!is_within(crop, camera))
+    properties.fail_at(properties.has("crop_width") ? "crop_width" : "crop_offset_x",
+                       "the crop window is not within the film",
+                       "cropOffsetX + cropWidth and cropOffsetY + cropHeight must be at most " +
+                           std::to_string(camera.width) + " and " + std::to_string(camera.height));
+  return crop == whole ? std::nullopt : std::optional(crop);
+}
+
+/// The same part of an image of another size, to whole pixels.
+scene::Window scaled(const scene::Window& window, const scene::Camera& from, const std::array<int, 2>& to) {
+  const auto scale = [](int edge, int old_size, int new_size) {
+    return static_cast<int>(std::lround(static_cast<double>(edge) * new_size / old_size));
+  };
+  scene::Window result{scale(window.x, from.width, to[0]), scale(window.y, from.height, to[1]), 0, 0};
+  result.width = std::max(1, scale(window.x + window.width, from.width, to[0]) - result.x);
+  result.height = std::max(1, scale(window.y + window.height, from.height, to[1]) - result.y);
+  result.x = std::min(result.x, to[0] - result.width);
+  result.y = std::min(result.y, to[1] - result.height);
+  return result;
+}
+
+void read_film(const Element& film, const Document& document, scene::Scene& scene) {
+  scene::Camera& camera = scene.camera;
   Properties properties(film, document);
   static const std::set<std::string> films{"hdrfilm", "ldrfilm", "mfilm", "tiledhdrfilm", "specfilm"};
   if (!films.contains(film.type()))
@@ -74,12 +103,7 @@ void read_film(const Element& film, const Document& document, scene::Camera& cam
   if (film.type() != "hdrfilm") note(film.where, film.name() + " is read as hdrfilm: linear radiance in EXR");
   camera.width = positive(properties, "width", camera.width, largest_size);
   camera.height = positive(properties, "height", camera.height, largest_size);
-  for (const auto& [name, whole] :
-       {std::pair{"crop_offset_x", 0}, std::pair{"crop_offset_y", 0}, std::pair{"crop_width", camera.width},
-        std::pair{"crop_height", camera.height}})
-    if (properties.integer(name, whole) != whole)
-      properties.fail_at(name, "crop windows are not supported",
-                         "leave the crop out to render the whole film");
+  scene.defaults.crop = read_crop(properties, camera);
   if (const Element* filter = properties.object("rfilter")) camera.filter = read_filter(*filter, document);
   properties.pass_over_rest();
   properties.finish();
@@ -175,8 +199,9 @@ void read_sensor(const Element& sensor, const Document& document,
   scene::Camera& camera = scene.camera;
   camera.orthographic = sensor.type() == "orthographic";
   if (const Element* film = properties.object("film"))
-    document.problems->attempt([&] { read_film(*film, document, camera); });
+    document.problems->attempt([&] { read_film(*film, document, scene); });
   if (size) {
+    if (scene.defaults.crop) scene.defaults.crop = scaled(*scene.defaults.crop, camera, *size);
     camera.width = (*size)[0];
     camera.height = (*size)[1];
   }

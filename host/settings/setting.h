@@ -58,6 +58,8 @@ struct OneOf { ///< one of these names; the member is the name, an enum of its i
   }
 };
 struct StrategyOrFile { ///< the name of a strategy, or a user's kernel file
+  std::vector<std::string> names = strategy_names();
+
   template<class T>
   [[nodiscard]] T read(const std::string& name, const std::string& text) const {
     return strategy(name, text);
@@ -76,6 +78,9 @@ struct Switch { ///< on or off, without an option of its own; `on` is its text i
 struct Number {
   [[nodiscard]] static Value value(const std::optional<double>& of) { return of ? Value(*of) : Value(); }
   [[nodiscard]] static Value value(std::uint64_t of) { return of; }
+  [[nodiscard]] static Value value(const std::optional<int>& of) {
+    return of ? Value(std::int64_t{*of}) : Value();
+  }
   template<class T>
   [[nodiscard]] static Value value(const T& of) {
     return static_cast<std::int64_t>(of);
@@ -104,6 +109,14 @@ struct Within : Number { ///< from `least` to `most`
   }
 };
 
+struct Crop { ///< a part of the image
+  template<class T>
+  [[nodiscard]] static T read(const std::string& name, const std::string& text) {
+    return window(name, text);
+  }
+  [[nodiscard]] static Value value(const std::optional<scene::Window>& of);
+};
+
 struct Setting {
   std::string name; ///< "rr-depth"
   Affects affects;
@@ -114,6 +127,7 @@ struct Setting {
   std::function<void(const std::string& text, Settings& to)> read;
   std::function<Value(const Settings& of)> value;
   std::function<void(const Settings& from, Settings& to)> copy;
+  std::vector<std::string> choices; ///< names that are values, for completion; empty: others
   /// Empty: not in scene files.
   std::function<void(const scene::RenderDefaults& from, Settings& to)> from_scene;
 
@@ -134,7 +148,9 @@ struct Setting {
           to.*member = domain.template read<T>(label, text);
         }),
         value([member, domain](const Settings& of) { return domain.value(of.*member); }),
-        copy([member](const Settings& from, Settings& to) { to.*member = from.*member; }) {}
+        copy([member](const Settings& from, Settings& to) { to.*member = from.*member; }) {
+    if constexpr (requires { domain.names; }) choices = domain.names;
+  }
 
   /// The default is the scene's.
   template<class T>

@@ -19,6 +19,10 @@ std::string text_of(const Value& value) {
       value);
 }
 
+Value Crop::value(const std::optional<scene::Window>& of) {
+  return of ? Value(fmt::format("{},{},{},{}", of->x, of->y, of->width, of->height)) : Value();
+}
+
 const std::vector<Setting>& all() {
   static const std::vector<Setting> list = declared_settings();
   return list;

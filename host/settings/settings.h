@@ -42,9 +42,11 @@ struct Settings {
   std::optional<double> time_limit;   ///< seconds of rendering
   std::optional<double> target_error; ///< mean relative standard error
   int max_depth = -1, rr_depth = 5;   ///< as in scene::RenderDefaults
+  std::optional<scene::Window> crop;  ///< the part of the image that the scene's camera now has
   std::uint64_t seed = 0;
   std::int64_t first_sample = 0;    ///< index of every pixel's first sample
   std::vector<std::string> devices; ///< specifications of device::open_devices()
+  std::optional<int> threads;       ///< of each device, a CPU; absent: all that it has
   int lanes = 0;                    ///< WIDTH; 0: the device's
   bool double_precision = false;    ///< kernels compute in double; WIDTH is 1
   Traversal traversal = Traversal::automatic;
@@ -174,11 +176,16 @@ struct Settings {
           "error", A::amount, &Settings::target_error, Within{1e-30, 1e30}, "E",
           "render until the mean relative standard error of pixels that are not black is E, such as 0.01, "
           "instead; with `time`: until the first of the two"),
+      Setting("crop", A::expectation, &Settings::crop, Crop{}, "X,Y,W,H",
+              "renders only this part of the image, in pixels from its upper left corner")
+          .or_scene(&Settings::crop, &scene::RenderDefaults::crop),
       Setting("seed", A::samples, &Settings::seed, Whole{0, std::numeric_limits<std::uint64_t>::max()}, "N",
               "seed of the random numbers; the same seed gives the same image on the same device"),
       Setting("first-sample", A::samples, &Settings::first_sample, Whole{0, most_samples / 2}, "N",
               "index of every pixel's first sample: renders of samples 0 to 99 and 100 to 199 of a seed are "
               "independent and can be merged"),
+      Setting("threads", A::execution, &Settings::threads, Whole{1, 65'536}, "N",
+              "threads of a CPU device; default: all"),
       Setting("width", A::execution, &Settings::lanes, OneOf{{"1", "4", "8", "16"}}, "N",
               "paths that one work-item traces together: 1, 4, 8 or 16; default: the device's"),
       Setting(

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <sstream>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -76,6 +77,22 @@ std::array<int, 2> size(const std::string& name, const std::string& text) {
       return {*width, *height};
   }
   wrong(name, text, "must be WIDTHxHEIGHT in pixels, such as 640x480, of at most 2^28 pixels");
+}
+
+scene::Window window(const std::string& name, const std::string& text) {
+  scene::Window window;
+  const std::array<int*, 4> numbers = {&window.x, &window.y, &window.width, &window.height};
+  std::istringstream parts(text);
+  std::size_t count = 0;
+  for (std::string part; std::getline(parts, part, ','); ++count) {
+    const std::optional<int> number = parse<int>(part);
+    if (count == numbers.size() || !number) break;
+    *numbers[count] = *number;
+  }
+  if (count != numbers.size() || text.ends_with(',') || window.x < 0 || window.y < 0 || window.width < 1 ||
+      window.height < 1 || window.width > most_pixels / window.height)
+    wrong(name, text, "must be X,Y,WIDTH,HEIGHT in pixels from the upper left corner, such as 100,50,64,48");
+  return window;
 }
 
 std::pair<std::string, std::string> definition(const std::string& name, const std::string& text) {

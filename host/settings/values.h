@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "scene/scene.h"
+
 namespace phlux::settings {
 
 /// A decimal number from `least` to `most`.
@@ -20,6 +22,8 @@ namespace phlux::settings {
 inline constexpr std::int64_t most_pixels = std::int64_t{1} << 28; ///< of an image
 /// WIDTHxHEIGHT in pixels; at most most_pixels.
 [[nodiscard]] std::array<int, 2> size(const std::string& name, const std::string& text);
+/// X,Y,WIDTH,HEIGHT in pixels; at most most_pixels.
+[[nodiscard]] scene::Window window(const std::string& name, const std::string& text);
 /// NAME=VALUE; the value may be empty.
 [[nodiscard]] std::pair<std::string, std::string> definition(const std::string& name,
                                                              const std::string& text);

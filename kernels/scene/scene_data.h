@@ -67,8 +67,8 @@ typedef struct {
 } TextureRecord;
 
 // What a primitive's texture coordinates and tangents follow from. Flat, with a and b along edge_u and edge_v:
-// origin + a per_u + b per_v (of ellipses its polar coordinates, radius and turns), and d position / d u (not of ellipses).
-// Spheres: the directions of the object's x, y and z axes.
+// origin + a per_u + b per_v (of ellipses its polar coordinates, radius and turns), and d position / d u (not of
+// ellipses). Spheres: the directions of the object's x, y and z axes.
 enum UvValues { UV_ORIGIN = 0, UV_PER_U = 2, UV_PER_V = 4, UV_TANGENT = 6, UV_AXES = 0, UV_FLOATS = 9 };
 
 enum LightKinds {
@@ -83,11 +83,11 @@ enum LightKinds {
 // One light: an emitting primitive, or a light without a surface. Selected with the alias method (Walker 1974; Vose
 // 1991): cell i gives light i with probability `alias_threshold`, else light `alias`.
 typedef struct {
-  int kind;       // enum LightKinds
-  int primitive;  // planar, sphere: index of the primitive
+  int kind;          // enum LightKinds
+  int primitive;     // planar, sphere: index of the primitive
   float radiance[3]; // of area lights and a constant sky, the largest of an environment map; intensity of point and
                      // spot, irradiance of directional lights
-  float area;     // planar, sphere: m^2; directional, sky: of the disk across the scene
+  float area;        // planar, sphere: m^2; directional, sky: of the disk across the scene
   float position[3];
   float direction[3];
   float cutoff, inv_transition; // spot: cutoff and 1 / (cutoff - beam width) in radians
@@ -110,8 +110,8 @@ typedef struct {
   int child; // the first of two; a leaf: ~light
 } LightNodeRecord;
 
-// An environment map in its own frame (as Mitsuba's): the texel in column (phi / (2 pi)) width and row (theta / pi) height
-// lies towards sin(theta) sin(phi) x + cos(theta) y - sin(theta) cos(phi) z.
+// An environment map in its own frame (as Mitsuba's): the texel in column (phi / (2 pi)) width and row (theta / pi)
+// height lies towards sin(theta) sin(phi) x + cos(theta) y - sin(theta) cos(phi) z.
 typedef struct {
   float x[3], y[3], z[3]; // its axes in the world, orthonormal
   float density;          // per solid angle and sum of the channels, of a sampled direction
@@ -144,6 +144,9 @@ typedef struct {
 // What a device hands over for a job (film::BlockSum): sums over its samples of radiance, of its squares, of what was
 // not finite and of what clamping took away.
 enum SumWords { SUM_RADIANCE = 0, SUM_SQUARES = 3, SUM_NONFINITE = 6, SUM_CLAMPED = 7, SUM_WORDS = 8 };
+
+// What a device hands over for a pixel's first hits (film::FirstHit).
+enum FeatureWords { FEATURE_ALBEDO = 0, FEATURE_NORMAL = 3, FEATURE_DEPTH = 6, FEATURE_WORDS = 7 };
 
 // A record of a splat: arrays of one word each. The last two only where each technique is wanted by itself; the
 // technique is then s << 16 | t, its complement where the path adds to its own pixel, and the value is without its

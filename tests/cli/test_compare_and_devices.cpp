@@ -131,6 +131,10 @@ TEST_CASE("phlux compare --png writes a picture, and never over an image") {
   };
   CHECK(compare("a.exr", "picture.png").exit_code == 0);
   CHECK_THAT(TemporaryFolder::read(folder / "picture.png"), Catch::StartsWith("\x89PNG"));
+  CHECK(run({{"compare", "a.exr", "b.exr", "--html", "flip.html"}, folder.path(), {}, {}}).exit_code == 3);
+  CHECK(run({{"compare", "a.exr", "a.exr", "--html", "flip.html"}, folder.path(), {}, {}}).exit_code == 0);
+  CHECK_THAT(TemporaryFolder::read(folder / "flip.html"),
+             Catch::StartsWith("<!doctype html>") && Catch::Contains(";base64,iVBORw0KGgo"));
   struct Case {
     std::string reference, picture;
     int exit_code;
@@ -150,7 +154,7 @@ TEST_CASE("phlux compare --png writes a picture, and never over an image") {
     CHECK(outcome.out.empty());
   }
   CHECK(phlux::files::read_exr(folder / "a.exr").width == 2);
-  CHECK(folder.names() == std::set<std::string>{"a.exr", "b.exr", "link.png", "picture.png"});
+  CHECK(folder.names() == std::set<std::string>{"a.exr", "b.exr", "flip.html", "link.png", "picture.png"});
 }
 
 TEST_CASE("phlux devices lists every device and marks the default") {

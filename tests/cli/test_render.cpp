@@ -76,6 +76,51 @@ TEST_CASE("Options reach the files") {
   CHECK_THAT(TemporaryFolder::read(place / "look.png"), Catch::StartsWith("\x89PNG"));
 }
 
+TEST_CASE("A crop is placed in the image of which it is a part, also when it resumes") {
+  const Renders place;
+  place.render({"-n", "3", "--crop", "4,5,7,3", "--checkpoint", "c", "--stats", "stats.json"});
+  const Image crop = place.image();
+  CHECK(crop.width == 7);
+  CHECK(crop.height == 3);
+  CHECK(crop.info.origin == std::array{4, 5});
+  CHECK(crop.info.whole == std::array{16, 12});
+  CHECK(place.json("stats.json")["crop"] == "4,5,7,3");
+  place.render({"-n", "5", "--resume", "c"});
+  CHECK(place.image().info.samples == 5);
+  CHECK(place.image().info.text("crop") == "4,5,7,3");
+  CHECK_THAT(run({{"render", "scene.xml", "--resume", "c", "--crop", "0,0,2,2"}, place.path(), {}, {}}).err,
+             Catch::Contains("with --crop 4,5,7,3, not with --crop 0,0,2,2"));
+}
+
+TEST_CASE("--aov adds the channels that it names") {
+  const Renders place;
+  place.render({"-n", "2"});
+  place.render({"-n", "2", "--aov", "depth,albedo", "-o", "more.exr"});
+  const Image plain = place.image(), more = place.image("more.exr");
+  CHECK(more.channels.size() == 7);
+  for (const char* channel : {"R", "G", "B"}) CHECK(more.channels.at(channel) == plain.channels.at(channel));
+  CHECK(mean(more.channels.at("albedo.G")) > 0.1);
+  CHECK(mean(more.channels.at("depth.Z")) > 1.0);
+}
+
+TEST_CASE("Exposure and threads do not change the image") {
+  const Renders place;
+  place.render({"-n", "2"});
+  place.render({"-n", "2", "--exposure", "-20", "--threads", "1", "-o", "dark.exr"});
+  CHECK(place.image("dark.exr").channels == place.image().channels);
+  CHECK(std::filesystem::file_size(place / "dark.png") < std::filesystem::file_size(place / "scene.png"));
+  CHECK_THAT(run({{"render", "scene.xml", "--threads", "60000"}, place.path(), {}, {}}).err,
+             Catch::Contains("--threads 60000: OpenCL device"));
+}
+
+TEST_CASE("Several scenes are rendered one after the other") {
+  const Renders place;
+  place.write("other.xml", good_scene);
+  const Outcome outcome = place.render({"other.xml", "-n", "1"});
+  CHECK(std::ranges::count(outcome.out, '\n') == 2);
+  CHECK(place.image().channels == place.image("other.exr").channels);
+}
+
 TEST_CASE("Statistics have the contract's keys with values of the right kind") {
   const Renders place;
   place.render({"-n", "4", "--stats", "stats.json"});

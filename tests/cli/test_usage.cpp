@@ -15,9 +15,19 @@ struct Wrong {
 const std::vector<Wrong> wrong_usage = {
     {{}, "no command"},
     {{"rendr", "scene.xml"}, "did you mean render?"},
-    {{"paint"}, "must be one of render, devices, compare, merge, bench"},
+    {{"paint"}, "must be one of render, info, devices, compare, merge, view, bench"},
     {{"render"}, "SCENE.xml"},
-    {{"render", "scene.xml", "other.xml"}, "other.xml: one argument too many"},
+    {{"render", "scene.xml", "other.xml", "-o", "a.exr"},
+     "--output a.exr: is for one scene, and 2 are given"},
+    {{"render", "scene.xml", "a/scene.xml"}, "a/scene.xml: another scene is called scene too"},
+    {{"render", "scene.xml", "--crop", "0,0,4"}, "--crop 0,0,4: must be X,Y,WIDTH,HEIGHT"},
+    {{"render", "scene.xml", "--crop", "0,0,4,0"}, "--crop 0,0,4,0: must be X,Y,WIDTH,HEIGHT"},
+    {{"render", "scene.xml", "--crop", "10,0,7,4"}, "--crop 10,0,7,4: is not within the image of 16x12"},
+    {{"render", "scene.xml", "--aov", "albedo,uv"}, "--aov uv: must be one of albedo, normal, depth"},
+    {{"render", "scene.xml", "--threads", "0"}, "--threads 0: must be a whole number from 1"},
+    {{"render", "scene.xml", "--exposure", "bright"}, "--exposure bright: must be a number"},
+    {{"view", "a.exr", "--exposure", "1"}, "--exposure 1: is for --png"},
+    {{"completion", "fish"}, "unknown command fish"},
     {{"render", "scene.xml", "--ssp", "4"}, "unknown option --ssp: did you mean --spp?"},
     {{"render", "scene.xml", "--denoise", "a"}, "unknown option --denoise"},
     {{"render", "scene.xml", "--checkpoint-every", "0"}, "--checkpoint-every 0: must be a number from 0.01"},
@@ -108,10 +118,33 @@ TEST_CASE("Help and version are no errors") {
     CHECK_THAT(of_render.out, Catch::Contains(option));
 }
 
+TEST_CASE("Help fits a terminal of 100 columns") {
+  const TemporaryFolder folder;
+  const std::vector<std::vector<std::string>> commands = {{},
+                                                          {"render"},
+                                                          {"info"},
+                                                          {"devices"},
+                                                          {"compare"},
+                                                          {"merge"},
+                                                          {"view"},
+                                                          {"verify"},
+                                                          {"bench", "scenes"},
+                                                          {"bench", "sampling"},
+                                                          {"bench", "stability"},
+                                                          {"bench", "rays"},
+                                                          {"completion"}};
+  for (std::vector<std::string> arguments : commands) {
+    arguments.emplace_back("--help");
+    std::istringstream lines(run({arguments, folder.path(), {}, {}}).out);
+    for (std::string line; std::getline(lines, line);)
+      if (line.size() > 100 && !line.starts_with("Usage")) FAIL_CHECK(line);
+  }
+}
+
 // CLI11 2.4 throws for other names, whatever the command.
 TEST_CASE("The placeholder of an argument is one word") {
   const TemporaryFolder folder;
-  for (const char* command : {"render", "compare", "merge"}) {
+  for (const char* command : {"render", "info", "compare", "merge", "view"}) {
     const Outcome help = run({{command, "--help"}, folder.path(), {}, {}});
     const std::size_t list = help.out.find("Positionals:\n");
     REQUIRE(list != std::string::npos);

@@ -64,6 +64,21 @@ TEST_CASE("An image comes back from an EXR file bit for bit") {
   CHECK(back.channels.at("variance.R")[4] == 4.0F); // samples 0 and 4, or Q = 16: (16/2 - 2^2) / 1
 }
 
+TEST_CASE("A crop lies in the data window of the whole image") {
+  const TemporaryFolder folder;
+  RenderInfo info = render_info;
+  info.origin = {5, 7};
+  info.whole = {20, 10};
+  write_exr(folder / "a.exr", image_of(numbered_film(), info, false));
+  const Imf::InputFile file((folder / "a.exr").c_str());
+  CHECK(file.header().displayWindow() == Imath::Box2i({0, 0}, {19, 9}));
+  CHECK(file.header().dataWindow() == Imath::Box2i({5, 7}, {7, 8}));
+  const Image back = read_exr(folder / "a.exr");
+  CHECK(back.channels.at("R") == std::vector<float>{0.0F, 0.5F, 1.0F, 1.5F, 2.0F, 2.5F});
+  CHECK(back.info.origin == info.origin);
+  CHECK(back.info.whole == info.whole);
+}
+
 TEST_CASE("An EXR file has the channels and attributes of the contract") {
   const TemporaryFolder folder;
   const bool moments = GENERATE(false, true);

@@ -52,6 +52,13 @@ TEST_CASE("sRGB codes are those of IEC 61966-2-1") {
   CHECK(srgb_code(-1.0F) == 0);
 }
 
+TEST_CASE("Stops replace the exposure of a picture") {
+  const Image image = grey(2, 1, {0.02F, 0.5F});
+  CHECK(decode(encode_png(image, 0.0)).codes[0] == srgb_code(0.02F));
+  CHECK(decode(encode_png(image, 3.0)).codes[0] == srgb_code(0.16F));
+  CHECK(decode(encode_png(image, std::log2(exposure(image)))).codes == decode(encode_png(image)).codes);
+}
+
 TEST_CASE("Highlights are compressed smoothly and stay in range") {
   CHECK(compress_highlights(0.5F) == 0.5F);
   CHECK(compress_highlights(0.6F) == 0.6F);

@@ -236,6 +236,8 @@ std::vector<Program> programs() {
     list.push_back(of_model("arithmetic", "phong", "exact", width));
     list.back().name = fmt::format("arithmetic-native.{}", width);
     list.back().source.defines["PHLUX_NATIVE"] = "1";
+    list.push_back(program_of({"first-hits", ordinary(everything())}, width));
+    list.back().source.root = "transport/first_hit.cl";
     list.push_back(program_of({"rays", ordinary(everything())}, width));
     list.back().source.root = "measure/rays.cl";
   }

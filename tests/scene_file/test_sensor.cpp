@@ -148,9 +148,16 @@ TEST_CASE("Films: sizes, crops, filters") {
        {std::pair{0, 0}, std::pair{5, 0}, std::pair{-3, 5}, std::pair{32769, 1}})
     CHECK_THAT(error_of(sensor(film(width, height))),
                StartsWith("scene.xml:3: ") && Contains("is out of range: 1 to 32768"));
-  CHECK_THAT(error_of(sensor(film(8, 8, "\n<integer name=\"cropWidth\" value=\"4\"/>"))),
-             StartsWith("scene.xml:4: ") && Contains("crop windows are not supported"));
-  CHECK(error_of(sensor(film(8, 8, "<integer name=\"cropWidth\" value=\"8\"/>"))).empty());
+  const auto crop_in = [](const std::string& properties) {
+    return load_text(sensor(film(8, 6, properties))).defaults.crop;
+  };
+  CHECK_FALSE(crop_in("<integer name=\"cropWidth\" value=\"8\"/>"));
+  CHECK(crop_in("<integer name=\"cropWidth\" value=\"4\"/>") == phlux::scene::Window{0, 0, 4, 6});
+  CHECK(crop_in("<integer name=\"cropOffsetX\" value=\"5\"/><integer name=\"cropOffsetY\" value=\"1\"/>"
+                "<integer name=\"cropWidth\" value=\"3\"/><integer name=\"cropHeight\" value=\"2\"/>") ==
+        phlux::scene::Window{5, 1, 3, 2});
+  CHECK_THAT(error_of(sensor(film(8, 8, "\n<integer name=\"cropOffsetX\" value=\"5\"/>"))),
+             StartsWith("scene.xml:4: ") && Contains("the crop window is not within the film"));
   CHECK_THAT(error_of(sensor("<film type=\"paper\"/>")),
              StartsWith("scene.xml:3: <film type=\"paper\"> is not supported"));
   const std::string ldr = "<film type=\"ldrfilm\"><integer name=\"width\" value=\"7\"/>\n"

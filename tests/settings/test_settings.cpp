@@ -35,6 +35,8 @@ const std::map<std::string, std::string> other_texts = {{"integrator", "bidir"},
                                                         {"spp", "2147483647"},
                                                         {"time", "0.3"},
                                                         {"error", "1e+20"},
+                                                        {"crop", "4,5,7,3"},
+                                                        {"threads", "2"},
                                                         {"seed", "18446744073709551615"},
                                                         {"first-sample", "7"},
                                                         {"width", "16"},
@@ -80,7 +82,7 @@ TEST_CASE("An invalid value of a setting is refused with the name of the setting
 
 TEST_CASE("The user overrides the scene, and the scene the defaults") {
   const scene::RenderDefaults scene{
-      .integrator = "bidir", .samples_per_pixel = 9, .max_depth = 8, .rr_depth = 3};
+      .integrator = "bidir", .samples_per_pixel = 9, .max_depth = 8, .rr_depth = 3, .crop = {}};
   Settings defaults;
   defaults.seed = 5;
   defaults.max_depth = 2;

@@ -1,0 +1,195 @@
+// The grammar of `phlux render` and `phlux info`.
+#include <algorithm>
+#include <memory>
+#include <set>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "cli/checkpoints.h"
+#include "cli/commands.h"
+#include "cli/grammar.h"
+#include "cluster/group.h"
+#include "errors.h"
+#include "files/image.h"
+#include "settings/values.h"
+
+namespace phlux::cli {
+namespace {
+
+using settings::Affects;
+
+void add_settings(CLI::App& app, RenderOptions& options, const std::function<bool(Affects)>& wanted) {
+  for (const settings::Setting& setting : settings::all())
+    if (wanted(setting.affects) && !setting.help.empty()) add_setting(app, setting, options);
+}
+
+void add_method(CLI::App& app, RenderOptions& options) {
+  app.option_defaults()->group("Light transport");
+  add_lobes(app,
+            "kernel file with a reflectance model of your own, which the scene uses as <bsdf type=\"NAME\">; "
+            "may be repeated",
+            options.lobes);
+  add_settings(app, options, [](Affects affects) {
+    return affects == Affects::expectation || affects == Affects::estimate;
+  });
+}
+
+void add_scene_options(CLI::App& app, RenderOptions& options) {
+  add_value(app, "--size", "WxH",
+            "image size in pixels; default: the scene's. The field of view along fovAxis is kept",
+            [&](const std::string& text) { options.size = settings::size("--size", text); });
+  add_values(app, "-D", "NAME=VALUE", "replaces $NAME in the scene; may be repeated",
+             [&](const std::string& text) {
+               auto [name, value] = settings::definition("-D", text);
+               options.definitions.insert_or_assign(std::move(name), std::move(value));
+             });
+}
+
+void add_amount(CLI::App& app, RenderOptions& options) {
+  app.option_defaults()->group("Samples and size");
+  add_settings(app, options, [](Affects affects) { return affects == Affects::amount; });
+  add_scene_options(app, options);
+  add_settings(app, options, [](Affects affects) { return affects == Affects::samples; });
+}
+
+void add_device(CLI::App& app, RenderOptions& options) {
+  app.option_defaults()->group("Device");
+  add_values(app, "--device", "SPEC",
+             "P:D (platform:device, see phlux devices), cpu, gpu, all, or part of a platform's or device's "
+             "name; may be repeated. Where two drivers offer the same CPU, cpu and names choose the first",
+             [&](const std::string& text) { options.devices.push_back(text); });
+  add_settings(app, options, [](Affects affects) { return affects == Affects::execution; });
+  add_kernel_dir(app, options.kernel_dir);
+}
+
+// Names separated by commas, each once.
+std::vector<std::string> aov_of(const std::string& text) {
+  std::vector<std::string> names;
+  std::istringstream parts(text + ",");
+  for (std::string part; std::getline(parts, part, ',');) {
+    const std::string& name = files::aov_names[settings::choice("--aov", part, files::aov_names)];
+    if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+  }
+  return names;
+}
+
+void add_files(CLI::App& app, RenderOptions& options) {
+  app.option_defaults()->group("Files and messages");
+  add_file(app, "-o,--output", "FILE.exr", "the image; default: the scene's name in the working directory",
+           options.output);
+  add_file(app, "--png", "FILE",
+           "tone-mapped preview, updated while rendering; default: beside the image; none: no preview",
+           options.preview);
+  add_exposure(app, options.exposure);
+  add_file(app, "--contributions", "DIR",
+           "bidir and light: a folder with an image for every technique (s light and t eye vertices), "
+           "weighted and unweighted, and a contact sheet",
+           options.contributions);
+  add_file(app, "--stats", "FILE.json", "statistics of the render, as JSON", options.statistics);
+  add_file(app, "--checkpoint", "FILE",
+           "file to resume from, written at intervals, at the end and on interruption; default: the file of "
+           "--resume, if given; none: no checkpoint",
+           options.checkpoint);
+  add_value(app, "--checkpoint-every", "SECONDS",
+            fmt::format("seconds between checkpoints; default: {:g}", default_checkpoint_seconds),
+            [&](const std::string& text) {
+              options.checkpoint_seconds = settings::number_within("--checkpoint-every", text, 0.01, 1e9);
+            });
+  add_file(
+      app, "--resume", "FILE",
+      "continues from a checkpoint, with its options where this command gives none; -n, --time and --error "
+      "include what was rendered before",
+      options.resume);
+  add_value(app, "--aov", "NAME,...",
+            "adds channels of what the camera's rays hit first, for denoisers and compositing: albedo, "
+            "normal, depth",
+            [&](const std::string& text) { options.aov = aov_of(text); });
+  add_flag(
+      app, "--moments",
+      "adds the channels variance.R, .G and .B (variance of the mean) and reliability (predicted probability "
+      "that mean +- 1.96 standard errors holds the right value)",
+      options.moments);
+  add_flag(
+      app, "--advise",
+      "tries the other integrators for a second each and says which is better, if any; without this option "
+      "only where the error estimate is unreliable and that takes at most 3% of the render time",
+      options.advise);
+  add_flag(app, "-q,--quiet", "no progress, no summary and no warning of an unreliable error estimate",
+           options.quiet);
+  add_flag(app, "--verbose", "also notes: what was ignored, and what was chosen", options.verbose);
+}
+
+// With several scenes each writes to files of its own name.
+void require_own_files(const RenderOptions& options, const std::vector<std::filesystem::path>& scenes) {
+  if (scenes.size() < 2) return;
+  if (const cluster::Started started = cluster::started(); started.processes > 1)
+    throw UsageError(fmt::format("{} has started {} processes, which render one scene: {} are given",
+                                 started.by, started.processes, scenes.size()));
+  const std::pair<const char*, std::filesystem::path> files[] = {
+      {"--output", options.output},
+      {"--stats", options.statistics},
+      {"--contributions", options.contributions},
+      {"--resume", options.resume},
+      {"--checkpoint", options.checkpoint},
+      {"--png", options.preview == "none" ? std::filesystem::path() : options.preview}};
+  for (const auto& [option, file] : files)
+    if (!file.empty())
+      throw UsageError(
+          fmt::format("{} {}: is for one scene, and {} are given", option, file.string(), scenes.size()));
+  std::set<std::string> names;
+  for (const std::filesystem::path& scene : scenes)
+    if (!names.insert(scene.stem().string()).second)
+      throw UsageError(
+          fmt::format("{}: another scene is called {} too, and both would be written to {}.exr: render "
+                      "them one by one, with --output",
+                      scene.string(), scene.stem().string(), scene.stem().string()));
+}
+
+// The first exit code that is not 0, which ends it.
+int render_all(RenderOptions options, const std::vector<std::filesystem::path>& scenes) {
+  for (const std::filesystem::path& scene : scenes) {
+    options.scene_file = scene;
+    if (const int exit_code = render(options); exit_code != 0) return exit_code;
+  }
+  return 0;
+}
+
+} // namespace
+
+void add_render(CLI::App& program, std::optional<Command>& command) {
+  CLI::App& app = *program.add_subcommand("render", "Renders a scene to an OpenEXR image and a PNG preview");
+  const auto options = std::make_shared<RenderOptions>();
+  const auto scenes = std::make_shared<std::vector<std::filesystem::path>>();
+  app.add_option("SCENE.xml", *scenes,
+                 wrapped("Mitsuba scene file; several are rendered one after the other"))
+      ->type_name("")
+      ->required();
+  add_files(app, *options);
+  add_amount(app, *options);
+  add_method(app, *options);
+  add_device(app, *options);
+  app.footer(" "); // instead of the program's footer
+  app.final_callback([&command, options, scenes] {
+    if (options->has("spp") && (options->has("time") || options->has("error")))
+      throw UsageError("--spp: cannot go with --time or --error, which decide how many samples are taken");
+    if (options->checkpoint_seconds && options->checkpoint.empty() && options->resume.empty())
+      throw UsageError("--checkpoint-every: no checkpoint is written: give --checkpoint FILE too");
+    require_own_files(*options, *scenes);
+    command = [options, scenes] { return render_all(*options, *scenes); };
+  });
+}
+
+void add_info(CLI::App& program, std::optional<Command>& command) {
+  CLI::App& app =
+      *program.add_subcommand("info", "Says what is in a scene, which parts its kernel has, and its memory");
+  const auto options = std::make_shared<InfoOptions>();
+  app.add_option("SCENE.xml", options->scene_file, "Mitsuba scene file")->type_name("")->required();
+  add_flag(app, "--json", "as JSON", options->json);
+  add_scene_options(app, *options);
+  add_method(app, *options);
+  add_device(app, *options);
+  app.final_callback([&command, options] { command = [options] { return info(*options); }; });
+}
+
+} // namespace phlux::cli

@@ -1,0 +1,17 @@
+// Renders what the camera sees first.
+#pragma once
+
+#include <vector>
+
+#include "film/first_hit.h"
+#include "render/render.h"
+
+namespace phlux::render {
+
+/// The first hits of each pixel's first samples, row by row, on the first of the settings' devices.
+/// @throws SceneError and DeviceError as Renderer
+[[nodiscard]] std::vector<film::FirstHit> first_hits(const scene::Scene& scene, const Settings& settings);
+
+inline constexpr int first_hit_samples = 16; ///< that are averaged for each pixel
+
+} // namespace phlux::render

@@ -1,0 +1,20 @@
+#include "render/outline.h"
+
+#include "render/device_scene.h"
+
+namespace phlux::render {
+
+Outline outline(const scene::Scene& scene, const Settings& settings) {
+  Outline result;
+  const device::Device device = device::open_devices(settings.devices, settings.threads).front();
+  result.device = device.info;
+  const int lanes = lanes_for(result.device, settings);
+  const HostScene host =
+      prepare(scene, settings.traversal, lanes, settings.double_precision, wants_light_tree(settings));
+  result.parts = find_parts(scene, host.geometry, host.lights, settings, lanes);
+  result.primitives = host.geometry.primitive_count;
+  result.table_bytes = DeviceScene(device, host, result.parts).bytes();
+  return result;
+}
+
+} // namespace phlux::render
