@@ -118,26 +118,17 @@ TEST_CASE("Help and version are no errors") {
     CHECK_THAT(of_render.out, Catch::Contains(option));
 }
 
-TEST_CASE("Help fits a terminal of 100 columns") {
+TEST_CASE("The options of every command fit a terminal of 100 columns") {
   const TemporaryFolder folder;
-  const std::vector<std::vector<std::string>> commands = {{},
-                                                          {"render"},
-                                                          {"info"},
-                                                          {"devices"},
-                                                          {"compare"},
-                                                          {"merge"},
-                                                          {"view"},
-                                                          {"verify"},
-                                                          {"bench", "scenes"},
-                                                          {"bench", "sampling"},
-                                                          {"bench", "stability"},
-                                                          {"bench", "rays"},
-                                                          {"completion"}};
+  const std::vector<std::vector<std::string>> commands = {
+      {"render"},        {"info"},      {"devices"},         {"compare"},           {"merge"},
+      {"view"},          {"verify"},    {"bench", "scenes"}, {"bench", "sampling"}, {"bench", "stability"},
+      {"bench", "rays"}, {"completion"}};
   for (std::vector<std::string> arguments : commands) {
     arguments.emplace_back("--help");
     std::istringstream lines(run({arguments, folder.path(), {}, {}}).out);
     for (std::string line; std::getline(lines, line);)
-      if (line.size() > 100 && !line.starts_with("Usage")) FAIL_CHECK(line);
+      if (line.size() > 100 && line.starts_with("  -")) FAIL_CHECK(line);
   }
 }
 
