@@ -116,8 +116,9 @@ std::string words_for(const std::vector<Candidate>& sorted) {
   if (sorted.size() == 1) return fmt::format("{}: no other method can render this", best.trial.method);
   if (!is_comparable(sorted[1].trial))
     return fmt::format("{}: in trials, the error of no other method could be trusted", best.trial.method);
-  return fmt::format("{}: in trials {:.2g} times as efficient as {}", best.trial.method,
-                     sorted[1].trial.cost / best.trial.cost, sorted[1].trial.method);
+  const double times = sorted[1].trial.cost / best.trial.cost;
+  return fmt::format("{}: in trials {}as efficient as {}", best.trial.method,
+                     times < 1.1 ? "about " : fmt::format("{:.2g} times ", times), sorted[1].trial.method);
 }
 
 } // namespace

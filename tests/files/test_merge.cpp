@@ -25,6 +25,7 @@ Image flat(float radiance, float variance, double samples, SampleRange range) {
                 .scene = "box.xml",
                 .scene_digest = "12",
                 .settings = {{"integrator", "path"}, {"strategy", "exact"}, {"max-depth", std::int64_t{8}}},
+                .choice = {},
                 .samples = samples,
                 .seed = range.seed,
                 .ranges = {range},
