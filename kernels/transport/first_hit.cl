@@ -18,7 +18,7 @@ __kernel void trace_first_hits(SCENE_PARAMETERS, int first_pixel, int pixel_coun
     path.sequence.sample = (Uint)((uint)(first_sample + sample));
     start_at_camera(&scene, &path);
     const Real cosine = vec_dot(path.ray.direction, broadcast_vec(camera->forward));
-    const Arrival arrival = next_vertex(&scene, &path, limits, active);
+    const Arrival arrival = next_vertex(&scene, &path, 0, limits, active);
     const Vec3 reflectivity = material_reflectivity(arrival.vertex.material, arrival.vertex.fixed);
     albedo = vec_select(arrival.scattered, vec_add(albedo, reflectivity), albedo);
     normal = vec_select(arrival.hits, vec_add(normal, arrival.vertex.point.frame.z), normal);

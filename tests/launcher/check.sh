@@ -78,7 +78,7 @@ machine() { # INSTALLED RELEASE [COMMAND...]: runs ./phlux test on it, by COMMAN
   expect "what CMake leaves out is told" says "not tested: no such thing: something is not checked"
 }
 packages() { local version; for version; do printf ' %s' "clang-$version" "libclc-$version" "libclc-$version-dev"; done; }
-others="python3-matplotlib chromium librandom123-dev"
+others="python3-matplotlib chromium librandom123-dev libopenmpi-dev openmpi-bin"
 
 echo "Debian 12, bare"
 machine "" "$needed $others oclgrind $(packages 14 15)"
