@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <limits>
 #include <numbers>
 
@@ -165,6 +166,8 @@ TableWriter::TableWriter(const scene::Scene& scene, Geometry& geometry)
     : scene_(scene), geometry_(geometry), with_uv_(scene::needs_uv(scene)) {
   std::size_t count = 0;
   for (const scene::Mesh& mesh : scene.meshes) {
+    if (!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size())
+      throw std::invalid_argument("a mesh has neither no normals nor one for each vertex");
     first_normal_of_mesh_.push_back(count);
     count += mesh.normals.size();
   }

@@ -85,6 +85,7 @@ void scatter_lights(scene::Mesh& mesh, int side) {
   std::uniform_real_distribution<double> place(0, 1 - edge);
   mesh.positions.clear();
   mesh.triangles.clear();
+  mesh.normals.clear(); // those of the one triangle
   for (int row = 0; row < side; ++row)
     for (int column = 0; column < side; ++column) {
       const Vec3 corner(column - side / 2 + place(generator), 1, row - side / 2 + place(generator));
