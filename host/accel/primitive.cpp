@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <limits>
 #include <numbers>
+#include <stdexcept>
 
 #include <glm/geometric.hpp>
 
