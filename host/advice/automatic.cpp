@@ -1,8 +1,11 @@
 #include "advice/automatic.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -14,7 +17,6 @@ namespace {
 
 using Texts = std::map<std::string, std::string>;
 
-constexpr double share_for_trials = 0.03; // of the render's time
 constexpr int first_samples = 16, most_samples = 512;
 constexpr double path_seconds =
     150e-9; // of a path by `integrator` path, for a render's time before any trial
@@ -26,15 +28,8 @@ double seconds_per_ray(const scene::Scene& scene, const std::string& traversal,
   std::size_t shapes = scene.patches.size() + scene.spheres.size();
   for (const scene::Mesh& mesh : scene.meshes) shapes += mesh.triangles.size();
   const double tracing = traversal == "bvh" ? 12e-9 * std::log2(static_cast<double>(shapes)) : 8e-9;
-  switch (integrator) {
-  case settings::Integrator::path:
-    return tracing + 16e-9;
-  case settings::Integrator::light:
-    return tracing + 12e-9;
-  case settings::Integrator::bidir:
-    break;
-  }
-  return tracing + 30e-9;
+  constexpr std::array of_integrator = {16e-9, 12e-9, 30e-9}; // path, light, bidir
+  return tracing + of_integrator[static_cast<std::size_t>(integrator)];
 }
 
 // A method that is tried.
@@ -47,8 +42,8 @@ struct Candidate {
 
 class Trials {
 public:
-  Trials(scene::Scene scene, const settings::Choices& choices, const render::Settings& defaults)
-      : scene_(std::move(scene)), choices_(choices), defaults_(defaults) {}
+  Trials(const scene::Scene& scene, const settings::Choices& choices, const render::Settings& defaults)
+      : scene_(scene), choices_(choices), defaults_(defaults) {}
 
   // Nothing if the choices exclude the method; `refusal` is why.
   std::optional<Candidate> candidate(const Texts& texts) {
@@ -83,7 +78,7 @@ public:
   std::string refusal;
 
 private:
-  scene::Scene scene_;
+  const scene::Scene& scene_;
   const settings::Choices& choices_;
   const render::Settings& defaults_;
 };
@@ -133,25 +128,22 @@ bool misses_light(const scene::Scene& scene, const settings::IntegratorInfo& int
 MethodChoice choose_method(scene::Scene scene, const settings::Choices& choices,
                            const render::Settings& defaults) {
   const double pixels = static_cast<double>(scene.camera.width) * scene.camera.height;
-  std::vector<const settings::IntegratorInfo*> complete;
-  for (const settings::IntegratorInfo& info : settings::integrators)
-    if (!misses_light(scene, info)) complete.push_back(&info);
   scene::shrink_image(scene.camera, trial_side);
-  Trials trials(std::move(scene), choices, defaults);
+  Trials trials(scene, choices, defaults);
   std::vector<Candidate> candidates;
-  for (const settings::IntegratorInfo* info : complete)
-    if (auto candidate = trials.candidate({{"integrator", info->name}})) candidates.push_back(*candidate);
+  for (const settings::IntegratorInfo& info : settings::integrators)
+    if (!misses_light(scene, info))
+      if (auto candidate = trials.candidate({{"integrator", info.name}})) candidates.push_back(*candidate);
   if (candidates.empty()) throw UsageError(trials.refusal);
 
   const double first_seconds =
       first_samples * trials.pixels() * path_seconds * 2.0 * static_cast<double>(candidates.size());
-  const render::Settings& settings = candidates.front().settings;
+  const render::Settings settings = candidates.front().settings; // of the amount of samples: that of all
   if (candidates.size() == 1 || share_for_trials * seconds_of_render(settings, pixels, {}) < first_seconds)
     return {.texts = candidates.front().texts,
-            .words = fmt::format("{}: {}", method_of(candidates.front().settings),
+            .words = fmt::format("{}: {}", method_of(settings),
                                  candidates.size() == 1 ? "no other method can render this"
-                                                        : "the render is too short for trials"),
-            .trials = {}};
+                                                        : "the render is too short for trials")};
   for (Candidate& c : candidates) trials.run(c, first_samples);
   std::erase_if(candidates, [](const Candidate& c) { return !c.trial.refusal.empty(); });
   if (candidates.empty()) throw UsageError("no integrator can render this scene");
@@ -176,9 +168,7 @@ MethodChoice choose_method(scene::Scene scene, const settings::Choices& choices,
       if (candidate->trial.refusal.empty()) candidates.push_back(*candidate);
     }
   std::ranges::sort(candidates, is_better);
-  MethodChoice choice{.texts = candidates.front().texts, .words = words_for(candidates), .trials = {}};
-  for (Candidate& c : candidates) choice.trials.push_back(std::move(c.trial));
-  return choice;
+  return {.texts = candidates.front().texts, .words = words_for(candidates)};
 }
 
 } // namespace phlux::advice

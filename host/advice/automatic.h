@@ -3,7 +3,6 @@
 
 #include <map>
 #include <string>
-#include <vector>
 
 #include "advice/trial.h"
 #include "settings/choices.h"
@@ -13,7 +12,6 @@ namespace phlux::advice {
 struct MethodChoice {
   std::map<std::string, std::string> texts; ///< the settings of the method, by name
   std::string words;                        ///< the method and why, in one line
-  std::vector<Trial> trials; ///< the last ones of each method; empty if the render is too short for them
 };
 
 /// Whether the integrator cannot find some of the scene's light at all, so that its error estimate lacks it:

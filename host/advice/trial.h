@@ -8,6 +8,8 @@
 
 namespace phlux::advice {
 
+/// Largest share of a render's time that its trials take.
+inline constexpr double share_for_trials = 0.03;
 /// Longer side of a trial's image, in pixels.
 inline constexpr int trial_side = 64;
 

@@ -13,14 +13,14 @@
 namespace phlux::cli {
 namespace {
 
-constexpr double share_for_trials = 0.03; // of the render's time
 constexpr double longest_trial = 1.0, shortest_trial = 0.2;
 
 // Seconds per trial; 0: no trials.
 double trial_seconds(const render::Statistics& statistics, std::size_t trials, bool insist) {
   if (insist) return longest_trial;
   const double before = statistics.seconds_setup + statistics.seconds_build_kernels;
-  const double seconds = share_for_trials * statistics.seconds_render / static_cast<double>(trials) - before;
+  const double seconds =
+      advice::share_for_trials * statistics.seconds_render / static_cast<double>(trials) - before;
   return seconds < shortest_trial ? 0.0 : std::min(seconds, longest_trial);
 }
 

@@ -1,4 +1,4 @@
-// What `phlux info` prints.
+// The description of a scene that `phlux info` prints.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What a scene contains, and how it would be rendered.
+// The contents of a scene, and the kernel and memory of its render.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -135,7 +135,7 @@ ordered_json lights_json(const scene::Scene& scene) {
   return list;
 }
 
-// Of meshes, textures and environment maps.
+// The memory of meshes, textures and the environment map on the host.
 std::size_t data_bytes(const scene::Scene& scene) {
   std::size_t bytes = 0;
   const auto add = [&](const auto& values) { bytes += values.size() * sizeof(values[0]); };

@@ -11,8 +11,8 @@ namespace phlux::cli {
 /// device.
 [[nodiscard]] render::Settings defaults_of(const RenderOptions& options, const cluster::Group& group);
 
-/// What all processes but the first do: launches for that one, which reports all failures and writes all
-/// files. Returns 0. Signals leave the process, as the first one ends the render.
+/// Runs launches for process 0 until the render ends; for all other processes. Process 0 reports failures and
+/// writes all files. Returns 0. Signals do not end the process: process 0 ends the render.
 [[nodiscard]] int work(cluster::Group& group, const RenderOptions& given);
 
 } // namespace phlux::cli

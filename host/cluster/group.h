@@ -11,7 +11,7 @@
 
 namespace phlux::cluster {
 
-/// What the environment says of the program that started this process.
+/// The number of processes that were started together, from the environment variables of MPI and Slurm.
 struct Started {
   int processes = 1, rank = 0;
   std::string by; ///< such as "mpirun"; empty if this process was started alone

@@ -1,7 +1,6 @@
 #include "cluster/team.h"
 
 #include <deque>
-#include <map>
 #include <optional>
 #include <utility>
 

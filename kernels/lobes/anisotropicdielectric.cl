@@ -13,7 +13,7 @@
   NUMBER(alpha_v, 0.02, 0.005, 1, "roughness along the second tangent")                                                \
   NUMBER(distribution, 0, 0, 1, "of the facets' normals: 0 beckmann, 1 ggx")
 #define ANISOTROPICDIELECTRIC_TRANSMITS 1
-#define ANISOTROPICDIELECTRIC_INDEX(m) ((m).front ? (m).int_ior / (m).ext_ior : (m).ext_ior / (m).int_ior)
+#define ANISOTROPICDIELECTRIC_INDEX(m) relative_index((m).front, (m).int_ior, (m).ext_ior)
 #define ANISOTROPICDIELECTRIC_NEEDS_TANGENTS 1
 #define ANISOTROPICDIELECTRIC_REFLECTIVITY_IS_ESTIMATE 1
 LOBE_STRUCT(Anisotropicdielectric, ANISOTROPICDIELECTRIC)

@@ -13,7 +13,7 @@
   COLOUR(specular_transmittance, 1, 0, 1, "factor of the transmittance")
 #define DIELECTRIC_HAS_DELTA 1
 #define DIELECTRIC_TRANSMITS 1
-#define DIELECTRIC_INDEX(m) ((m).front ? (m).int_ior / (m).ext_ior : (m).ext_ior / (m).int_ior)
+#define DIELECTRIC_INDEX(m) relative_index((m).front, (m).int_ior, (m).ext_ior)
 LOBE_STRUCT(Dielectric, DIELECTRIC)
 
 static inline LobeValue dielectric_evaluate(Dielectric m, Vec3 fixed, Vec3 generated) { return no_lobe_value(); }

@@ -12,7 +12,7 @@
   NUMBER(alpha, 0.1, 0.001, 1, "roughness: root mean square slope of the facets, times sqrt(2)")                       \
   NUMBER(distribution, 0, 0, 2, "of the facets' normals: 0 beckmann, 1 ggx, 2 phong")
 #define ROUGHDIELECTRIC_TRANSMITS 1
-#define ROUGHDIELECTRIC_INDEX(m) ((m).front ? (m).int_ior / (m).ext_ior : (m).ext_ior / (m).int_ior)
+#define ROUGHDIELECTRIC_INDEX(m) relative_index((m).front, (m).int_ior, (m).ext_ior)
 #define ROUGHDIELECTRIC_REFLECTIVITY_IS_ESTIMATE 1
 LOBE_STRUCT(Roughdielectric, ROUGHDIELECTRIC)
 

@@ -4,6 +4,12 @@
 
 #include "math/vectors.h"
 
+// The index of refraction of the medium beyond a surface, relative to that of the medium of a direction that lies on its
+// front or not. `inside` is the index behind the surface, `outside` that in front of it.
+static inline Real relative_index(Mask front, Real inside, Real outside) {
+  return front ? inside / outside : outside / inside;
+}
+
 // By the cosines of the angles of incidence and refraction; `index` is that of the medium beyond over that before.
 static inline Real fresnel_reflectance(Real cosine, Real refracted_cosine, Real index) {
   const Real bent = index * refracted_cosine, straight = index * cosine;
