@@ -228,7 +228,7 @@ INTEGRATOR_MUTANTS = [
     ("light seen by the camera not hidden from hits", "transport/eye_subpath.cl",
      "if (HAS_HIDDEN_EMITTERS) m &= s->edges > 1;", "", ("test_images", "hidden emitters*")),
     ("glass that is the same from inside", "math/fresnel.h", "return front ? inside / outside :",
-     "return front | 1 ? inside / outside :", GLASS_PLANE),
+     "return front | ALL_LANES ? inside / outside :", GLASS_PLANE),
     ("one polarisation", "math/fresnel.h", "return 0.5f * fma(s, s, p * p);", "return s * s;", GLASS_PLANE),
     ("a normal that forgets its other side", "transport/subpath.cl",
      "return HAS_TRANSMISSION ? above | below : above;", "return above;",
