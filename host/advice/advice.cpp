@@ -30,15 +30,17 @@ void conclude(Advice& advice, double seconds) {
   const double times = best != nullptr ? own.cost / best->cost : 0.0;
   advice.found = best != nullptr && (times >= least_gain || !finds_light);
   if (advice.found && !finds_light)
-    advice.words = fmt::format("try {}: in {:.2g} s this method finds no light, and that one does",
-                               best->method, seconds);
+    advice.words =
+        fmt::format("try {}: in a trial of {:.2g} s it found light, and this integrator found none",
+                    best->method, seconds);
   else if (advice.found)
-    advice.words = fmt::format("try {}: {} {:g} times as efficient in {:.2g} s", best->method,
+    advice.words = fmt::format("try {}: {} {:g} times as efficient in a trial of {:.2g} s", best->method,
                                is_comparable(own) ? "about" : "at least", rounded(times), seconds);
   else if (best != nullptr || own.reliability.trusted)
-    advice.words = fmt::format("no better integrator was found in {:.2g} s", seconds);
+    advice.words = fmt::format("no better integrator was found in trials of {:.2g} s", seconds);
   else
-    advice.words = fmt::format("{:.2g} s are too noisy to tell which integrator is better", seconds);
+    advice.words =
+        fmt::format("trials of {:.2g} s are too noisy to tell which integrator is better", seconds);
 }
 
 // The light that dominates the variance, if any.
@@ -52,9 +54,8 @@ std::string words_for(const std::vector<LightShare>& shares) {
 // Light that no sample of the method carries, which no trial shows.
 std::string unfound_light(const scene::Scene& scene, const render::Settings& settings) {
   if (settings.integrator == "path" && misses_light(scene, settings::integrator_named("path")))
-    return "; path finds no light of point, spot and directional emitters by way of mirrors and smooth "
-           "glass: "
-           "bidir does";
+    return "; path misses the light that point, spot and directional emitters send through mirrors and "
+           "smooth glass: bidir finds it";
   return {};
 }
 

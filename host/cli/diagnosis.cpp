@@ -76,7 +76,7 @@ void report(const Diagnosis& diagnosis, const film::Film& film, const render::St
         settings.seed);
   }
   if (settings.clamp)
-    spdlog::warn("--clamp {:g}: the image is biased: {:.3g}% of its light was taken away", *settings.clamp,
+    spdlog::warn("--clamp {:g}: the image is biased: {:.3g}% of its light was removed", *settings.clamp,
                  100.0 * film.clamped_share());
   if (quiet) return;
   const film::Reliability& r = diagnosis.reliability;

@@ -108,7 +108,7 @@ void add_files(CLI::App& app, RenderOptions& options) {
   add_flag(
       app, "--moments",
       "adds the channels variance.R, .G and .B (variance of the mean) and reliability (predicted probability "
-      "that mean +- 1.96 standard errors holds the right value)",
+      "that the interval mean +- 1.96 standard errors contains the true value)",
       options.moments);
   add_flag(
       app, "--advise",

@@ -184,7 +184,8 @@ std::vector<std::string> reasons_for_doubt(const Reliability& r, double samples_
   if (!(r.variance > 0.0)) return {"all samples are equal: rare contributions may be missing"};
   std::vector<std::string> result;
   if (r.coverage < least_coverage)
-    result.push_back(fmt::format("95% intervals hold in {:.0f}% of the pixels", 100.0 * r.coverage));
+    result.push_back(
+        fmt::format("95% intervals contain the true value in {:.0f}% of the pixels", 100.0 * r.coverage));
   if (r.variance_error > largest_variance_error)
     result.push_back(fmt::format("about {:.2g} samples dominate the variance",
                                  1.0 / (r.variance_error * r.variance_error)));

@@ -28,8 +28,8 @@ TEST_CASE("the advice says so if no method is better, or if too few samples tell
   const auto words = [](const char* scene, double seconds) {
     return advice::advise(shipped(scene, 64, 64), settings_for(16), seconds).words;
   };
-  CHECK(words("cornell-box", 0.3) == "no better integrator was found in 0.3 s");
-  CHECK(words("caustic", 1e-4) == "0.0001 s are too noisy to tell which integrator is better");
+  CHECK(words("cornell-box", 0.3) == "no better integrator was found in trials of 0.3 s");
+  CHECK(words("caustic", 1e-4) == "trials of 0.0001 s are too noisy to tell which integrator is better");
 }
 
 TEST_CASE("the light that causes the variance is named") {

@@ -283,7 +283,7 @@ TEST_CASE("An unreliable error is one line: what it may be, and what helps; --qu
   CHECK(std::ranges::count(err.substr(start), '\n') == 1);
   CHECK_THAT(err.substr(start), Catch::StartsWith("phlux: warning: the relative standard error of ") &&
                                     Catch::Contains("% may be ") &&
-                                    Catch::Contains("95% intervals hold in ") &&
+                                    Catch::Contains("95% intervals contain the true value in ") &&
                                     Catch::Contains("--advise") && Catch::Contains("--clamp"));
   const nlohmann::json unreliable = place.json("stats.json");
   CHECK(unreliable["reliability"]["trusted"] == false);
