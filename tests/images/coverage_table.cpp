@@ -1,9 +1,10 @@
-// Whether renders warn of the error estimates that fail: over scenes, methods, numbers of samples and seeds,
-// how many 95% intervals (mean +- t standard errors) hold the right value, and what film::reliability_of()
+// Whether renders warn of unreliable error estimates: over scenes, methods, numbers of samples and seeds, how
+// many 95% intervals (mean +- t standard errors) contain the true value, and what film::reliability_of()
 // predicts.
 //   PHLUX_COVERAGE_SEEDS=20 PHLUX_COVERAGE_TABLE=coverage.csv test_images "[.coverage]"
 // writes a line for each render and prints the share of the renders that are not trusted, for those whose
-// intervals hold in 93% to 97% of the pixels and for those below 85%. Two hours on one core for 50 seeds.
+// intervals contain the true value in 93% to 97% of the pixels and in less than 85%. Two hours on one core
+// for 50 seeds.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -148,8 +149,9 @@ TEST_CASE("renders whose intervals fail are not trusted, and those whose interva
            "error,"
            "variance_error,trusted\n";
   Tally all;
-  std::string text = "| scene | warned, of 93% to 97% | warned, of below 85% | stated / right error | "
-                     "predicted / right error |\n|---|---|---|---|---|\n";
+  std::string text =
+      "| scene | warnings, of good estimates | warnings, of bad estimates | stated / true error | "
+      "predicted / true error |\n|---|---|---|---|---|\n";
   for (const Case& of : cases) {
     if (!only.empty() && of.scene != only) continue;
     const scene::Scene scene =
