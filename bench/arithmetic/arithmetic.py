@@ -124,16 +124,16 @@ def main():
                             ("arithmetic-sine", partial(draw_powers, rows, "sine")),
                             ("arithmetic-geometry", partial(draw_plain, rows)),
                             ("arithmetic-functions", partial(draw_functions, rows))])
-    how = ("Points are root mean square errors; the lines end at the largest errors. Left and down is better. A ring marks the "
-           "formula that the kernels use.")
+    how = ("Points are root mean square errors; lines end at the largest errors. Points to the left and below are better. A ring "
+           "marks the formula that the kernels use.")
     style.section(
         folder, "arithmetic", title="Arithmetic", order=40,
-        text=["Formulas for the same value in float32, compared with float64 from the same float32 inputs. Times are of the whole "
-              "device by its clock, in a loop over registers, minus the time of the empty loop: medians over rounds in which the "
-              "formulas alternate. They are accurate to about a tenth of a nanosecond."],
+        text=["Several formulas compute the same value in float32; they are compared with float64 from the same float32 inputs. Times "
+              "are per value on the whole device, by its clock, in a loop on registers, minus the time of the empty loop. They are "
+              "medians over rounds in which the formulas alternate, accurate to about a tenth of a nanosecond."],
         summary={"columns": ["value", "n", "formula in the kernels", "ns", "rms relative error", "largest error, ulp",
                              "fastest with at most twice the error", "speedup"],
-                 "rows": comparison(rows), "note": "ulp: units in the last place of the value that the error is relative to"},
+                 "rows": comparison(rows), "note": "ulp: units in the last place of the value by which the error is divided"},
         charts=[{"svg": "arithmetic-lobe.svg", "title": "Power of the lobe", "caption": how},
                 {"svg": "arithmetic-sine.svg", "title": "The sine of a lobe sample", "caption": how},
                 {"svg": "arithmetic-geometry.svg", "title": "Frames, cosine and sine, offsets",

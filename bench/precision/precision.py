@@ -97,33 +97,34 @@ def main():
     rows = [row for row in style.read(folder, "precision.csv") if row.times_as_fast > 0]
     drawings = [("precision-tradeoff", partial(draw_tradeoff, rows))]
     charts = [{"svg": "precision-tradeoff.svg", "title": "Error of float32 against its speed",
-               "caption": "A point for each scene, integrator and WIDTH: difference of two images of the same samples, divided by "
-                          "the noise of 4,096 samples. Lines end at the upper bound of the systematic part (two standard "
-                          "errors) where that is larger. Right and below 1 is better."}]
+               "caption": "Each point is a scene, an integrator and a WIDTH: the difference of two images with the same samples in "
+                          "float32 and float64, divided by the noise of 4,096 samples. A line ends at the upper bound of the "
+                          "systematic part (two standard errors), if that is larger. Points to the right and below 1 are better."}]
     if any(row.integrator == "path" and row.variance_per_sample > DARK for row in rows):
         drawings.append(("precision-time", partial(draw_time, rows)))
         charts.append({"svg": "precision-time.svg", "title": "Error against render time, path tracing",
-                       "caption": "Noise falls with the square root of the time; the systematic error of float32 remains. Where it "
-                                  "dominates, float64 is more accurate for the same time. Dotted: upper bound (two standard "
-                                  "errors). Vertical line: 4,096 samples in float32. Times are processor seconds."})
+                       "caption": "Noise decreases with the square root of the time; the systematic error of float32 does not. Where "
+                                  "this error dominates, float64 is more accurate in the same time. Dotted: upper bound of the "
+                                  "systematic error (two standard errors). Vertical line: 4,096 samples in float32. Times are "
+                                  "processor seconds."})
     style.save_all(folder, drawings)
     table = [[row.scene, row.integrator, row.width, row.difference, row.systematic, row.systematic_most, row.mean_difference,
              row.times_as_fast, row.break_even_samples] for row in rows]
     style.section(
-        folder, "precision", title="Float32 against float64", order=45,
+        folder, "precision", title="Float32 compared with float64", order=45,
         text=["The same seed gives the same samples in both precisions, except for rounding. The difference of two such images is "
-              "the error of float32. It is mostly far below their common noise. A part of it is systematic. The rest comes from "
-              "samples that rounding sent along another path, which is no bias: each reflection amplifies the rounding error of "
-              "the previous ones, so that very long paths may have nothing in common at the end. A difference near 1 only says "
-              "this, and then the systematic part is not known more accurately. Both are root mean squares over pixels and "
-              "channels, in the measure of phlux compare.",
-              "Camera, materials and lights are rounded to float32 in both precisions, and so are the sums that go to the host. "
-              "Shapes are float64 in float64."],
-        summary={"columns": ["scene", "integrator", "WIDTH", "difference", "systematic", "upper bound", "of the image's mean",
+              "the error of float32, which is mostly far below the noise of the images. A part of the difference is systematic. "
+              "The rest comes from samples whose paths differ because of rounding, which is not a bias. Each reflection amplifies "
+              "the rounding error, so that very long paths may end at quite different places. If the difference is near 1, most "
+              "paths do, and the systematic part cannot be estimated. Both values are square roots of relative MSEs, as in phlux "
+              "compare.",
+              "Camera, materials and lights are rounded to float32 in both precisions, and so are the sums that are sent to the "
+              "host. Shapes are in float64 if the kernels are."],
+        summary={"columns": ["scene", "integrator", "WIDTH", "difference", "systematic", "upper bound", "difference of the means",
                              "speedup", "break even at"], "rows": table,
-                 "note": "Difference and systematic part are divided by the noise of 4,096 samples; the upper bound is two "
-                         "standard errors higher. Break even: samples per pixel in float64 from which on float64 is more "
-                         "accurate for the same time; a dash if no systematic error was found."},
+                 "note": "Difference and systematic part are divided by the noise of 4,096 samples; the upper bound is the "
+                         "systematic part plus two standard errors. Break even: number of samples per pixel in float64 above which "
+                         "float64 is more accurate in the same time; a dash if no systematic error was found."},
         charts=charts, tables=[{"csv": "precision.csv", "title": "All results"}])
 
 

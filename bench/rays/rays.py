@@ -45,14 +45,14 @@ def main():
     rows = style.read(folder, "rays.csv")
     style.save(folder, "rays-rates", lambda theme: draw_rates(rows, theme))
     style.section(
-        folder, "rays", title="Rays against Embree", order=30,
-        text=["Phlux and Embree trace the same rays in one process, alternating, with equally many threads. Rates are medians of "
+        folder, "rays", title="Rays, compared with Embree", order=30,
+        text=["Phlux and Embree trace the same rays in one process, alternating, with the same number of threads. Rates are medians of "
               "seven rounds. Camera rays are coherent, bounce rays are not. Shadow rays only test for any intersection."],
         summary={"columns": ["triangles", "kind", "million rays/s", "Embree", "ratio"],
                  "rows": [[row.triangles, row.kind, row.mrays_per_s, row.embree_mrays_per_s, row.ratio] for row in rows],
-                 "note": "ratio: rate of Phlux over that of Embree"},
+                 "note": "ratio: rate of Phlux divided by that of Embree"},
         charts=[{"svg": "rays-rates.svg", "title": "Rays per second",
-                 "caption": "Numbers: rate of Phlux over that of Embree, median over the rounds."}],
+                 "caption": "Numbers: rate of Phlux divided by that of Embree, median over the rounds."}],
         tables=[{"csv": "rays.csv", "title": "All results"}])
 
 

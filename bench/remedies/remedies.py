@@ -66,13 +66,13 @@ def main():
     style.section(
         folder, "remedies", title="Techniques that reduce variance", order=55,
         text=["Each technique lowers the variance and leaves the mean unchanged. Renders with and without it alternate, with the same "
-              "seeds. The gain in efficiency is (variance x time) before / after; its standard error comes from those of the two "
-              "variances. If few samples dominate the variance before, the gain is a lower bound."],
+              "seeds. The gain is (variance x time) without the technique, divided by that with it; its standard error comes from "
+              "those of the two variances. If a few samples dominate the variance without it, the gain is a lower bound."],
         summary={"columns": ["remedy", "scene", "method", "gain", "standard error", "variance before", "after",
                              "rays per sample before", "after"], "rows": table,
-                 "note": "Variances are of one sample per pixel, relative to the image."},
+                 "note": "Variances are relative variances of one sample per pixel."},
         charts=[{"svg": "remedies.svg", "title": "Gain of each technique",
-                 "caption": "Error bars are two standard errors. Below 1 a technique costs more time than it saves."}],
+                 "caption": "Error bars are two standard errors. With a gain below 1, a technique costs more time than it saves."}],
         tables=[{"csv": "remedies.csv", "title": "All results"}])
 
 

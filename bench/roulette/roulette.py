@@ -80,12 +80,12 @@ def main():
     style.save_all(folder, [("roulette", partial(draw, rows))])
     style.section(
         folder, "roulette", title="Russian roulette in whole renders", order=56,
-        text=["Variance of one sample times the rays that it costs, relative to --roulette strategy --rr-depth 5, from renders with "
-              "the same seeds. Rays are counted, so that other programs on the machine change nothing. Standard errors come from the "
-              "jackknife over the rounds."],
+        text=["Results are the variance of one sample times its number of rays, relative to --roulette strategy --rr-depth 5, from "
+              "renders with the same seeds. Rays are counted, so that other programs on the machine do not matter. Standard errors "
+              "come from the jackknife over the rounds."],
         summary=summary(folder, rows),
         charts=[{"svg": "roulette.svg", "title": "Variance x rays of each roulette",
-                 "caption": "Left of 1 fewer rays are needed for the same error. Open marks: roulette from the first reflection on. "
+                 "caption": "Left of 1, fewer rays are needed for the same error. Open marks: roulette from edge 1 on. "
                             "Error bars are two standard errors."}],
         tables=[{"csv": "roulette.csv", "title": "All results"}])
 

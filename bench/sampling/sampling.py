@@ -30,8 +30,8 @@ def factors_summary(rankings):
     columns = ["strategy"] + [f"{light}, {'roulette' if roulette else 'no roulette'}" for light, roulette, *_ in rankings]
     of_strategies = [{row.strategy: row for row in rows} for rows in rankings.values()]
     lines = [[strategy] + [factor_cell(rows.get(strategy)) for rows in of_strategies] for strategy in STRATEGIES]
-    note = ("Variance × cost over that of the best strategy, which is the ratio of the times to the same error, with its 95% "
-            "interval, corrected for the number of strategies. Strategies are tied if the interval reaches 1.")
+    note = ("Variance × cost, divided by that of the best strategy: the ratio of the times to the same error. In brackets: its 95% "
+            "confidence interval, corrected for the number of strategies. Strategies are tied if it contains 1.")
     return columns, [line for line in lines if any(line[1:])], note
 
 
@@ -46,8 +46,8 @@ def counts_summary(rankings):
                     for row in some if row.strategy == strategy and row.compared]
             line += [sum(row.verdict == "best" for row in rows), sum(row.verdict == "tied" for row in rows),
                      float(np.quantile([min(row.factor, LARGEST_FACTOR) for row in rows], 0.9)) if rows else ""]
-    note = ("Best and tied: in how many cases of material, angle and light. Factor: 90th percentile over the cases of variance × "
-            f"cost over that of the best of the case, where {LARGEST_FACTOR} stands for more too.")
+    note = ("Best, tied: number of cases (material, angle and light). Factor: variance × cost, divided by that of the best strategy "
+            f"of the case; the 90th percentile over all cases, at most {LARGEST_FACTOR}.")
     return columns, [line for line in lines.values() if any(line[1:])], note
 
 
@@ -55,23 +55,23 @@ def summary_of(folder, rows):
     rankings = groups_of(rows, lambda row: (row.integrand, row.roulette, row.material, row.cell))
     few = len(rankings) <= MOST_RANKINGS
     columns, lines, note = factors_summary(rankings) if few else counts_summary(rankings)
-    note += f" Cost: the sampler and {rows[0].ray_ns:.3g} ns for each ray that is traced on."
+    note += f" Cost: time of the sampler plus {rows[0].ray_ns:.3g} ns for each reflected ray."
     return {"text": style.read_verdict(folder, "sampling"), "columns": columns, "rows": lines, "note": note}
 
 
 def write_section(folder, rows, charts):
     text = [
         "Each strategy samples a direction and estimates the reflected radiance of one material for one direction. The best "
-        "strategy has the least variance × cost, which is the time to a given error. The cost is the time of the sampler and "
-        f"of a ray for each sample that is traced on, {rows[0].ray_ns:.3g} ns. By default that is about what a ray through half "
-        "a million triangles takes; --ray-cost sets it.",
-        "A renderer samples without roulette before edge 5 (--rr-depth), and with it from there on. The variances with and "
-        "without roulette differ by orders of magnitude, and so may the best strategy.",
-        "lobe-estimate-printed is the estimate as CW 197 prints it. It is biased: it loses the part of the lobe that its own "
-        "sample finds below the surface. Its variance is infinite as well, but diverges only logarithmically (a sample that is "
-        "drawn with probability e has weight 1/e, and e can be arbitrarily small), so its variance is left empty and it is not "
-        "compared. A row is unresolved if the standard error of its variance is above a third of it, that is, if too few "
-        "samples hit the lobe.",
+        "strategy has the least variance × cost, which is proportional to the time to a given error. The cost of a sample is the "
+        f"time of the sampler, plus {rows[0].ray_ns:.3g} ns for a ray if the sample is reflected. By default this is about the time "
+        "of a ray through half a million triangles; --ray-cost sets it.",
+        "By default a render samples without roulette before edge 5 (--rr-depth), and with it from there on. The variances with "
+        "and without roulette differ by orders of magnitude, and the best strategies differ too.",
+        "lobe-estimate-printed is the estimate as CW 197 prints it. It is biased: its estimate of the reflectivity of the lobe is 0 "
+        "if the sample for that estimate is below the surface, and the lobe is then never chosen. Its variance is infinite too: "
+        "a sample that is drawn with probability e has weight 1/e, and e can be arbitrarily small. The variance of N samples grows "
+        "only with the logarithm of N; it is left empty, and the strategy is not compared. A row is unresolved if the standard "
+        "error of its variance is above a third of it, or if too few samples are in the lobe.",
     ]
     columns = ["strategy", "kd", "ks", "n", "theta_deg", "integrand", "bias_sigma", "variance", "variance_standard_error",
                "rays_per_sample", "ns_per_sample", "marks"]
@@ -98,21 +98,21 @@ def main():
         for light in lights:
             chart(f"sampling-winners-{light}", partial(draw_winners, rows, grids, light),
                   f"Best strategy in {LIGHTS[light]}",
-                  "The number is variance × cost of the second best strategy over that of the best (≫: over 1000). "
-                  "Pale cells without a number: the best is tied with others.")
+                  "The number is variance × cost of the second best strategy, divided by that of the best (≫: more than 1000). "
+                  "In pale cells without a number the best is tied with others.")
     for light in lights:
         chart(f"sampling-tradeoff-{light}", partial(draw_tradeoff, rows, cases, light),
               f"Variance against cost in {LIGHTS[light]}",
-              "Bars: 95% intervals. On a grey line the time to a given error is the same: the multiple of that of the best "
-              "strategy that has variance. Strategies outside the frame are at its edge, with their number after an arrow. "
-              "Bold: the best, or tied with it.")
+              "Bars: 95% confidence intervals. On each grey line the time to a given error is constant; its label is this time "
+              "divided by that of the best strategy with any variance. Strategies outside the frame are drawn at its edge, with "
+              "their value after an arrow. Bold: the best strategy, and those tied with it.")
     if grids:
         material = (0.4, 0.4) if (0.4, 0.4) in grids else next(iter(grids))
         for light in lights:
             chart(f"sampling-cost-{light}", partial(draw_heat, rows, material, *grids[material], light),
                   f"Time of each strategy without roulette in {LIGHTS[light]}",
                   "Nanoseconds until the variance of the mean equals the square of the mean. ∞: the variance is suspected to "
-                  "be infinite; b: biased; ?: too few samples; –: not measured, too many proposals.")
+                  "be infinite; b: biased; ?: too few samples; –: not measured, because it needs too many proposals.")
     style.save_all(folder, drawings)
     write_section(folder, rows, charts)
 

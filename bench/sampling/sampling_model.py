@@ -42,14 +42,13 @@ def write_section(folder, model, ranking):
     table = f"sampling-{model}.csv"
     columns = ["strategy", "theta_deg", "samples", "mean", "exact", "bias_sigma", "variance", "variance_standard_error",
                "rays_per_sample", "ns_per_sample", "variance_times_cost", "marks"]
-    text = [f"The model {model} sampled by itself, and the same function sampled by the cosine and uniformly. In the table, "
-            "exact is the reflectivity by quadrature of the function, and bias_sigma is the difference of the mean from it in "
-            "standard errors."]
+    text = [f"The strategy {model} is the sampling of the model itself; cosine and uniform sample the same function. In the table, "
+            "exact is the reflectivity by quadrature of the function, and bias_sigma is (mean - exact) in standard errors."]
     if any(row.strategy == "exact-split" for row in ranking):
-        text.append("exact-split is the model's own sampling with the exact reflectivities of its diffuse and its specular part "
-                    "in place of estimates: for the choice between them, and for roulette.")
+        text.append("exact-split is the sampling of the model, but with the exact reflectivities of its diffuse and its specular "
+                    "part instead of estimates, in the choice between the parts and in roulette.")
     chart = {"svg": f"sampling-{model}.svg", "title": "Variance and cost of a sample without roulette",
-             "caption": f"The cost is the time of the sampler and {ranking[0].ray_ns:.3g} ns for each ray that is traced on."}
+             "caption": f"The cost is the time of the sampler plus {ranking[0].ray_ns:.3g} ns for each reflected ray."}
     style.section(folder, f"sampling-{model}", title=f"Sampling {model}", order=21, charts=[chart],
                   text=style.read_verdict(folder, f"sampling-{model}") + text,
                   tables=[{"csv": table, "title": "All results", "columns": columns}])

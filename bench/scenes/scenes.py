@@ -73,7 +73,7 @@ def summary(folder, scenes):
         following = next(iter(ranked(methods, "slower")), None)
         default = next((method for method in methods if method.variant == "path mis" and method.sound), None)
         open_ones = ranked(methods, "open")
-        rows.append([scene, names_of(first) or "none is known to be right", round(first[0].cost, 6) if first else None,
+        rows.append([scene, names_of(first) or "none is sound", round(first[0].cost, 6) if first else None,
                      following.name if following else "", ratio_text(following) if following else "",
                      ratio_text(default) if default and first else "", names_of(open_ones),
                      names_of(method for method in methods if method.verdict == "biased"),
@@ -82,24 +82,24 @@ def summary(folder, scenes):
             "columns": ["scene", "least time (several: tied)", "µs to unit variance", "the next", "its time / least",
                         "time of path mis / least", "too little time to tell", "biased", "refused"],
             "rows": rows,
-            "note": "Time: variance per sample times seconds per sample. An image of N pixels reaches relative MSE e after N / e "
-                    "times that time. In brackets: interval; all intervals of a scene are right together with probability 95%. "
-                    "Methods are tied if their interval reaches 1."}
+            "note": "Time: variance per sample times seconds per sample. An image of N pixels reaches the relative MSE e after N / e "
+                    "times this time. In brackets: confidence interval; with probability 95% all intervals of a scene are right. "
+                    "Methods are tied if their interval contains 1."}
 
 
 TEXT = [
     "Every method renders each scene for the same total time. The methods alternate, and each round has a new seed. The "
-    "variance is that of one sample per pixel, relative to the reference as in phlux compare: squared error / (reference² + "
+    "variance is the expected relative MSE with one sample per pixel, as in phlux compare: squared error / (reference² + "
     "0.0001), averaged over pixels and channels. A sample is one path; for light, one light path per pixel of the image. "
-    "Variance per sample times seconds per sample is the time to unit variance: the most efficient method has the least. On CPUs "
-    "processor time counts, which excludes other programs. The intervals of the ratios are bootstrapped over the rounds.",
-    "A variance is suspect, that is possibly infinite, if its standard error is above a tenth of it while the largest 0.1% of "
-    "the errors of single samples hold more than 30% of the squared error; or if the variance from renders with many samples is "
-    "at least twice that from renders with one sample. Its measured value is a lower bound. A method is biased if it is known "
-    "to be, or if its mean or its pixels differ from the reference by 4.5 standard errors of all that is uncertain, the "
-    "reference included. It is undecided if its variance is known to less than 25% or a bias of 10% would not be found.",
+    "Variance per sample times seconds per sample is the time to unit variance; it is least for the most efficient method. On "
+    "CPUs it is processor time, which excludes other programs. The intervals of ratios are bootstrapped over the rounds.",
+    "A variance is suspect, that is possibly infinite, if its standard error is above a tenth of it and the largest 0.1% of "
+    "the errors of single samples cause more than 30% of the squared error; or if the variance from renders with many samples is "
+    "at least twice that from renders with one sample. Its measured value is then a lower bound. A method is biased if it is known "
+    "to be, or if its mean or its pixels differ from the reference by 4.5 standard errors, those of the reference included. It is "
+    "undecided if the standard error of its variance is above 25%, or if a bias of 10% would not be found.",
     "The reference is rendered by the method with the least time to unit variance in a trial. The dashed line in the "
-    "convergence charts is the error of the reference: measured errors near it or below are not meaningful.",
+    "convergence charts is the error of the reference: errors near it or below it are not meaningful.",
 ]
 
 
@@ -111,15 +111,15 @@ def scene_charts(folder, scene, methods, points):
                 (f"scenes-{scene}-times", lambda theme: draw_times(scene, methods, theme))]
     charts = [
         {"heading": scene, "svg": f"scenes-{scene}-efficiency.svg", "title": f"{scene}: speed and accuracy",
-         "caption": "Down: less variance per sample; right: more samples per second. Methods on one grey line have the same time "
-                    "to unit variance, so the method furthest to the lower right is the most efficient. Error bars: standard "
-                    "error of the variance, range of the speed over the rounds."},
+         "caption": "Lower points have less variance per sample; points to the right have more samples per second. On each grey "
+                    "line the time to unit variance is constant, so that the method furthest to the lower right is the most "
+                    "efficient. Error bars: standard error of the variance, range of the speed over the rounds."},
         {"svg": f"scenes-{scene}-convergence.svg", "title": f"{scene}: error against time",
          "caption": f"Mean and range over {row.rounds:.0f} seeds, {row.image} pixels. Reference: {row.reference_by}, "
                     f"{row.reference_seconds:.3g} s."},
         {"svg": f"scenes-{scene}-times.svg", "title": f"{scene}: time to unit variance",
-         "caption": "Variance per sample times seconds per sample; less is better. Black lines: interval of the ratio to the best "
-                    "method."},
+         "caption": "Variance per sample times seconds per sample; less is better. Black lines: confidence interval of the ratio to "
+                    "the best method."},
     ]
     more_drawings, more_charts = sheets(folder, scene, methods)
     return drawings + more_drawings, charts + more_charts

@@ -42,13 +42,13 @@ def diagonal(grid):
 
 TEXT = [
     "One room with a disk light of constant power beside the camera, and two panels with a Phong lobe: one casts a caustic on the "
-    "walls, the other shows the highlight of the light. The exponent of the lobe and the radius of the light vary. In every "
-    "cell there is an efficient technique for each kind of path; path tracing and light tracing each lack some of them.",
+    "walls, the other shows a reflection of the light. The exponent of the lobe and the radius of the light vary. In every cell "
+    "bidirectional path tracing has an efficient technique for each path; path tracing and light tracing each lack some of them.",
     "Numbers are microseconds to unit variance: variance per sample (relative, as in the section on scenes) times seconds per "
     "sample, in processor time if the device is a CPU. A variance is suspect, that is possibly infinite, if the renders disagree "
-    "on it, if it grows with the number of samples, or if no sample has found the light. The number is then a lower bound.",
-    "The reference of each cell is rendered by bidir balance with other seeds. All methods are unbiased. One whose image still "
-    "differs from the reference has rare large samples that no round has drawn, and is marked as biased.",
+    "about it, if it grows with the number of samples, or if no sample has found the light. The number is then a lower bound.",
+    "The reference of each cell is rendered by bidir balance with other seeds. All methods are unbiased. If an image still "
+    "differs from the reference, its method has rare large samples that no round has drawn; it is marked as biased.",
 ]
 
 
@@ -71,9 +71,9 @@ def map_charts(grid):
     drawings = [("stability-best", partial(draw_best, grid)), ("stability-cost", partial(draw_costs, grid))]
     charts = [
         {"svg": "stability-best.svg", "title": "The best method",
-         "caption": "Upper number: time of the second best method over that of the best; pale if they are tied, or if a suspect "
-                    "or undecided method may need less time. Lower number: the same for the best method of another integrator; "
-                    "≥: a lower bound, its variance is suspect."},
+         "caption": "Each cell names the best method. Upper number: time of the second best method, divided by that of the best. The "
+                    "cell is pale if they are tied, or if a suspect or undecided method may need less time. Lower number: the same "
+                    "for the best method of another integrator; ≥: its variance is suspect, and this is a lower bound."},
         {"svg": "stability-cost.svg", "title": "Each method",
          "caption": "Microseconds to unit variance. Hatched: the variance is suspect and the number is a lower bound; ?: no "
                     "sample found light. Crossed: biased, the image differs from the reference by more than its variance "

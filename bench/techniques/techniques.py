@@ -1,4 +1,4 @@
-"""Draws the charts of `phlux bench techniques` (what each technique (s, t) brings and costs); writes its section of the report.
+"""Draws the charts of `phlux bench techniques` (share of each technique (s, t) in light, variance and rays); writes its section of the report.
 
     python3 techniques.py FOLDER
 """
@@ -65,12 +65,12 @@ def main():
     style.section(
         folder, "techniques", title=f"Techniques of {method}", order=12,
         text=["A technique (s, t) makes paths from s vertices of a light subpath and t of an eye subpath. Its share of the variance "
-              "is the covariance of its weighted contributions with the image, over the variance of the image, so that all shares "
-              "add up to 100%; it is negative where a technique compensates others. The rays of a technique are its shadow rays; "
-              "the rest are those of the subpaths, which all techniques use."],
+              "is the covariance of its weighted contributions with the image, divided by the variance of the image, so that all "
+              "shares add up to 100%; the share of a technique that compensates for others is negative. The rays of a technique are "
+              "its shadow rays; the other rays are those of the subpaths, which all techniques use."],
         summary={"text": style.read_verdict(folder, "techniques"), "columns": ["scene", "technique", "% of the variance", "+-", "% of the light", "% of the rays"], "rows": summary,
                  "note": f"The technique of {method} that causes the largest part of the variance; +- is a 95% interval."},
-        charts=[{"svg": f"techniques-{scene}.svg", "title": f"{scene}: what each technique brings and costs",
+        charts=[{"svg": f"techniques-{scene}.svg", "title": f"{scene}: share of each technique",
                  "caption": "Techniques with at least 1% of the variance or of the light. Error bars are 95% intervals."} for scene in scenes],
         tables=[{"csv": "techniques.csv", "title": "All techniques"}])
 

@@ -108,9 +108,10 @@ double seconds_of_render(const render::Settings& settings, double pixels,
 std::string words_for(const std::vector<Candidate>& sorted) {
   const Candidate& best = sorted.front();
   if (!is_comparable(best.trial)) return fmt::format("{}: trials were too noisy to tell", best.trial.method);
-  if (sorted.size() == 1) return fmt::format("{}: no other method can render this", best.trial.method);
+  if (sorted.size() == 1)
+    return fmt::format("{}: no other method can render this scene with these options", best.trial.method);
   if (!is_comparable(sorted[1].trial))
-    return fmt::format("{}: in trials, the error of no other method could be trusted", best.trial.method);
+    return fmt::format("{}: in trials, no other method had a reliable error estimate", best.trial.method);
   const double times = sorted[1].trial.cost / best.trial.cost;
   return fmt::format("{}: in trials {}as efficient as {}", best.trial.method,
                      times < 1.1 ? "about " : fmt::format("{:.2g} times ", times), sorted[1].trial.method);
@@ -142,8 +143,9 @@ MethodChoice choose_method(scene::Scene scene, const settings::Choices& choices,
   if (candidates.size() == 1 || share_for_trials * seconds_of_render(settings, pixels, {}) < first_seconds)
     return {.texts = candidates.front().texts,
             .words = fmt::format("{}: {}", method_of(settings),
-                                 candidates.size() == 1 ? "no other method can render this"
-                                                        : "the render is too short for trials")};
+                                 candidates.size() == 1
+                                     ? "no other method can render this scene with these options"
+                                     : "the render is too short for trials")};
   for (Candidate& c : candidates) trials.run(c, first_samples);
   std::erase_if(candidates, [](const Candidate& c) { return !c.trial.refusal.empty(); });
   if (candidates.empty()) throw UsageError("no integrator can render this scene");

@@ -152,23 +152,23 @@ std::string session_bytes(const Session& session) {
   throw FileError(fmt::format("{}: {}", file.string(), what));
 }
 
-constexpr const char* remedy = "go on from an earlier checkpoint";
+constexpr const char* remedy = "resume from an earlier checkpoint";
 
 // The file after its first line, which has been checked, and the number of its bytes.
 std::uint64_t open_checked(const std::filesystem::path& file, std::ifstream& stream) {
   std::error_code error;
   if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error))
-    fail(file, "is no file: a checkpoint is needed");
+    fail(file, "is not a file: a checkpoint is needed");
   stream.open(file, std::ios::binary);
   if (!stream) fail(file, fmt::format("cannot be read: {}: a checkpoint is needed", std::strerror(errno)));
   std::string line(Digest().first_line().size(), '\0');
   stream.read(line.data(), static_cast<std::streamsize>(line.size()));
   line.resize(static_cast<std::size_t>(stream.gcount()));
-  if (!line.starts_with(magic)) fail(file, "is no checkpoint of phlux: a checkpoint is needed");
+  if (!line.starts_with(magic)) fail(file, "is not a checkpoint of phlux: a checkpoint is needed");
   const std::string version = line.substr(magic.size(), line.find(' ', magic.size()) - magic.size());
   if (version != std::to_string(format_version))
     fail(file, fmt::format("is a checkpoint of format {}, and this is phlux " PHLUX_VERSION
-                           ", which reads format {}: go on with the phlux that wrote it",
+                           ", which reads format {}: use the phlux that wrote it",
                            version, format_version));
   Digest digest;
   std::vector<char> bytes(1 << 20);
@@ -179,7 +179,7 @@ std::uint64_t open_checked(const std::filesystem::path& file, std::ifstream& str
   if (line != digest.first_line()) {
     const bool truncated =
         !line.ends_with('\n') || line.substr(line.rfind(' ')) != fmt::format(" {:020}\n", digest.length());
-    fail(file, fmt::format("{}: {}", truncated ? "is not whole" : "is damaged", remedy));
+    fail(file, fmt::format("{}: {}", truncated ? "is incomplete" : "is damaged", remedy));
   }
   stream.clear();
   stream.seekg(static_cast<std::streamoff>(line.size()));
@@ -260,8 +260,7 @@ Checkpoint read(const std::filesystem::path& file) {
     left -= std::min(left, line.size() + session_length);
     return {std::move(session), read_film(stream, left)};
   } catch (const UsageError& error) {
-    fail(file, fmt::format("is not of this version of phlux: {}: go on with the phlux that wrote it",
-                           error.what()));
+    fail(file, fmt::format("is not of this version of phlux: {}: use the phlux that wrote it", error.what()));
   } catch (const cereal::Exception&) { // the digest matches, but phlux did not write the file
     fail(file, fmt::format("is damaged: {}", remedy));
   }

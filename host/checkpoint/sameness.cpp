@@ -119,7 +119,7 @@ void check_state(const Checkpoint& earlier, const render::Settings& now, const s
   }
   if (!wrong.empty())
     throw FileError(fmt::format(
-        "{}: is damaged: {} cannot be of this render: go on from an earlier checkpoint", file, wrong));
+        "{}: is damaged: {} cannot be of this render: resume from an earlier checkpoint", file, wrong));
 }
 
 } // namespace
@@ -133,9 +133,10 @@ void check_same(const Checkpoint& earlier, const Session& now, int width, int he
     throw FileError(fmt::format("{}: is of {}x{} pixels, not {}x{}: give `size` {}x{}", file.string(),
                                 film.width(), film.height(), width, height, film.width(), film.height()));
   if (earlier.session.scene_digest != now.scene_digest)
-    throw FileError(fmt::format("{}: is of another scene, {} as it was then: give that, with the definitions "
-                                "it had",
-                                file.string(), earlier.session.scene));
+    throw FileError(
+        fmt::format("{}: is of another scene: give {} as it was when the checkpoint was written, with "
+                    "the same definitions",
+                    file.string(), earlier.session.scene));
   check_settings(earlier.session.settings, now.settings, file.string());
   check_state(earlier, now.settings, file.string());
   check_amount(earlier.session.state.position, now.settings, file.string());

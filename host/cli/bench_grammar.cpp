@@ -91,7 +91,7 @@ void add_amount(CLI::App& app, bench::ComparisonOptions& options, const std::str
   });
   add_seed(app, "the first round", options.seed);
   app.footer(
-      "Results with the same settings in the folder are not measured again: an interrupted run resumes.");
+      "Results in the folder that have the same settings are kept, so that an interrupted run resumes.");
 }
 
 template<class Options>
@@ -128,7 +128,7 @@ std::vector<std::string> split(const std::string& text) {
 
 void add_rays(CLI::App& bench, std::optional<Command>& command) {
   CLI::App& app =
-      *bench.add_subcommand("rays", "Measures ray traversal against Embree on the same rays: rays.csv");
+      *bench.add_subcommand("rays", "Compares ray traversal with Embree on the same rays: rays.csv");
   const auto options = std::make_shared<bench::RaysOptions>();
   add_common(app, *options);
   add_value(app, "--triangles", "N,N,...", "numbers of triangles; default: 36,20000,500000",
@@ -156,14 +156,13 @@ bench::Case case_of(const std::string& text) {
 }
 
 void add_sampling(CLI::App& bench, std::optional<Command>& command) {
-  CLI::App& app = *bench.add_subcommand("sampling", "Measures mean, variance, rays and time per sample of "
-                                                    "every directional sampling strategy: sampling.csv, "
-                                                    "sampling-no-roulette.csv");
+  CLI::App& app = *bench.add_subcommand(
+      "sampling", "Measures every sampling strategy of the Phong model without a scene: sampling.csv");
   const auto options = std::make_shared<bench::SamplingOptions>();
   add_common(app, *options);
-  add_flag(app, "--quick", "13 cases with 2^18 samples per row", options->quick);
+  add_flag(app, "--quick", "13 materials and angles, with 2^18 samples per row of the table", options->quick);
   add_flag(app, "--fresh", "measures everything again instead of resuming an earlier run", options->fresh);
-  add_value(app, "--samples", "N", "samples per row; default: 2^19, or 2^18 with --quick",
+  add_value(app, "--samples", "N", "samples per row of the table; default: 2^19, or 2^18 with --quick",
             [options](const std::string& text) {
               constexpr std::uint64_t most = 1'000'000'000'000;
               options->samples = settings::whole_number("--samples", text, 1, most);
@@ -175,8 +174,8 @@ void add_sampling(CLI::App& bench, std::optional<Command>& command) {
              });
   add_values(
       app, "--case", "KD,KS,N,DEGREES",
-      "only this Phong material (diffuse and specular coefficient, exponent) and angle of incidence; may be "
-      "repeated; default: a grid",
+      "only this Phong material (kd, ks and exponent n) and angle of incidence; may be repeated; default: a "
+      "grid of materials and angles",
       [options](const std::string& text) { options->cases.push_back(case_of(text)); });
   add_values(app, "--integrand", "NAME",
              "only this incident light: constant, mirror-disk (a bright disk about the mirror direction) or "
@@ -187,8 +186,8 @@ void add_sampling(CLI::App& bench, std::optional<Command>& command) {
              });
   add_value(
       app, "--ray-cost", "NS",
-      "nanoseconds that each ray adds to the time of the sampler when strategies are ranked; default: the "
-      "time of 20 samples by lobe-ks, about what a ray through half a million triangles takes",
+      "time of a ray in nanoseconds, which is added to the time of the sampler when strategies are ranked; "
+      "default: the time of 20 samples by lobe-ks, about that of a ray through half a million triangles",
       [options](const std::string& text) {
         constexpr double most = 1e6;
         options->ray_ns = settings::number_within("--ray-cost", text, 0, most);
@@ -203,25 +202,24 @@ void add_arithmetic(CLI::App& bench, std::optional<Command>& command) {
       "arithmetic", "Measures error and speed of formulas for the kernels: arithmetic.csv");
   const auto options = std::make_shared<bench::ArithmeticOptions>();
   add_common(app, *options);
-  add_flag(app, "--quick", "2^15 instead of 2^18 values per formula, shorter timings", options->quick);
+  add_flag(app, "--quick", "2^15 instead of 2^18 values per formula; shorter timings", options->quick);
   measure_by(bench::measure_arithmetic, app, command, options);
 }
 
 void add_precision(CLI::App& bench, std::optional<Command>& command) {
-  CLI::App& app = *bench.add_subcommand("precision",
-                                        "Measures error and speed of float32 against float64: precision.csv");
+  CLI::App& app =
+      *bench.add_subcommand("precision", "Compares error and speed of float32 and float64: precision.csv");
   const auto options = std::make_shared<bench::PrecisionOptions>();
   add_common(app, *options);
   add_scene_files(app, "scenes/*.xml and scenes/stability/*.xml", options->scenes);
   add_flag(app, "--quick", "only path tracing, without scenes/stability; fewer samples", options->quick);
-  app.footer("Measures WIDTH 1 and that of --width. The device must support doubles.");
+  app.footer("float32 is measured with WIDTH 1 and with that of --width. The device must support doubles.");
   measure_by(bench::measure_precision, app, command, options);
 }
 
 void add_remedies(CLI::App& bench, std::optional<Command>& command) {
   CLI::App& app = *bench.add_subcommand(
-      "remedies",
-      "Measures techniques that reduce variance without bias, each with and without: remedies.csv");
+      "remedies", "Measures the gain of techniques that reduce variance without bias: remedies.csv");
   const auto options = std::make_shared<bench::RemediesOptions>();
   add_common(app, *options);
   add_values(app, "--remedy", "NAME",
@@ -237,12 +235,13 @@ void add_remedies(CLI::App& bench, std::optional<Command>& command) {
 
 void add_roulette(CLI::App& bench, std::optional<Command>& command) {
   CLI::App& app = *bench.add_subcommand(
-      "roulette", "Measures variance x rays of whole renders for each Russian roulette: roulette.csv");
+      "roulette", "Measures variance x rays of renders with each Russian roulette: roulette.csv");
   const auto options = std::make_shared<bench::RouletteOptions>();
   add_common(app, *options);
   add_scene_files(app, "scenes/*.xml, without the furnaces", options->scenes);
   add_names(app, "--integrator", "integrator", settings::integrator_names(), options->integrators);
-  add_names(app, "--roulette", "roulette, from edges 1 and 5", render::roulette_names(), options->roulettes);
+  add_names(app, "--roulette", "survival probability, measured from edge 1 and from edge 5",
+            render::roulette_names(), options->roulettes);
   add_strategies(app, options->strategies);
   add_samples(app, options->samples);
   app.add_flag("--quick", options->quick, "smaller images, fewer samples and rounds");
@@ -251,9 +250,9 @@ void add_roulette(CLI::App& bench, std::optional<Command>& command) {
 }
 
 void add_techniques(CLI::App& bench, std::optional<Command>& command) {
-  CLI::App& app = *bench.add_subcommand("techniques",
-                                        "Measures which techniques (s, t) of bidir or light bring the light, "
-                                        "the variance and the rays: techniques.csv");
+  CLI::App& app = *bench.add_subcommand(
+      "techniques",
+      "Measures the share of each technique (s, t) in light, variance and rays: techniques.csv");
   const auto options = std::make_shared<bench::TechniquesOptions>();
   add_common(app, *options);
   add_scene_files(app, "scenes/*.xml", options->scenes);
@@ -275,25 +274,26 @@ void add_techniques(CLI::App& bench, std::optional<Command>& command) {
 
 void add_figures(CLI::App& bench, std::optional<Command>& command) {
   CLI::App& app = *bench.add_subcommand(
-      "figures",
-      "Draws the figures of CW 197 from the output of the kernels: figure-1 to figure-7 (.csv, .svg, .png)");
+      "figures", "Draws the figures of CW 197 from the output of the kernels: figure-1 to figure-7");
   const auto options = std::make_shared<bench::FiguresOptions>();
   add_common(app, *options);
-  app.footer(
-      "The figures need python3-matplotlib. Without it only the tables are written, and the exit code is 5.");
+  app.footer("Figures are .csv, .svg and .png. They need python3-matplotlib; without it only the tables are "
+             "written,\n"
+             "and the exit code is 5.");
   measure_by(bench::make_figures, app, command, options);
 }
 
 void add_scenes(CLI::App& bench, std::optional<Command>& command) {
   CLI::App& app = *bench.add_subcommand(
-      "scenes", "Measures variance, time and convergence of every method on every scene: scenes.csv");
+      "scenes", "Measures variance and time of every method on every scene: scenes.csv");
   const auto options = std::make_shared<bench::ScenesOptions>();
   options->build_ahead = true;
   add_common(app, *options);
   add_scene_files(app, "scenes/*.xml", options->scenes);
   add_strategies(app, options->strategies);
   add_flag(app, "--quick", "less time per scene: under two minutes for scenes/*.xml", options->quick);
-  add_amount(app, *options, "seconds per scene; default: 120, or 11 with --quick, less for many scenes",
+  add_amount(app, *options,
+             "seconds per scene; default: 120, or 11 with --quick; less if there are many scenes",
              "largest side of the images in pixels; default: 128, or 64 with --quick");
   measure_by(bench::measure_scenes, app, command, options);
 }
@@ -309,7 +309,7 @@ bench::StabilityCell cell_of(const std::string& text) {
 void add_stability(CLI::App& bench, std::optional<Command>& command) {
   CLI::App& app = *bench.add_subcommand(
       "stability",
-      "Measures where each method fails, for varying lobe exponent and light size: stability.csv");
+      "Measures where each method fails, by exponent of a lobe and size of a light: stability.csv");
   const auto options = std::make_shared<bench::StabilityOptions>();
   options->build_ahead = true;
   add_common(app, *options);
@@ -326,7 +326,7 @@ void add_stability(CLI::App& bench, std::optional<Command>& command) {
              });
   add_strategies(app, options->strategies);
   add_amount(app, *options,
-             "seconds per cell; default: 20, or 10 with --quick, less if building kernels takes long",
+             "seconds per cell; default: 20, or 10 with --quick; less if building kernels takes long",
              "side of the images in pixels; default: 48, or 32 with --quick");
   measure_by(bench::measure_stability, app, command, options);
 }

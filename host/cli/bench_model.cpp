@@ -18,8 +18,8 @@ lobes::ModelPointer own_model(const std::filesystem::path& file) {
   library.add(file);
   const std::string name = file.stem().string();
   if (std::ranges::count(render::strategy_names(), name) > 0)
-    throw UsageError(
-        fmt::format("--lobe {}: {} is a strategy: give the file another name", file.string(), name));
+    throw UsageError(fmt::format(
+        "--lobe {}: a sampling strategy is called {} too: give the file another name", file.string(), name));
   return library.find(name);
 }
 
@@ -51,7 +51,8 @@ void add_bench_model(CLI::App& app, const std::shared_ptr<bench::SamplingOptions
   const auto built_in = std::make_shared<std::string>();
   const auto values = std::make_shared<std::vector<std::string>>();
   add_value(app, "--lobe", "NAME.cl",
-            "measures a reflectance model of your own instead, beside sampling by the cosine and uniformly: "
+            "measures a reflectance model of your own instead, and for comparison sampling by the cosine and "
+            "uniformly: "
             "sampling-NAME.csv, sampling-NAME-no-roulette.csv",
             [file](const std::string& text) { *file = text; });
   add_value(app, "--model", "NAME",

@@ -38,15 +38,16 @@ void require_own_strategy(const RenderOptions& options, const settings::Choices&
   const auto then = earlier.texts.find("strategy");
   if (then == earlier.texts.end() || options.has("strategy") || !settings::is_strategy_file(then->second))
     return;
-  throw UsageError(fmt::format(
-      "--resume {}: its render had --strategy {}, and a checkpoint alone must not run your files: "
-      "give --strategy {} too",
-      options.resume.string(), then->second, then->second));
+  throw UsageError(
+      fmt::format("--resume {}: its render used --strategy {}, and a checkpoint cannot choose a kernel file: "
+                  "give --strategy {} too",
+                  options.resume.string(), then->second, then->second));
 }
 
 void replace(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write) {
   if (!checkpoint::is_replaceable(file)) // any longer
-    throw WriteError(fmt::format("{}: is no checkpoint, and is kept: name another file", file.string()));
+    throw WriteError(
+        fmt::format("{}: is not a checkpoint and is not overwritten: name another file", file.string()));
   files::write_file(file, write);
 }
 
@@ -86,9 +87,9 @@ Checkpoints::Checkpoints(std::filesystem::path file, const RenderOptions& option
       next_(Clock::now() + between_) {
   if (file_.empty()) return;
   if (!checkpoint::is_replaceable(file_))
-    throw UsageError(fmt::format(
-        "--checkpoint {}: is no checkpoint of phlux, and would be lost: name another file, or delete it",
-        file_.string()));
+    throw UsageError(fmt::format("--checkpoint {}: is not a checkpoint of phlux and would be overwritten: "
+                                 "name another file, or delete it",
+                                 file_.string()));
   std::error_code none;
   if (options.resume.empty() && std::filesystem::is_regular_file(file_, none) &&
       !std::filesystem::is_empty(file_, none))

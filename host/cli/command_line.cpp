@@ -24,7 +24,8 @@ namespace phlux::cli {
 namespace {
 
 void add_devices(CLI::App& program, std::optional<Command>& command) {
-  CLI::App& app = *program.add_subcommand("devices", "Lists the OpenCL devices and what phlux would use");
+  CLI::App& app = *program.add_subcommand(
+      "devices", "Lists the OpenCL devices, and marks the one that phlux uses by default");
   const auto options = std::make_shared<DevicesOptions>();
   add_flag(app, "--json", "as JSON", options->json);
   app.final_callback([&command, options] { command = [options] { return list_devices(*options); }; });
@@ -50,34 +51,38 @@ void add_compare(CLI::App& program, std::optional<Command>& command) {
   app.add_option("B.exr", options->b, "reference")->type_name("")->required();
   add_flag(app, "--json", "as JSON", options->json);
   add_values(app, "--fail-above", "METRIC=VALUE",
-             fmt::format("exit code 1 if the metric is above the value, or undefined: {}; may be repeated",
+             fmt::format("makes the exit code 1 if the metric is above the value or undefined; METRIC is {}; "
+                         "may be repeated",
                          fmt::join(files::metric_names, ", ")),
              [options](const std::string& text) { options->limits.push_back(limit_of(text)); });
-  add_file(app, "--png", "FILE",
-           "picture of A, B and their relative difference in false colours: of R, G and B the one that "
-           "differs most; A is exposed as B is",
-           options->picture);
-  add_file(app, "--html", "FILE", "page that flips between A, B and the difference", options->page);
-  app.footer("mean_a_rgb and mean_b_rgb are the means of R, G and B; mean_error is |mean_a / mean_b - 1|.\n"
-             "relmse is the mean of (a-b)^2 / (b^2 + 1e-4), relmse_trimmed the same without the largest 0.1% "
-             "of pixels;\n"
-             "max_z and z_share_over_3 need images rendered with --moments.\n"
-             "psnr, in dB, is of the images on a screen: both exposed as B is, tone-mapped, sRGB, peak 1; "
-             "larger is better.\n"
-             "Exit code: 0, or 1 when a metric is above its limit. Without --fail-above nonfinite=N, a value "
-             "that is\nnot finite suffices.");
+  add_file(
+      app, "--png", "FILE",
+      "picture of A, B and their relative difference in false colours, in the channel that differs most; "
+      "both have the exposure of B",
+      options->picture);
+  add_file(app, "--html", "FILE", "HTML page that switches between A, B and the difference", options->page);
+  app.footer(
+      "mean_a_rgb and mean_b_rgb are the means of R, G and B. mean_error is |mean_a / mean_b - 1|.\n"
+      "relmse is the mean of (a-b)^2 / (b^2 + 1e-4); relmse_trimmed is the same without the largest\n"
+      "0.1% of the pixels. max_z and z_share_over_3 need images rendered with --moments. psnr, in dB,\n"
+      "compares the images as a screen shows them: both with the exposure of B, tone-mapped, sRGB,\n"
+      "peak 1; larger is better.\n"
+      "Exit code: 0, or 1 if a metric is above its limit. The limit of nonfinite is 0 unless\n"
+      "--fail-above sets another.");
   app.final_callback([&command, options] { command = [options] { return compare(*options); }; });
 }
 
 void add_merge(CLI::App& program, std::optional<Command>& command) {
   CLI::App& app = *program.add_subcommand("merge", "Merges several renders of a scene into one image");
   const auto options = std::make_shared<MergeOptions>();
-  app.add_option("IMAGE.exr", options->images,
-                 "two or more renders with different seeds, or different samples of one seed")
+  app.add_option(
+         "IMAGE.exr", options->images,
+         "two or more renders of one scene with different seeds, or with different samples of one seed")
       ->type_name("")
       ->required();
   app.add_option("-o,--output", options->output, "the merged image")->type_name("OUT.exr")->required();
-  app.footer("Images are weighted by their samples. Variances are merged where all images have them.");
+  app.footer(
+      "Images are weighted by their numbers of samples. Variances are merged if all images have them.");
   app.final_callback([&command, options] { command = [options] { return merge(*options); }; });
 }
 
@@ -85,12 +90,12 @@ void add_view(CLI::App& program, std::optional<Command>& command) {
   CLI::App& app = *program.add_subcommand("view", "Shows an image in the viewer tev, or converts it to PNG");
   const auto options = std::make_shared<ViewOptions>();
   app.add_option("FILE.exr", options->image, "image")->type_name("")->required();
-  add_file(app, "--png", "FILE", "writes a tone-mapped picture instead", options->picture);
+  add_file(app, "--png", "FILE", "writes a tone-mapped PNG instead", options->picture);
   add_exposure(app, options->exposure);
   options->tev = files::tev_address;
   add_value(app, "--tev", "HOST:PORT", fmt::format("where tev listens; default: {}", files::tev_address),
             [options](const std::string& text) { options->tev = text; });
-  app.footer("tev is at github.com/Tom94/tev. It shows every channel, those of --moments and --aov too.");
+  app.footer("tev is at github.com/Tom94/tev. It shows all channels, also those of --moments and --aov.");
   app.final_callback([&command, options] {
     if (options->exposure && options->picture.empty())
       throw UsageError(
@@ -177,7 +182,9 @@ std::string full_name(const CLI::App& app) {
 
 std::optional<Command> parse(int argc, char** argv) {
   std::optional<Command> command;
-  CLI::App program("phlux: path tracing of Mitsuba scenes on any OpenCL device", "phlux");
+  CLI::App program(
+      "phlux: path tracing, light tracing and bidirectional path tracing of Mitsuba scenes in OpenCL",
+      "phlux");
   program.set_version_flag(
       "--version", version_report,
       "prints version, commit, compiler, libraries and OpenCL platforms, for bug reports");
@@ -185,7 +192,7 @@ std::optional<Command> parse(int argc, char** argv) {
   program.get_formatter()->label("REQUIRED", ""); // the usage line shows it already
   program.footer("phlux COMMAND --help lists the options of a command.\n"
                  "Exit codes: 0 done, 1 a check or comparison failed, 2 wrong usage, 3 bad scene or file,\n"
-                 "4 no device or it failed, 5 write failed, 130 interrupted.");
+                 "4 no device, or all failed, 5 write failed, 130 interrupted.");
   add_render(program, command);
   add_info(program, command);
   add_devices(program, command);

@@ -77,7 +77,7 @@ bool any_above_limit(const CompareOptions& options, const nlohmann::ordered_json
 // Prints what is left out.
 bool too_many_not_finite(const CompareOptions& options, std::uint64_t count) {
   if (count == 0) return false;
-  tell("phlux: {} values of {} and {} are not finite: the figures leave their pixels out\n", count,
+  tell("phlux: {} values of {} and {} are not finite: their pixels are left out of the metrics\n", count,
        printable(options.a.string()), printable(options.b.string()));
   return std::ranges::find(options.limits, "nonfinite", &CompareOptions::Limit::metric) ==
          options.limits.end();

@@ -75,7 +75,7 @@ void add_traversal(CLI::App& app, render::Traversal& traversal) {
 
 void add_kernel_dir(CLI::App& app, std::filesystem::path& folder) {
   add_value(app, "--kernel-dir", "FOLDER",
-            "kernel sources to use instead of the built-in ones; for development",
+            "folder of kernel sources to use instead of the built-in ones; for development",
             [&folder](const std::string& text) {
               if (!std::filesystem::is_directory(text))
                 throw UsageError(fmt::format("--kernel-dir {}: must be a folder of kernel files", text));
@@ -90,9 +90,10 @@ void add_lobes(CLI::App& app, const std::string& help, std::vector<std::filesyst
 void add_one_device(CLI::App& app, std::vector<std::string>& devices, int& lanes,
                     std::filesystem::path& kernel_dir) {
   add_value(app, "--device", "SPEC",
-            "P:D (platform:device, see phlux devices), cpu, gpu, or part of a platform's or device's name",
+            "indices P:D (platform:device) as listed by phlux devices, cpu, gpu, or a part of the name of a "
+            "platform or device",
             [&devices](const std::string& text) { devices = {text}; });
-  add_width(app, "lanes of a work item", lanes);
+  add_width(app, "number of paths that a work-item traces together", lanes);
   add_kernel_dir(app, kernel_dir);
 }
 

@@ -16,7 +16,7 @@ namespace phlux::cli {
 int merge(const MergeOptions& options) {
   if (options.images.size() < 2)
     throw UsageError(
-        fmt::format("merge {}: one image: two or more are merged", options.images.front().string()));
+        fmt::format("merge {}: one image: at least two are needed", options.images.front().string()));
   reject_inputs({options.output}, options.images);
   files::check_writable(options.output);
   files::Merger merger;

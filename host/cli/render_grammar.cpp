@@ -27,8 +27,8 @@ void add_settings(CLI::App& app, RenderOptions& options, const std::function<boo
 void add_method(CLI::App& app, RenderOptions& options) {
   app.option_defaults()->group("Light transport");
   add_lobes(app,
-            "kernel file with a reflectance model of your own, which the scene uses as <bsdf type=\"NAME\">; "
-            "may be repeated",
+            "kernel file with a reflectance model of your own, which the scene refers to by <bsdf "
+            "type=\"NAME\">; may be repeated",
             options.lobes);
   add_settings(app, options, [](Affects affects) {
     return affects == Affects::expectation || affects == Affects::estimate;
@@ -37,7 +37,7 @@ void add_method(CLI::App& app, RenderOptions& options) {
 
 void add_scene_options(CLI::App& app, RenderOptions& options) {
   add_value(app, "--size", "WxH",
-            "image size in pixels; default: the scene's. The field of view along fovAxis is kept",
+            "image size in pixels; the field of view along fovAxis does not change; default: the scene's",
             [&](const std::string& text) { options.size = settings::size("--size", text); });
   add_values(app, "-D", "NAME=VALUE", "replaces $NAME in the scene; may be repeated",
              [&](const std::string& text) {
@@ -55,10 +55,12 @@ void add_amount(CLI::App& app, RenderOptions& options) {
 
 void add_device(CLI::App& app, RenderOptions& options) {
   app.option_defaults()->group("Device");
-  add_values(app, "--device", "SPEC",
-             "P:D (platform:device, see phlux devices), cpu, gpu, all, or part of a platform's or device's "
-             "name; may be repeated. Where two drivers offer the same CPU, cpu and names choose the first",
-             [&](const std::string& text) { options.devices.push_back(text); });
+  add_values(
+      app, "--device", "SPEC",
+      "indices P:D (platform:device) as listed by phlux devices, cpu, gpu, all, or a part of the name of a "
+      "platform or device; may be repeated. If two drivers offer the same CPU, cpu and names choose the "
+      "first driver's",
+      [&](const std::string& text) { options.devices.push_back(text); });
   add_settings(app, options, [](Affects affects) { return affects == Affects::execution; });
   add_kernel_dir(app, options.kernel_dir);
 }
@@ -76,20 +78,21 @@ std::vector<std::string> aov_of(const std::string& text) {
 
 void add_files(CLI::App& app, RenderOptions& options) {
   app.option_defaults()->group("Files and messages");
-  add_file(app, "-o,--output", "FILE.exr", "the image; default: the scene's name in the working directory",
-           options.output);
-  add_file(app, "--png", "FILE",
-           "tone-mapped preview, updated while rendering; default: beside the image; none: no preview",
-           options.preview);
+  add_file(app, "-o,--output", "FILE.exr",
+           "the image; default: the name of the scene, in the working directory", options.output);
+  add_file(
+      app, "--png", "FILE",
+      "tone-mapped preview, updated while rendering; default: the image's name with .png; none: no preview",
+      options.preview);
   add_exposure(app, options.exposure);
   add_file(app, "--contributions", "DIR",
-           "bidir and light: a folder with an image for every technique (s light and t eye vertices), "
-           "weighted and unweighted, and a contact sheet",
+           "bidir and light: folder for images of the contributions of every technique (s light and t eye "
+           "vertices), weighted and unweighted, and a contact sheet",
            options.contributions);
   add_file(app, "--stats", "FILE.json", "statistics of the render, as JSON", options.statistics);
   add_file(app, "--checkpoint", "FILE",
-           "file to resume from, written at intervals, at the end and on interruption; default: the file of "
-           "--resume, if given; none: no checkpoint",
+           "file from which --resume can continue, written at intervals, at the end and on interruption; "
+           "default: the file of --resume, if given; none: no checkpoint",
            options.checkpoint);
   add_value(app, "--checkpoint-every", "SECONDS",
             fmt::format("seconds between checkpoints; default: {:g}", default_checkpoint_seconds),
@@ -98,33 +101,34 @@ void add_files(CLI::App& app, RenderOptions& options) {
             });
   add_file(
       app, "--resume", "FILE",
-      "continues from a checkpoint, with its options where this command gives none; -n, --time and --error "
-      "include what was rendered before",
+      "continues from a checkpoint; options that are not given keep their values; -n, --time and --error "
+      "count from the beginning of the first render",
       options.resume);
   add_value(app, "--aov", "NAME,...",
-            "adds channels of what the camera's rays hit first, for denoisers and compositing: albedo, "
-            "normal, depth",
+            "adds channels with properties of the surface that camera rays hit first, for denoisers and "
+            "compositing: albedo, normal, depth",
             [&](const std::string& text) { options.aov = aov_of(text); });
   add_flag(
       app, "--moments",
       "adds the channels variance.R, .G and .B (variance of the mean) and reliability (predicted probability "
-      "that the interval mean +- 1.96 standard errors contains the true value)",
+      "that the true value is within 1.96 standard errors of the mean)",
       options.moments);
   add_flag(
       app, "--advise",
-      "tries the other integrators for a second each and says which is better, if any; without this option "
-      "only where the error estimate is unreliable and that takes at most 3% of the render time",
+      "afterwards tries the other integrators for a second each, and names a better one if there is one; "
+      "without this option only if the error estimate is unreliable, and for at most 3% of the render time",
       options.advise);
   add_flag(app, "-q,--quiet", "no progress, no summary and no warning of an unreliable error estimate",
            options.quiet);
-  add_flag(app, "--verbose", "also notes: what was ignored, and what was chosen", options.verbose);
+  add_flag(app, "--verbose", "also prints what was ignored in the scene, and what was chosen automatically",
+           options.verbose);
 }
 
 // With several scenes each writes to files of its own name.
 void require_own_files(const RenderOptions& options, const std::vector<std::filesystem::path>& scenes) {
   if (scenes.size() < 2) return;
   if (const cluster::Started started = cluster::started(); started.processes > 1)
-    throw UsageError(fmt::format("{} has started {} processes, which render one scene: {} are given",
+    throw UsageError(fmt::format("{} has started {} processes, which can render only one scene: {} are given",
                                  started.by, started.processes, scenes.size()));
   const std::pair<const char*, std::filesystem::path> files[] = {
       {"--output", options.output},
@@ -135,14 +139,14 @@ void require_own_files(const RenderOptions& options, const std::vector<std::file
       {"--png", options.preview == "none" ? std::filesystem::path() : options.preview}};
   for (const auto& [option, file] : files)
     if (!file.empty())
-      throw UsageError(
-          fmt::format("{} {}: is for one scene, and {} are given", option, file.string(), scenes.size()));
+      throw UsageError(fmt::format("{} {}: can be used with one scene only: {} are given", option,
+                                   file.string(), scenes.size()));
   std::set<std::string> names;
   for (const std::filesystem::path& scene : scenes)
     if (!names.insert(scene.stem().string()).second)
       throw UsageError(
           fmt::format("{}: another scene is called {} too, and both would be written to {}.exr: render "
-                      "them one by one, with --output",
+                      "each by its own command, with --output",
                       scene.string(), scene.stem().string(), scene.stem().string()));
 }
 
@@ -162,7 +166,7 @@ void add_render(CLI::App& program, std::optional<Command>& command) {
   const auto options = std::make_shared<RenderOptions>();
   const auto scenes = std::make_shared<std::vector<std::filesystem::path>>();
   app.add_option("SCENE.xml", *scenes,
-                 wrapped("Mitsuba scene file; several are rendered one after the other"))
+                 wrapped("Mitsuba scene file; several scenes are rendered one after the other"))
       ->type_name("")
       ->required();
   add_files(app, *options);
@@ -172,7 +176,7 @@ void add_render(CLI::App& program, std::optional<Command>& command) {
   app.footer(" "); // instead of the program's footer
   app.final_callback([&command, options, scenes] {
     if (options->has("spp") && (options->has("time") || options->has("error")))
-      throw UsageError("--spp: cannot go with --time or --error, which decide how many samples are taken");
+      throw UsageError("--spp: excludes --time and --error, which determine the number of samples");
     if (options->checkpoint_seconds && options->checkpoint.empty() && options->resume.empty())
       throw UsageError("--checkpoint-every: no checkpoint is written: give --checkpoint FILE too");
     require_own_files(*options, *scenes);
@@ -181,8 +185,8 @@ void add_render(CLI::App& program, std::optional<Command>& command) {
 }
 
 void add_info(CLI::App& program, std::optional<Command>& command) {
-  CLI::App& app =
-      *program.add_subcommand("info", "Says what is in a scene, which parts its kernel has, and its memory");
+  CLI::App& app = *program.add_subcommand(
+      "info", "Lists what is in a scene, the parts of its kernel, and the memory that a render takes");
   const auto options = std::make_shared<InfoOptions>();
   app.add_option("SCENE.xml", options->scene_file, "Mitsuba scene file")->type_name("")->required();
   add_flag(app, "--json", "as JSON", options->json);

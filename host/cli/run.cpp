@@ -70,9 +70,9 @@ void require_one_process(int argc, char** argv) {
   const std::string command = argc > 1 ? argv[1] : "";
   for (const char* const alone : {"bench", "merge", "verify", "compare", "devices"})
     if (started.processes > 1 && command == alone)
-      throw UsageError(
-          fmt::format("{} has started {} processes, and phlux {} is for one: {} is for phlux render",
-                      started.by, started.processes, command, started.by));
+      throw UsageError(fmt::format(
+          "{} has started {} processes, but only phlux render can use several: start phlux {} alone",
+          started.by, started.processes, command));
 }
 
 int run_command(int argc, char** argv) {

@@ -125,7 +125,7 @@ int verify(const VerifyOptions& options) {
     files::write_file(options.json, files::json_text(json));
   }
   if (device::portable_lanes(device))
-    say("portable lanes: the compiler refuses the processor's own instructions\n");
+    say("portable lanes: the compiler refuses the intrinsics of the processor\n");
   say("{}: {} checks, {} p-values with a false alarm in {:g} runs, {:.1f} s\n",
       report.passed() ? "passed" : "FAILED", report.results().size(), report.p_values(),
       1 / verify::false_alarm_rate, seconds);

@@ -49,10 +49,10 @@ std::vector<std::string> model_names() {
 }
 
 void add_models(CLI::App& app, VerifyOptions& options) {
-  add_lobes(
-      app,
-      "verifies a reflectance model of your own instead: its functions against one another; may be repeated",
-      options.lobes);
+  add_lobes(app,
+            "verifies a reflectance model of your own instead, by comparing its functions with each other; "
+            "may be repeated",
+            options.lobes);
   add_values(
       app, "--model", "NAME",
       fmt::format("the same for a built-in model: {}; may be repeated", fmt::join(model_names(), ", ")),
@@ -60,30 +60,29 @@ void add_models(CLI::App& app, VerifyOptions& options) {
         const std::vector<std::string> names = model_names();
         options.models.push_back(names[settings::choice("--model", text, names)]);
       });
-  add_values(
-      app, "--set", "NAME=VALUE",
-      "value of a parameter of that model, such as exponent=90 or specularReflectance=0.9,0.6,0.2, tested "
-      "besides its default and the ends of its range; may be repeated",
-      [&options](const std::string& text) {
-        options.parameters.push_back(settings::definition("--set", text));
-      });
+  add_values(app, "--set", "NAME=VALUE",
+             "another value of a parameter of that model, such as exponent=90 or "
+             "specularReflectance=0.9,0.6,0.2; its "
+             "default and the ends of its range are always tested; may be repeated",
+             [&options](const std::string& text) {
+               options.parameters.push_back(settings::definition("--set", text));
+             });
 }
 
 void require_model_to_set(const VerifyOptions& options) {
   if (options.parameters.empty() || !options.lobes.empty() || !options.models.empty()) return;
   const auto& [name, value] = options.parameters.front();
-  throw UsageError(
-      fmt::format("--set {}={}: is for one model: give --lobe FILE.cl or --model NAME too", name, value));
+  throw UsageError(fmt::format("--set {}={}: needs --lobe FILE.cl or --model NAME", name, value));
 }
 
 void refuse_integrators_of_models(const VerifyOptions& options) {
   const bool of_model = !options.lobes.empty() || !options.models.empty() ||
                         std::ranges::any_of(options.strategies, settings::is_strategy_file);
   if (of_model && !options.integrators.empty())
-    throw UsageError(
-        fmt::format("--integrator {}: not with --lobe, --model or --strategy FILE.cl, which verify a "
-                    "model without integrators: leave one of them out",
-                    options.integrators.front()));
+    throw UsageError(fmt::format(
+        "--integrator {}: cannot be used with --lobe, --model or --strategy FILE.cl, which verify a "
+        "model without integrators: leave one of them out",
+        options.integrators.front()));
 }
 
 } // namespace
@@ -95,8 +94,8 @@ void add_verify(CLI::App& program, std::optional<Command>& command) {
   add_models(app, *options);
   add_amount(app, *options);
   add_file(app, "--json", "FILE", "all results, as JSON", options->json);
-  app.footer("Exit code: 0, or 1 when a check failed; expected and observed values are then in verify-*.csv "
-             "and .png.");
+  app.footer("Exit code: 0, or 1 if a check failed. Expected and observed values are then written to "
+             "verify-*.csv and .png.");
   app.final_callback([&command, options] {
     require_model_to_set(*options);
     refuse_integrators_of_models(*options);

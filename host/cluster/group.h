@@ -44,7 +44,7 @@ public:
   void send(int to, const Message& message);
   /// The oldest message from a process, for which it waits.
   [[nodiscard]] std::optional<Message> receive(int from, double most_seconds);
-  /// Whether nothing was heard of it for patience_seconds. Process 0 and the others send signs of life.
+  /// Whether no message from it for patience_seconds. Process 0 and the others send signs of life.
   [[nodiscard]] bool is_lost(int rank) const;
   static constexpr double patience_seconds = 30.0;
 

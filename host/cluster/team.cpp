@@ -74,8 +74,7 @@ private:
   void handle(const std::optional<Message>& message) {
     if (!message) {
       if (!lost_.empty()) throw render::ProcessorLost(lost_);
-      if (group_.is_lost(rank_))
-        lose(fmt::format("nothing was heard of it for {} s", Group::patience_seconds));
+      if (group_.is_lost(rank_)) lose(fmt::format("no message from it for {} s", Group::patience_seconds));
       return;
     }
     Unpacker from(*message);

@@ -73,7 +73,7 @@ Indices once_per_core(const Indices& indices, const std::vector<DeviceInfo>& dev
   for (const std::size_t i : indices) {
     const auto other = same_cpu(kept, i, devices);
     if (other)
-      notes.push_back(fmt::format("{} is the same cores as {}: left out unless it is named as {}:{}",
+      notes.push_back(fmt::format("{} uses the same cores as {}: left out unless it is named as {}:{}",
                                   described(devices[i]), described(devices[*other]),
                                   devices[i].platform_index, devices[i].device_index));
     else
@@ -120,7 +120,7 @@ Choice choose(const std::vector<std::string>& specifications, const std::vector<
     for (const std::size_t i : meant) {
       if (std::ranges::find(choice.devices, i) != choice.devices.end()) continue;
       if (const auto other = same_cpu(choice.devices, i, devices))
-        choice.notes.push_back(fmt::format("{} and {} are the same cores: each slows the other",
+        choice.notes.push_back(fmt::format("{} and {} use the same cores: each slows the other",
                                            described(devices[*other]), described(devices[i])));
       choice.devices.push_back(i);
     }

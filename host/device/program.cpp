@@ -245,7 +245,7 @@ BuiltProgram build_either(const Device& device, const sources::KernelFiles& file
     const BuiltProgram built = build_portable(device, files, source, name);
     portable_devices().add(device);
     spdlog::info(
-        "portable lanes on {}, slower, for its compiler refuses the processor's own instructions: {}",
+        "portable lanes on {}, which are slower: its compiler refuses the intrinsics of the processor: {}",
         device.info.name, refusal.what());
     return built;
   }

@@ -62,8 +62,8 @@ std::string given(const settings::Setting& setting, const RenderInfo& of) {
 std::string bias_of(const RenderInfo& info) {
   for (const settings::Strategy& strategy : settings::strategies)
     if (strategy.biased && contains(info.text("strategy"), strategy.name))
-      return fmt::format("was rendered with `strategy` {}, which has a bias", strategy.name);
-  return "is without bias";
+      return fmt::format("was rendered with `strategy` {}, which is biased", strategy.name);
+  return "is unbiased";
 }
 
 std::string method_of(const RenderInfo& info) {
@@ -99,10 +99,11 @@ void Merger::TakenSamples::add(const std::string& name, const SampleRange& range
 void Merger::check(const Source& source, const Image& image) const {
   const auto& [name, info, variance] = source;
   if (!image.has(radiance_names))
-    throw FileError(fmt::format("{}: lacks a channel of R, G and B: name a render of phlux", name));
-  if (!(info.samples > 0.0) || !std::isfinite(info.samples) || info.ranges.empty())
     throw FileError(
-        fmt::format("{}: does not say which samples it has, to weigh it by: name a render of phlux", name));
+        fmt::format("{}: lacks a channel of R, G and B: only images rendered by phlux can be merged", name));
+  if (!(info.samples > 0.0) || !std::isfinite(info.samples) || info.ranges.empty())
+    throw FileError(fmt::format(
+        "{}: does not say which samples it has: only images rendered by phlux can be merged", name));
   if (sources_.empty()) return;
   const std::string& first = sources_.front().name;
   const RenderInfo& other = sources_.front().info;
@@ -156,8 +157,8 @@ std::vector<std::string> Merger::notes() const {
   for (const Source& source : sources_)
     if (method_of(source.info) != method_of(first.info)) {
       notes.push_back(fmt::format(
-          "{} is by {}, and {} by {}: the mean is right, but weights by samples are not optimal for "
-          "methods of different variance",
+          "{} is by {}, and {} by {}: the merged image is unbiased, but weights by numbers of samples "
+          "are not optimal for methods of different variance",
           source.name, method_of(source.info), first.name, method_of(first.info)));
       break;
     }

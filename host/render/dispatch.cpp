@@ -17,7 +17,7 @@ namespace {
 // A failure while a launch is added to the film, which then has a part of it.
 struct FilmLost : Error {
   explicit FilmLost(const std::string& why)
-      : Error(4, fmt::format("the film is lost: {}: go on from an earlier checkpoint", why)) {}
+      : Error(4, fmt::format("the film is lost: {}: resume from an earlier checkpoint", why)) {}
 };
 
 // Whether the error of a call may be due to too little memory.

@@ -75,7 +75,7 @@ void refuse_endless_rejection(const scene::Material& m) {
   constexpr double most_proposals = 1e4;
   if (proposals(m) > most_proposals)
     throw UsageError(
-        fmt::format("`strategy` rejection: a phong of exponent {:g} takes {:.0g} draws a sample: use "
+        fmt::format("`strategy` rejection: a phong of exponent {:g} needs {:.0g} draws per sample: use "
                     "another strategy",
                     m.value("exponent").x, proposals(m)));
 }
@@ -107,10 +107,9 @@ double in_units(const char* setting, double radiance, double unit) {
   constexpr double least = 1e-30, most = 1e30; // a float, and products with ordinary numbers
   const double value = radiance / unit;
   if (value >= least && value <= most) return value;
-  throw UsageError(
-      fmt::format("{} {:g}: the scene's lights are about {:g}, and single precision holds {:g} to {:g} "
-                  "beside them",
-                  settings::quoted(setting), radiance, unit, least * unit, most * unit));
+  throw UsageError(fmt::format("{} {:g}: must be from {:g} to {:g}: with lights of about {:g} in the scene, "
+                               "single precision cannot hold other values",
+                               settings::quoted(setting), radiance, least * unit, most * unit, unit));
 }
 
 // With fewer, descending the tree takes more time than the lower variance gains (bench/saved/REMEDIES.md).
@@ -136,7 +135,7 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
   parts.ambient = settings.ambient.has_value();
   if (parts.ambient) static_cast<void>(in_units("ambient", *settings.ambient, lights.unit));
   if (parts.ambient && parts.integrator != Integrator::path)
-    throw UsageError("`ambient`: only paths from the eye can carry the ambient term: use `integrator` path");
+    throw UsageError("`ambient` is for path only: use `integrator` path");
   if (!lights.shines()) { // the image is black, and path tracing does not need a light
     parts.integrator = Integrator::path;
     parts.techniques = false;
@@ -169,13 +168,11 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
   for (const auto& model : parts.models)
     if (parts.ambient && model->reflectivity_is_estimate)
       throw UsageError(fmt::format(
-          "`ambient`: the reflectivity of {} has no closed form to weigh the ambient term with: leave it out "
-          "or use phong",
+          "`ambient`: needs a reflectivity in closed form, which {} does not have: leave it out or use phong",
           model->name));
     else if (parts.ambient && model->transmits)
       throw UsageError(
-          fmt::format("`ambient`: light passes through {}, which the ambient term leaves out: leave it out",
-                      model->name));
+          fmt::format("`ambient`: does not support {}, which transmits light: leave it out", model->name));
   parts.light_planar = lights.has(LIGHT_PLANAR);
   parts.light_sphere = lights.has(LIGHT_SPHERE);
   parts.light_point = lights.has(LIGHT_POINT);

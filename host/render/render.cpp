@@ -37,7 +37,7 @@ void check_samples(const Settings& settings) {
 void set_unit(film::Film& film, double unit) {
   if (film.contributors() > 0 && film.unit() != unit)
     throw SceneError(
-        "the samples so far are in another unit: go on with the version of phlux that made them");
+        "the samples of the checkpoint are in another unit: use the version of phlux that wrote it");
   film.set_unit(unit);
 }
 
@@ -48,8 +48,8 @@ void check_paths_end(const scene::Scene& scene, const Settings& settings) {
   for (const scene::Material& m : scene.materials)
     if (lobes::largest_reflectance(m) >= nearly_all)
       throw UsageError(
-          "`rr-depth` -1 `max-depth` -1: a material reflects everything, and nothing would end a path in a "
-          "closed room: give one of the two");
+          "`rr-depth` -1 `max-depth` -1: a material reflects all light, so that a path in a closed room "
+          "would never end: set one of the two");
 }
 
 void check(const scene::Scene& scene, const Settings& settings) {
@@ -70,8 +70,8 @@ void warn(const scene::Scene& scene, const Settings& settings, const Events& eve
   const auto is_delta = [](const scene::Material& m) { return m.model->has_delta; };
   if (settings.integrator == "light" && std::any_of(scene.materials.begin(), scene.materials.end(), is_delta))
     events.warning(
-        "light tracing shows mirrors and smooth glass black: no light path can be connected from one to the "
-        "camera: use `integrator` path or bidir where one is in view");
+        "light tracing shows mirrors and smooth glass black, because they cannot be connected to the camera: "
+        "use `integrator` path or bidir if one is in view");
   if (settings.strategy == "lobe-estimate-printed")
     events.warning("`strategy` lobe-estimate-printed is biased: it loses light at grazing angles; "
                    "lobe-estimate does not");
@@ -132,7 +132,7 @@ private:
     for (const char* name : {"uniform", "theta-phi", "disk", "rejection"})
       if (settings_.strategy == name && !parts.has_model("phong"))
         events_.warning(fmt::format(
-            "`strategy` {}: no surface has a phong lobe, so directions are drawn by the cosine", name));
+            "`strategy` {}: no surface has a phong lobe, so directions are sampled by the cosine", name));
     if (settings::is_strategy_file(settings_.strategy) && !parts.has_model("phong"))
       events_.warning(
           fmt::format("`strategy` {}: no surface has a phong lobe, so it has no effect", settings_.strategy));
@@ -141,10 +141,10 @@ private:
     const double radius = host_->geometry.radius;
     if (settings_.integrator == "bidir" && settings_.weights == Weights::power &&
         !settings_.double_precision && (radius < smallest || radius > largest))
-      events_.warning(fmt::format(
-          "`weights` power: the scene's radius is {:.1g}, and the weights are right between {:g} and "
-          "{:g}: use `weights` balance",
-          radius, smallest, largest));
+      events_.warning(fmt::format("`weights` power: the radius of the scene is {:.1g}, but the weights are "
+                                  "accurate only if it is from "
+                                  "{:g} to {:g}: use `weights` balance",
+                                  radius, smallest, largest));
   }
 
   const scene::Scene& scene_;

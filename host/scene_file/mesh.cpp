@@ -43,7 +43,7 @@ void transform(Mesh& mesh, const MeshRequest& request, const Location& file) {
   for (Vec3& p : mesh.positions) {
     p = Vec3(request.to_world * glm::dvec4(p, 1.0));
     if (!representable(p))
-      fail(file, "a vertex leaves the range of single precision", "a smaller mesh or toWorld");
+      fail(file, "a vertex is outside the range of single precision", "a smaller mesh or toWorld");
   }
   const glm::dmat3 linear(request.to_world);
   const glm::dmat3 normal_to_world = glm::transpose(glm::inverse(linear));

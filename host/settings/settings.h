@@ -106,94 +106,98 @@ struct Settings {
   const auto from_eye_alone = [](const Settings& s) { return !integrator_named(s.integrator).light_paths; };
   const auto bidirectional = [](const Settings& s) { return integrator_named(s.integrator).bidirectional(); };
   return {
-      Setting(
-          "integrator", A::estimate, &Settings::integrator, OneOf{integrator_choices()}, "NAME",
-          "path, light or bidir, or auto: the one with the least error in trials that take 3% of the time")
+      Setting("integrator", A::estimate, &Settings::integrator, OneOf{integrator_choices()}, "NAME",
+              "path, light or bidir; or auto: the one with the least error in trial renders, which take 3% "
+              "of the time")
           .or_scene(&Settings::integrator, &scene::RenderDefaults::integrator),
       Setting("strategy", A::estimate, &Settings::strategy, StrategyOrFile{}, "NAME|FILE.cl",
               "how directions of the phong model are sampled: " + joined(strategy_names()) +
-                  ", or by a kernel file of your own"),
-      Setting(
-          "connect", A::estimate, &Settings::connect, OneOf{connect_names()}, "NAME",
-          "path only, how direct light is found: none (paths that hit lights), light (light samples) or mis "
-          "(both, with multiple importance sampling)")
-          .only_where(from_eye_alone, " is for path alone: {} has its own ways to the lights"),
+                  ", or a kernel file of your own"),
+      Setting("connect", A::estimate, &Settings::connect, OneOf{connect_names()}, "NAME",
+              "path only, how direct light is found: none (by paths that hit lights), light (by light "
+              "samples) or "
+              "mis (by both, with multiple importance sampling)")
+          .only_where(from_eye_alone, " is for path only: {} finds lights by other techniques"),
       Setting(
           "weights", A::estimate, &Settings::weights, OneOf{weights_names()}, "NAME",
-          "bidir only, weights of the techniques (multiple importance sampling): balance, power or uniform")
-          .only_where(bidirectional, " is for bidir alone: {} makes each path by one technique: leave it out "
+          "bidir only, weights of the techniques in multiple importance sampling: balance, power or uniform")
+          .only_where(bidirectional, " is for bidir only: {} has one technique for each path: leave it out "
                                      "or use `integrator` bidir"),
-      Setting("light-selection", A::estimate, &Settings::light_selection, OneOf{{"power", "contribution"}},
-              "NAME",
-              "path and bidir, how light samples choose a light: power, or contribution (by its estimated "
-              "contribution to the point; for 8 lights or more)")
+      Setting(
+          "light-selection", A::estimate, &Settings::light_selection, OneOf{{"power", "contribution"}},
+          "NAME",
+          "path and bidir, probability of choosing a light for a light sample: in proportion to its power, "
+          "or to its estimated contribution to the point (with fewer than 8 lights always power)")
           .only_where(samples_lights,
-                      " is for light samples, which neither `integrator` light nor `connect` none "
-                      "makes: leave it out"),
+                      " is for light samples, which `integrator` light and `connect` none do not "
+                      "take: leave it out"),
       Setting(
           "connections", A::estimate, &Settings::connections, Whole{0, 1'000'000}, "N",
-          "bidir only: of the e - 2 connections that make paths of e edges, N are made on average, chosen at "
-          "random without bias; 0: all")
+          "bidir only: a path of e edges can be made by e - 2 connections between inner vertices of the two "
+          "subpaths; on average N of them are made, chosen by Russian roulette without bias; 0: all")
           .only_where([](const Settings& s) { return !s.techniques; },
-                      ": `contributions` shows every connection: leave out one of the two")
-          .only_where(bidirectional,
-                      " is for bidir alone: {} connects no vertices: leave it out or use `integrator` bidir"),
+                      ": `contributions` needs every connection: leave out one of the two")
+          .only_where(
+              bidirectional,
+              " is for bidir only: {} connects no inner vertices: leave it out or use `integrator` bidir"),
       Setting("sampler", A::estimate, &Settings::sampler, OneOf{sampler_names()}, "NAME",
-              "path and bidir, random numbers of a pixel's samples: independent, or points of sets that fill "
-              "the space of paths more evenly: sobol (scrambled Sobol points) or lattice (shifted lattices)")
+              "path and bidir, random numbers of a pixel's samples: independent, or low-discrepancy points, "
+              "which have less noise: sobol (scrambled Sobol points) or lattice (shifted lattices)")
           .only_where([](const Settings& s) { return integrator_named(s.integrator).eye_paths; },
-                      " is for path and bidir: light paths are independent: leave it out"),
+                      " is for path and bidir only: leave it out"),
       Setting("contributions", A::film, &Settings::techniques, Switch{"DIR"}, "", ""),
+      Setting("ambient", A::estimate, &Settings::ambient, Within{1e-30, 1e30}, "L",
+              "path only: a control variate with the constant incident radiance L, which reduces noise most "
+              "if L is "
+              "near the mean incident radiance, and has no bias for any L; default: no control variate")
+          .only_where(from_eye_alone, " is for path only: use `integrator` path"),
       Setting(
-          "ambient", A::estimate, &Settings::ambient, Within{1e-30, 1e30}, "L",
-          "path only: estimate of the mean incident radiance, for a control variate: the closer, the less "
-          "noise; without bias for any L; default: no control variate")
-          .only_where(from_eye_alone,
-                      ": only paths from the eye can carry the ambient term: use `integrator` path"),
-      Setting("clamp", A::expectation, &Settings::clamp, Within{1e-30, 1e30}, "X",
-              "clamps each path's contribution to a pixel to the radiance X: less noise, but a bias, which "
-              "the log and the files state; default: no clamping"),
+          "clamp", A::expectation, &Settings::clamp, Within{1e-30, 1e30}, "X",
+          "limits the contribution of each path to a pixel to the radiance X; this reduces noise but causes "
+          "a bias, which the log and the image's attributes state; default: no limit"),
       Setting("max-depth", A::expectation, &Settings::max_depth, Depth{}, "N",
-              "largest number of edges of a path: 1 is emission alone, -1 unbounded")
+              "largest number of edges of a path; 1: only emission, 2: direct light too, -1: no limit")
           .or_scene(&Settings::max_depth, &scene::RenderDefaults::max_depth),
       Setting("rr-depth", A::estimate, &Settings::rr_depth, Depth{}, "N",
-              "number of edges from which Russian roulette may end a path, -1: never")
+              "number of edges from which on Russian roulette may end a path; -1: never")
           .or_scene(&Settings::rr_depth, &scene::RenderDefaults::rr_depth),
-      Setting(
-          "roulette", A::estimate, &Settings::roulette, OneOf{roulette_names()}, "NAME",
-          "what the probability to survive Russian roulette is: efficiency (2 x throughput x reflectivity, "
-          "at "
-          "most 1), throughput (as Mitsuba and pbrt: survivors have throughput 1), reflectivity, kd-ks, or "
-          "strategy (as the sampling strategy has it: exact, the reflectivity; lobe-ks, kd + ks)")
+      Setting("roulette", A::estimate, &Settings::roulette, OneOf{roulette_names()}, "NAME",
+              "survival probability of Russian roulette: efficiency (2 x throughput x reflectivity), "
+              "throughput (as "
+              "in Mitsuba and pbrt: survivors have throughput 1), reflectivity, kd-ks (kd + ks), or strategy "
+              "(that "
+              "of the sampling strategy: for exact the reflectivity, for lobe-ks kd + ks)")
           .only_where([](const Settings& s) { return s.rr_depth >= 0; },
                       ": with `rr-depth` -1 there is no roulette: leave out one of the two"),
       Setting("spp", A::amount, &Settings::samples_per_pixel, Whole{1, most_samples}, "N",
-              "samples per pixel (light: light paths per pixel of the image)")
+              "samples per pixel; for light: number of light paths / number of pixels")
           .or_scene(&Settings::samples_per_pixel, &scene::RenderDefaults::samples_per_pixel),
       Setting("time", A::amount, &Settings::time_limit, Within{1e-6, 1e9}, "SECONDS",
-              "render for this time instead"),
-      Setting(
-          "error", A::amount, &Settings::target_error, Within{1e-30, 1e30}, "E",
-          "render until the mean relative standard error of pixels that are not black is E, such as 0.01, "
-          "instead; with `time`: until the first of the two"),
+              "renders for this time instead of a number of samples"),
+      Setting("error", A::amount, &Settings::target_error, Within{1e-30, 1e30}, "E",
+              "renders until the mean relative standard error of the pixels that are not black is E, such as "
+              "0.01; "
+              "with `time`: or until that time"),
       Setting("crop", A::expectation, &Settings::crop, Crop{}, "X,Y,W,H",
-              "renders only this part of the image, in pixels from its upper left corner")
+              "renders only this part of the image: left edge, upper edge, width and height in pixels")
           .or_scene(&Settings::crop, &scene::RenderDefaults::crop),
       Setting("seed", A::samples, &Settings::seed, Whole{0, std::numeric_limits<std::uint64_t>::max()}, "N",
               "seed of the random numbers; the same seed gives the same image on the same device"),
-      Setting("first-sample", A::samples, &Settings::first_sample, Whole{0, most_samples / 2}, "N",
-              "index of every pixel's first sample: renders of samples 0 to 99 and 100 to 199 of a seed are "
-              "independent and can be merged"),
-      Setting("threads", A::execution, &Settings::threads, Whole{1, 65'536}, "N",
-              "threads of a CPU device; default: all"),
-      Setting("width", A::execution, &Settings::lanes, OneOf{{"1", "4", "8", "16"}}, "N",
-              "paths that one work-item traces together: 1, 4, 8 or 16; default: the device's"),
       Setting(
-          "precision", A::estimate, &Settings::double_precision, OneOf{{"single", "double"}}, "NAME",
-          "arithmetic of the kernels: single, or double (slower, one path at a time, only on devices with "
-          "doubles)"),
+          "first-sample", A::samples, &Settings::first_sample, Whole{0, most_samples / 2}, "N",
+          "index of every pixel's first sample; renders of samples 0 to 99 and of 100 to 199 of one seed are "
+          "independent and can be merged"),
+      Setting("threads", A::execution, &Settings::threads, Whole{1, 65'536}, "N",
+              "number of threads of a CPU; default: all"),
+      Setting(
+          "width", A::execution, &Settings::lanes, OneOf{{"1", "4", "8", "16"}}, "N",
+          "number of paths that a work-item traces together: 1, 4, 8 or 16; default: what suits the device"),
+      Setting("precision", A::estimate, &Settings::double_precision, OneOf{{"single", "double"}}, "NAME",
+              "arithmetic of the kernels: single; or double, which is slower, has --width 1, and needs a "
+              "device with "
+              "doubles"),
       Setting("traversal", A::execution, &Settings::traversal, OneOf{{"auto", "brute", "bvh"}}, "NAME",
-              "ray intersection: brute (tests every shape), bvh or auto"),
+              "ray intersection: brute (tests every shape), bvh, or auto (brute if there are few shapes)"),
   };
 }
 

@@ -1,11 +1,11 @@
-// Across lanes: questions about a mask, reductions, and moving lanes together.
+// Operations across lanes: tests of a mask, reductions, and compression of selected lanes.
 #ifndef PHLUX_LANES_ACROSS_H
 #define PHLUX_LANES_ACROSS_H
 
 #include "lanes/avx512.h"
 #include "lanes/memory.h"
 
-// ---- Questions about a mask
+// ---- Tests of a mask
 
 #ifdef LANES_AVX512
 static inline uint lane_bits(Mask m) {
@@ -21,7 +21,7 @@ static inline int any_lane(Mask m) { return any(m); }
 static inline int all_lanes(Mask m) { return all(m); }
 #endif
 
-// The smallest of all lanes.
+// The smallest value of all lanes.
 static inline Scalar min_of_lanes(Real v) {
 #if WIDTH == 16
   const float8 v8 = fmin(v.lo, v.hi);
@@ -51,7 +51,7 @@ static inline uint sum_of_lanes(Uint v) {
 #endif
 }
 
-// The number of the first lane in m; some lane must be in it.
+// The number of the first lane in m, which must not be empty.
 static inline int first_lane(Mask m) {
 #if WIDTH == 1
   return 0;
@@ -74,7 +74,7 @@ static inline int count_lanes(Mask m) {
 #endif
 }
 
-// How many lanes of m stand before each lane of it; without meaning in other lanes.
+// For each lane of m, the number of lanes of m before it; undefined in other lanes.
 static inline Int rank_lanes(Mask m) {
 #ifdef LANES_AVX512
   return LANE_INTS(__builtin_ia32_expandsi512_mask(LANE_NATIVE_INTS(LANE_NUMBERS), LANE_NATIVE_INTS((Int)(0)),
@@ -92,7 +92,7 @@ static inline Int rank_lanes(Mask m) {
 #endif
 }
 
-// Moves the lanes of m to the front, in lane order; the others may hold anything.
+// Moves the values of the lanes of m to the first lanes, in lane order; the other lanes are undefined.
 static inline Real pack_lanes(Mask m, Real v) {
 #ifdef LANES_AVX512
   return LANE_REALS(
@@ -114,7 +114,7 @@ static inline Real pack_lanes(Mask m, Real v) {
 }
 static inline Int pack_int_lanes(Mask m, Int v) { return carried_int(pack_lanes(m, carry_int(v))); }
 
-// The other way round: the lanes of m take the first values of v, in lane order; the others keep `old`.
+// The inverse: the lanes of m get the first values of v, in lane order; the others keep `old`.
 static inline Real unpack_lanes(Mask m, Real v, Real old) {
 #ifdef LANES_AVX512
   return LANE_REALS(
@@ -138,8 +138,8 @@ static inline Int unpack_int_lanes(Mask m, Int v, Int old) {
   return carried_int(unpack_lanes(m, carry_int(v), carry_int(old)));
 }
 
-// Appends the keys and values of the lanes in m to two arrays, in lane order; the arrays have room for WIDTH more.
-// Returns how many.
+// Appends the keys and values of the lanes in m to two arrays, in lane order; both need room for WIDTH more elements.
+// Returns the number of lanes in m.
 static inline int append_lanes(Mask m, Real key, Int value, Scalar* keys, int* values) {
   lanes_to_array(pack_lanes(m, key), keys);
   int_lanes_to_array(pack_int_lanes(m, value), values);

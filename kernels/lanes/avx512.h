@@ -1,6 +1,6 @@
-// AVX-512 has one instruction for gathers, permutations, compression and expansion of 16 lanes. LANES_AVX512 is defined
-// where the compiler has them as builtins; LANES_PORTABLE selects the portable forms. clang
-// before 8 declares the indices of gathersiv16sf as floats.
+// AVX-512 has single instructions for gathers, permutations, compression and expansion of 16 lanes. LANES_AVX512 is
+// defined if the compiler has them as builtins; LANES_PORTABLE selects the portable forms. clang before 8 declares the
+// indices of gathersiv16sf as floats.
 #ifndef PHLUX_LANES_AVX512_H
 #define PHLUX_LANES_AVX512_H
 

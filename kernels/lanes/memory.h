@@ -1,4 +1,4 @@
-// Between lanes and memory: gathers, scatters, consecutive words, and small tables kept in registers.
+// Memory access of lanes: gathers, scatters, consecutive words, and small tables in registers.
 #ifndef PHLUX_LANES_MEMORY_H
 #define PHLUX_LANES_MEMORY_H
 
@@ -40,8 +40,8 @@ static inline Int gather_int(const __global int* base, Int index) {
 #endif
 }
 
-// table[index].member in every lane, for a __global array of structs of 4-byte members. The member's place is taken
-// from the table's start, so that no array member is indexed beyond its end.
+// table[index].member in every lane, for a __global array of structs of 4-byte members. The member is addressed from
+// the start of the table, so that no array member is indexed beyond its end.
 #define MEMBER_PLACE(type, table, member) (int)((const __global type*)&(table)->member - (const __global type*)(table))
 #define GATHER_REAL(table, index, member)                                                                              \
   gather_real((const __global float*)(table),                                                                          \
@@ -57,8 +57,9 @@ static inline void float_lanes_to_array(Real v, float* array) {
 #endif
 }
 
-// A table of at most LANES structs of 4-byte members can be kept member by member in private memory, where looking an
-// entry up permutes a register; a gather takes many times as long. LANES_PERMUTE says whether the device can.
+// A table of at most LANES structs of 4-byte members can be stored in private memory, one array per member. A lookup
+// then permutes a register, which is many times as fast as a gather. LANES_PERMUTE is 1 if the device has such
+// permutations.
 #ifdef LANES_AVX512
 #define LANES_PERMUTE 1
 #else
@@ -74,7 +75,7 @@ static inline Real permute_real(const float* base, Int index) {
 #endif
 }
 static inline Int permute_int(const float* base, Int index) { return carried_int(permute_real(base, index)); }
-// The table has LANES entries of `words` words, used or not.
+// The table has room for LANES entries of `words` words each.
 static inline void load_members(const __global void* table, int words, float (*members)[LANES]) {
   for (int word = 0; word < words; ++word)
     float_lanes_to_array(gather_real((const __global float*)table, LANE_NUMBERS * words + word), members[word]);
@@ -100,7 +101,7 @@ static inline void scatter_int(__global int* base, Int index, Int value, Mask m)
 #endif
 }
 
-// Private copies, for loops over lanes.
+// Private copies of lanes, for loops over them.
 static inline void lanes_to_array(Real v, Scalar* array) {
 #if WIDTH == 1
   *array = v;
@@ -162,7 +163,7 @@ static inline void store_ints(__global int* base, Int v) {
 #endif
 }
 
-// The same for tables in the precision of a Real; those above are of floats always.
+// The same for tables in the precision of a Real; those above always contain floats.
 #ifdef PHLUX_DOUBLE
 static inline Real gather_scalar(const __global Scalar* base, Int index) { return base[index]; }
 static inline Real load_scalars(const __global Scalar* base) { return *base; }

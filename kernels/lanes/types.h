@@ -1,8 +1,8 @@
-// The types of a lane and of all lanes of a work-item, and conversions between them (lanes.h says what they are for).
+// The types of one lane and of all lanes of a work-item, and conversions between them (see lanes.h).
 #ifndef PHLUX_LANES_TYPES_H
 #define PHLUX_LANES_TYPES_H
 
-// One lane of a Real, a constant of that precision, and what follows from it.
+// The type of one lane of a Real, constants of that precision, and properties of it.
 #ifdef PHLUX_DOUBLE
 #if WIDTH != 1
 #error "PHLUX_DOUBLE needs WIDTH 1"
@@ -10,7 +10,7 @@
 typedef double Scalar;
 #define REAL(literal) literal
 #define REAL_HALF_ULP 1.1102230246251565e-16 // of 1: 2^-53
-#define REAL_LARGE 1e200                     // with room for products with ordinary numbers
+#define REAL_LARGE 1e200                     // products with ordinary numbers do not overflow
 #else
 typedef float Scalar;
 #define REAL(literal) literal##f
@@ -62,7 +62,7 @@ static inline Real to_real(Int x) { return LANE_CONVERT(float)(x); }
 static inline Real uint_to_real(Uint x) { return LANE_CONVERT(float)(x); }
 #endif
 
-// An Int that travels as a Real, and is the same when it is taken out again.
+// The bits of an Int as a Real, and back.
 #ifdef PHLUX_DOUBLE
 static inline Real carry_int(Int x) { return to_real(x); }
 static inline Int carried_int(Real x) { return to_int(x); }
@@ -73,11 +73,11 @@ static inline Real carry_int(Int x) { return bits_real(x); }
 static inline Int carried_int(Real x) { return real_bits(x); }
 #endif
 
-// As fmax and fmin but for NaN, which costs them two more instructions.
+// fmax and fmin without their treatment of NaN, which takes two more instructions.
 static inline Real larger(Real a, Real b) { return a > b ? a : b; }
 static inline Real smaller(Real a, Real b) { return a < b ? a : b; }
 
-// x with the sign of `sign` multiplied in: two bit operations.
+// x multiplied by the sign of `sign`, by two bit operations.
 static inline Real times_sign(Real x, Real sign) {
 #ifdef PHLUX_DOUBLE
   return as_double(as_ulong(x) ^ (as_ulong(sign) & 0x8000000000000000UL));
@@ -86,8 +86,8 @@ static inline Real times_sign(Real x, Real sign) {
 #endif
 }
 
-// Both halves of the 64-bit product of each lane with a constant. Compilers make mul_hi from 16-bit pieces; the two
-// products of even and odd lanes are one instruction each.
+// Both halves of the 64-bit product of each lane with a constant. Compilers implement mul_hi by 16-bit products; the
+// products of the even and of the odd lanes are one instruction each.
 static inline void multiply_wide(Uint a, uint factor, Uint* high, Uint* low) {
 #if WIDTH == 1 || !defined(__ENDIAN_LITTLE__)
   *high = mul_hi(a, (Uint)(factor));

@@ -1,4 +1,4 @@
-// A rough conductor of two roughnesses, such as brushed metal.
+// A rough conductor with different roughnesses along the two tangents, such as brushed metal.
 #ifndef PHLUX_ANISOTROPICCONDUCTOR_CL
 #define PHLUX_ANISOTROPICCONDUCTOR_CL
 
@@ -28,7 +28,7 @@ static inline LobeValue anisotropicconductor_evaluate(Anisotropicconductor m, Ve
   return rough_conductor_evaluate(anisotropicconductor_surface(m), fixed, generated);
 }
 
-// As if all facets were at the angle of the surface.
+// An estimate: the reflectivity if the normals of all microfacets were that of the surface.
 static inline Vec3 anisotropicconductor_reflectivity(Anisotropicconductor m, Vec3 fixed) {
   return rough_conductor_fresnel(anisotropicconductor_surface(m), fixed.z);
 }

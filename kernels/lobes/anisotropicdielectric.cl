@@ -1,4 +1,4 @@
-// A rough surface between two dielectrics, of two roughnesses.
+// A rough surface between two dielectrics with different roughnesses along the two tangents.
 #ifndef PHLUX_ANISOTROPICDIELECTRIC_CL
 #define PHLUX_ANISOTROPICDIELECTRIC_CL
 

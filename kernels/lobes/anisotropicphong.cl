@@ -1,6 +1,6 @@
 // The anisotropic Phong model (Ashikhmin and Shirley 2000): a lobe about the half vector with one exponent along each
 // tangent, a Schlick Fresnel term, and a diffuse part that decreases where the lobe reflects more. The frame's x is the
-// direction of exponent_u. Whatever the strategy, it is sampled as the mixture of its two parts.
+// direction of exponent_u. It is sampled as the mixture of its two parts; the strategy has no effect.
 #ifndef PHLUX_ANISOTROPICPHONG_CL
 #define PHLUX_ANISOTROPICPHONG_CL
 
@@ -11,7 +11,7 @@
   COLOUR(specular_reflectance, 0.2, 0, 1, "Rs, the specular reflectance at normal incidence")                          \
   NUMBER(exponent_u, 30, 0, 1e30, "exponent along the first tangent")                                                  \
   NUMBER(exponent_v, 30, 0, 1e30, "exponent along the second tangent")
-// The largest channels decide how often each part is sampled.
+// The probabilities of the parts depend on the largest channels.
 #define ANISOTROPICPHONG_DERIVED(NUMBER, INDEX) NUMBER(diffuse_max) NUMBER(specular_max)
 #define ANISOTROPICPHONG_NEEDS_TANGENTS 1
 #define ANISOTROPICPHONG_REFLECTIVITY_IS_ESTIMATE 1
@@ -30,7 +30,7 @@ static inline Real fifth_power(Real x) {
   return x2 * x2 * x;
 }
 
-// Density of the half vector h, per solid angle about h.
+// Density of the half vector h, per solid angle of h.
 static inline Real half_vector_density(Anisotropicphong m, Vec3 h) {
   const Real sine2 = fma(h.x, h.x, h.y * h.y);
   const Real exponent = fma(m.exponent_u * h.x, h.x, m.exponent_v * h.y * h.y) / sine2;
@@ -38,7 +38,7 @@ static inline Real half_vector_density(Anisotropicphong m, Vec3 h) {
   return sqrt((m.exponent_u + 1.0f) * (m.exponent_v + 1.0f)) * (0.5f * INV_PI) * (sine2 > 0.0f ? power : (Real)(1.0f));
 }
 
-// Estimates of the parts' reflectivities: how often each is sampled.
+// Estimates of the reflectivities of the parts, to which the probabilities of sampling them are proportional.
 typedef struct {
   Real diffuse, specular;
 } PartShares;
@@ -55,7 +55,7 @@ static inline Real anisotropicphong_survival(Anisotropicphong m, Vec3 fixed, Ran
   return shares.diffuse + shares.specular;
 }
 
-// Per channel, the estimate that part_shares makes of the largest.
+// The estimate of part_shares for every channel instead of the largest.
 static inline Vec3 anisotropicphong_reflectivity(Anisotropicphong m, Vec3 fixed) {
   const Vec3 one = vec_all((Real)(1.0f));
   const Vec3 specular =
@@ -63,7 +63,7 @@ static inline Vec3 anisotropicphong_reflectivity(Anisotropicphong m, Vec3 fixed)
   return vec_add(specular, vec_mul(m.diffuse_reflectance, vec_sub(one, specular)));
 }
 
-// The density of the mixture, where half_vector / (4 h.k) is `specular`.
+// The density of the mixture; `specular` is the density of the lobe, that of the half vector divided by 4 h.k.
 static inline Real mixture_density(Anisotropicphong m, Real fixed_cosine, Real generated_cosine, Real specular) {
   const PartShares shares = part_shares(m, fixed_cosine);
   return (shares.diffuse * larger(generated_cosine, (Real)(0.0f)) * INV_PI + shares.specular * specular) /
@@ -74,7 +74,7 @@ static inline LobeValue anisotropicphong_evaluate(Anisotropicphong m, Vec3 fixed
   const Vec3 sum = vec_add(fixed, generated);
   const Real length = sqrt(vec_dot(sum, sum));
   const Real half_vector = half_vector_density(m, vec_scale(1.0f / length, sum));
-  const Real hk = 0.5f * length; // h . fixed = h . generated, without favouring either
+  const Real hk = 0.5f * length; // h . fixed = h . generated, computed symmetrically
   const Real lobe = half_vector / (4.0f * hk * larger(fixed.z, generated.z));
   const Real grazing = fifth_power(1.0f - hk);
   const Vec3 not_specular = vec_sub(vec_all((Real)(1.0f)), m.specular_reflectance);
@@ -94,7 +94,7 @@ static inline LobeSample anisotropicphong_sample(Anisotropicphong m, Vec3 fixed,
   const PartShares shares = part_shares(m, fixed.z);
   const Mask from_lobe = choice * (shares.diffuse + shares.specular) >= shares.diffuse;
   const Real u1 = uniform_real(random.words.y), u2 = uniform_real(random.words.z);
-  // Longitude: an angle uniform over the circle, stretched by the exponents; no quadrant needs a case of its own.
+  // Longitude: a uniform angle, stretched by the exponents, without a distinction of quadrants.
   Real cos_turn, sin_turn;
   cos_sin_turns(u2, &cos_turn, &sin_turn);
   const Real along_u = cos_turn * sqrt(m.exponent_v + 1.0f), along_v = sin_turn * sqrt(m.exponent_u + 1.0f);
@@ -108,7 +108,7 @@ static inline LobeSample anisotropicphong_sample(Anisotropicphong m, Vec3 fixed,
   const Vec3 mirrored = vec_along(vec_scale((Real)(-1.0f), fixed), 2.0f * hk, h);
   const Vec3 direction = vec_select(from_lobe, mirrored, cosine_direction(u1, u2));
   LobeSample s = lobe_sample(direction, anisotropicphong_evaluate(m, fixed, direction));
-  // A half vector that `fixed` cannot see gives a direction below the surface.
+  // A half vector with h . fixed < 0 gives a direction below the surface.
   s.direction.z = ((direction.z > 0.0f) & ((hk > 0.0f) | !from_lobe)) ? direction.z : (Real)(-1.0f);
   return s;
 }

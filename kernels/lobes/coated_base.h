@@ -4,8 +4,8 @@
 
 #include "math/vectors.h"
 
-// The light that leaves the base, of what first arrives at it, where the surface sends the part `internal` back to it:
-// r (1 + r d + (r d)^2 + ...) if `nonlinear` is 1; r (1 + d + d^2 + ...) if it is 0.
+// Fraction of the light arriving at the base that leaves it, if the surface reflects the fraction d = `internal` back
+// to the base each time: r (1 + r d + (r d)^2 + ...) if `nonlinear` is 1; r (1 + d + d^2 + ...) if it is 0.
 static inline Vec3 coated_base(Vec3 reflectance, Real internal, Real nonlinear) {
   const Mask shifts = nonlinear > 0.5f;
   const Real one_less = 1.0f - internal;
@@ -14,7 +14,7 @@ static inline Vec3 coated_base(Vec3 reflectance, Real internal, Real nonlinear) 
               reflectance.z / (shifts ? fma(-internal, reflectance.z, (Real)(1.0f)) : one_less));
 }
 
-// a / (a + b), 0 if both are.
+// a / (a + b), or 0 if both are 0.
 static inline Real part_of(Real a, Real b) { return a + b > 0.0f ? a / (a + b) : (Real)(0.0f); }
 
 #endif

@@ -1,5 +1,5 @@
-// A smooth conductor: a mirror whose reflectance is Fresnel's for the complex index of refraction eta + i k, times
-// specular_reflectance. With eta = 0 that is 1: the host then takes the mirror.
+// A smooth conductor: a mirror whose reflectance is specular_reflectance times Fresnel's for the complex index of
+// refraction eta + i k. With eta = 0 Fresnel's reflectance is 1, and the host uses the model `mirror` instead.
 #ifndef PHLUX_CONDUCTOR_CL
 #define PHLUX_CONDUCTOR_CL
 

@@ -1,5 +1,6 @@
-// The smooth surface between two dielectrics, such as glass in air: a mirror direction and, unless all light is reflected,
-// a refracted one, chosen in proportion to Fresnel's reflectance and its complement times their factors.
+// The smooth surface between two dielectrics, such as glass in air: a mirror direction and, except at total internal
+// reflection, a refracted one. They are chosen in proportion to F and 1 - F times their factors, F being Fresnel's
+// reflectance.
 #ifndef PHLUX_DIELECTRIC_CL
 #define PHLUX_DIELECTRIC_CL
 

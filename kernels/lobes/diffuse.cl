@@ -1,4 +1,4 @@
-// The diffuse (Lambertian) model: f_r = reflectance / pi, sampled by the cosine.
+// The diffuse (Lambertian) model: f_r = reflectance / pi, sampled with the density cos / pi.
 #ifndef PHLUX_DIFFUSE_CL
 #define PHLUX_DIFFUSE_CL
 

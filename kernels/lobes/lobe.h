@@ -1,40 +1,41 @@
-// The interface of a reflectance model. A model NAME (struct Name) is one file, NAME.cl, that declares its parameters and
-// defines four functions of them:
+// The interface of a reflectance model. A model NAME (struct Name) is one file, NAME.cl, that declares its parameters
+// and defines four functions of them:
 //
 //   LobeValue NAME_evaluate(Name m, Vec3 fixed, Vec3 generated)     f_r and both sampling densities
 //   LobeSample NAME_sample(Name m, Vec3 fixed, Real choice, RandomDraws random, Mask active)
 //   Vec3 NAME_reflectivity(Name m, Vec3 fixed)                      integral of f_r |cos| over all directions, per channel
 //
 // Directions are unit vectors in a frame whose z is the shading normal, and point away from the surface. `fixed` is the
-// direction that is known: towards the camera on an eye subpath, towards the light on a light subpath; it lies above the
-// surface. `generated` is the other one. A model is reciprocal; its densities are not.
+// known direction: towards the camera on an eye subpath, towards the light on a light subpath; it is above the surface.
+// `generated` is the other direction. f_r is reciprocal; the densities need not be.
 //
-// Roulette, sides and the choice among the models of a scene are in material.cl, which also sets f_r and weights to 0
-// below the surface: a model may return any value there, and any density that is finite. `phlux verify --lobe` checks all
-// that is stated here.
+// material.cl implements Russian roulette, the sides of surfaces and the choice among the models of a scene. It also
+// sets f_r and weights to 0 below the surface, where a model may return any value and any finite density. `phlux verify
+// --lobe` checks everything that is stated here.
 //
-// A model that light passes through defines NAME_TRANSMITS 1, and Real NAME_INDEX(m), the index of refraction of the medium
-// below the surface relative to that of the medium of `fixed` (1 where rays go straight through). It scatters on both sides
-// of a surface: m.front tells on which `fixed` lies, and `generated` may lie below. f_r and weights are those of power on
-// its way from `fixed` to `generated`, so that none is gained; with I = NAME_INDEX, f_r(b, a) = f_r(a, b) / I(a)^2 where a
-// and b lie on different sides (Veach 1997, 5.2). The transport of radiance divides by I^2 (radiance_scale, material.cl).
+// A model that transmits light defines NAME_TRANSMITS 1, and Real NAME_INDEX(m), the index of refraction below the
+// surface relative to that on the side of `fixed` (1 if rays are not refracted). It scatters on both sides of a
+// surface: m.front tells the side of `fixed`, and `generated` may be below. f_r and weights are those of power that
+// goes from `fixed` to `generated`, so that energy is conserved. With I = NAME_INDEX, f_r(b, a) = f_r(a, b) / I(a)^2
+// for a and b on different sides (Veach 1997, 5.2). Radiance is divided by I^2 (radiance_scale, material.cl).
 //
-// The declaration of the parameters is a list of COLOUR and NUMBER entries, each with its default, its range and its
-// meaning. The members of the struct, the record on the device, the reader of scene files and its messages follow from
-// it (host/lobes):
+// The parameters are declared by a list of COLOUR and NUMBER entries, each with its default, range and meaning. The
+// members of the struct, the record on the device, the reader of scene files and its messages follow from it
+// (host/lobes):
 //
 //   #define NAME_PARAMETERS(COLOUR, NUMBER)                             \
 //     COLOUR(reflectance, 0.5, 0, 1, "fraction of light reflected")     \
 //     NUMBER(exponent, 30, 0, 1e30, "exponent of the lobe")
 //   LOBE_STRUCT(Name, NAME)
 //
-// Optional: NAME_DERIVED(NUMBER, INDEX), members that the host computes for a model that ships; NAME_HAS_DELTA 1 where
-// samples may be delta events; NAME_NEEDS_TANGENTS 1 where f_r depends on the longitude: x of the frame is then along the
-// surface's first tangent; NAME_TEXTURED(m), the model with those derived members that depend on colours computed anew,
-// where a colour comes from a texture; NAME_REFLECTIVITY_IS_ESTIMATE 1 where NAME_reflectivity is no exact integral: roulette is
-// unbiased with any value above 0, and the nearer it is, the lower the variance;
-// NAME_SURVIVAL(m, fixed, random), the probability that a path survives roulette, where it is not the largest channel
-// of the reflectivity.
+// Optional:
+//   NAME_DERIVED(NUMBER, INDEX)      members that the host computes, only for models that ship
+//   NAME_TEXTURED(m)                 m with derived members computed again from its colours, which come from textures
+//   NAME_HAS_DELTA 1                 samples may be delta events
+//   NAME_NEEDS_TANGENTS 1            f_r depends on the longitude: x of the frame is along the surface's first tangent
+//   NAME_REFLECTIVITY_IS_ESTIMATE 1  NAME_reflectivity is not the exact integral. Roulette is unbiased with any value
+//                                    above 0, and the variance is lower with a better estimate
+//   NAME_SURVIVAL(m, fixed, random)  survival probability of roulette; default: largest channel of the reflectivity
 #ifndef PHLUX_LOBE_H
 #define PHLUX_LOBE_H
 
@@ -44,25 +45,25 @@
 #include "math/vectors.h"
 
 typedef struct {
-  Vec3 value;   // f_r, 1 / sr; no part of it is a delta distribution
+  Vec3 value;   // f_r in 1 / sr, without delta distributions
   Real density; // of sampling `generated` for this `fixed`, per solid angle
   Real reverse; // of sampling `fixed` for this `generated`, per solid angle
 } LobeValue;
 
 typedef struct {
-  Vec3 direction; // generated; below the surface it has weight 0 unless the model transmits; z = 0: no direction
-  Vec3 weight;    // f_r |cos| / density, per channel; of a delta event its reflectance
-  Real density;   // per solid angle; of a delta event any positive number
+  Vec3 direction; // generated; below the surface its weight is 0 unless the model transmits; z = 0: no direction
+  Vec3 weight;    // f_r |cos| / density, per channel; of a delta event: its reflectance
+  Real density;   // per solid angle; of a delta event: any positive number
   Mask delta;     // the direction was sampled from a delta distribution
-  Int draws;      // directions that were drawn to find this one
+  Int draws;      // number of directions drawn until this one was accepted
 } LobeSample;
 
-// A model's parameters in every lane, and the tables of the models that have some.
+// The parameters of a model in every lane, and its tables, if it has any.
 #define LOBE_COLOUR_MEMBER(name, otherwise, lowest, highest, meaning) Vec3 name;
 #define LOBE_NUMBER_MEMBER(name, otherwise, lowest, highest, meaning) Real name;
 #define LOBE_DERIVED_MEMBER(name) Real name;
 #define LOBE_INDEX_MEMBER(name) Int name;
-// The same in memory.
+// The record of these parameters in memory.
 #define LOBE_COLOUR_WORDS(name, otherwise, lowest, highest, meaning) float name[3];
 #define LOBE_NUMBER_WORD(name, otherwise, lowest, highest, meaning) float name;
 #define LOBE_DERIVED_WORD(name) float name;
@@ -79,7 +80,7 @@ typedef struct {
         NAME##_DERIVED(LOBE_DERIVED_WORD, LOBE_INDEX_WORD) int end;                                                    \
   } Name##Record;
 
-// A sample whose density and weight are those of the whole model.
+// A sample with the density and the weight f_r |cos| / density of the whole model.
 static inline LobeSample lobe_sample(Vec3 direction, LobeValue v) {
   LobeSample s;
   s.direction = direction;
@@ -93,7 +94,7 @@ static inline LobeSample lobe_sample(Vec3 direction, LobeValue v) {
 
 // ---- Delta events
 
-// Of a model without any f_r but delta distributions.
+// For a model whose f_r has only delta distributions.
 static inline LobeValue no_lobe_value(void) {
   LobeValue v;
   v.value = vec_all((Real)(0.0f));
@@ -111,13 +112,13 @@ static inline LobeSample delta_sample(Vec3 direction, Vec3 weight) {
   return s;
 }
 
-// All light that leaves a surface which reflects the part `reflectance` and transmits the rest, times their factors.
+// Reflectivity of a surface that reflects the fraction `reflectance` and transmits the rest, each times its factor.
 static inline Vec3 reflected_and_transmitted(Real reflectance, Vec3 reflected, Vec3 transmitted) {
   return vec_along(vec_scale(reflectance, reflected), 1.0f - reflectance, transmitted);
 }
 
-// The choice, by a uniform number, between reflection of a part of the light and transmission of the rest, in proportion
-// to these and the largest channels of their factors.
+// Chooses, by a uniform number, between reflection of the fraction `reflectance` and transmission of the rest, in
+// proportion to both fractions times the largest channels of their factors.
 typedef struct {
   Mask reflects;
   Vec3 weight;

@@ -1,4 +1,4 @@
-// The material of a surface: which of the scene's reflectance models it has, which sides reflect, and roulette.
+// The material of a surface: its reflectance model, the sides that reflect, and Russian roulette.
 //
 // The host writes lobes/models.cl (host/lobes): it includes the files of the models that the scene has and lists them,
 //   #define MODELS(MODEL) MODEL(0, phong, Phong, PHONG) MODEL(1, mirror, Mirror, MIRROR)
@@ -9,20 +9,20 @@
 #include "scene/scene.cl"
 #include "scene/textures.cl"
 
-// ROULETTE is one of these: what the probability to survive is in proportion to.
-#define ROULETTE_STRATEGY 0     // NAME_SURVIVAL of lobe.h: the reflectivity, unless the strategy knows only an estimate
+// Values of ROULETTE: the survival probability.
+#define ROULETTE_STRATEGY 0     // NAME_SURVIVAL of lobe.h: the reflectivity, or an estimate of it by the strategy
 #define ROULETTE_REFLECTIVITY 1 // the reflectivity of the vertex
 #define ROULETTE_KD_KS 2        // kd + ks
 #define ROULETTE_THROUGHPUT 3   // throughput x reflectivity: survivors have throughput 1, as in Mitsuba and pbrt
-#define ROULETTE_EFFICIENCY 4   // the same x EFFICIENCY_FACTOR, or 1 where that is more
+#define ROULETTE_EFFICIENCY 4   // min(1, EFFICIENCY_FACTOR x throughput x reflectivity)
 #define ROULETTE_BY_THROUGHPUT (ROULETTE == ROULETTE_THROUGHPUT | ROULETTE == ROULETTE_EFFICIENCY)
 
-// The most efficient survival is the throughput times the ratio of sqrt(variance / cost) of the path from here on to that
-// of the whole path (Bolin and Meyer, An Error Metric for Monte Carlo Ray Tracing, 1997; Rath et al., EARS, 2022). This
-// ratio is taken to be a constant, the best of those measured in whole renders (bench/saved/ROULETTE.md).
+// The most efficient survival probability is the throughput times the ratio of sqrt(variance / cost) of the rest of the
+// path to that of the whole path (Bolin and Meyer, An Error Metric for Monte Carlo Ray Tracing, 1997; Rath et al.,
+// EARS, 2022). This ratio is taken to be a constant, the best of those that were measured (bench/saved/ROULETTE.md).
 #define EFFICIENCY_FACTOR 2.0f
 
-// So that roulette ends every path, in a lossless room too.
+// Upper bound on the survival probability, so that every path ends, also in a room that absorbs nothing.
 #define LARGEST_SURVIVAL 0.999f
 
 #define MATERIAL_MEMBER(number, model, Model, MODEL) Model model;
@@ -31,17 +31,18 @@ typedef struct {
   MODELS(MATERIAL_MEMBER)
 } Material;
 
-// Lanes whose material has this model.
+// The lanes whose material has this model.
 static inline Mask has_model(Material m, int number) {
   return MODEL_COUNT > 1 ? (Mask)(m.model_number == number) : ALL_LANES;
 }
 
-// ---- Loading a material: a record has a header, then the words of its model's parameters.
+// ---- Loading a material: its record is a header, followed by the parameters of its model.
 
 #define WORD_OF(record, member)                                                                                        \
   (MATERIAL_HEADER + (int)((const __global float*)&(record)->member - (const __global float*)(record)))
 
-// The colour whose record begins at `word`: from its texture in the lanes of m that have one, elsewhere `recorded`.
+// The colour whose record begins at `word`: from its texture in the lanes of m that have one; in other lanes
+// `recorded`.
 static inline Vec3 textured_colour(const Scene* scene, Int material, int word, TextureCoordinates at, Mask m,
                                    Vec3 recorded) {
   const Int number = gather_int(scene->texture_numbers + word, material * MATERIAL_WORDS) - 1;
@@ -57,7 +58,7 @@ static inline Vec3 textured_colour(const Scene* scene, Int material, int word, T
   if (HAS_TEXTURES) m.name = textured_colour(scene, index, WORD_OF(record, name[0]), at, of_model, m.name);
 #define LOAD_NUMBER(name, otherwise, lowest, highest, meaning) LOAD_DERIVED(name)
 #define LOAD_DERIVED(name) m.name = material_real(scene, index, WORD_OF(record, name));
-// An index into a table must be valid in the lanes of other models too.
+// Indices into tables must be valid in the lanes of other models too.
 #define LOAD_INDEX(name) m.name = of_model ? material_int(scene, index, WORD_OF(record, name)) : (Int)(0);
 #define LOAD_MODEL(number, model, Model, MODEL)                                                                        \
   static inline Model load_##model(const Scene* scene, Int index, TextureCoordinates at, Mask front, Mask of_model) {  \
@@ -71,8 +72,8 @@ static inline Vec3 textured_colour(const Scene* scene, Int material, int word, T
   }
 MODELS(LOAD_MODEL)
 
-// Material `index`, and its colours at these texture coordinates. `front`: the direction that is known lies on the front of
-// the surface.
+// Material `index`, with its colours at these texture coordinates. `front`: the known direction is on the front of the
+// surface.
 static inline Material material_at(const Scene* scene, Int index, TextureCoordinates at, Mask front) {
   Material m;
   m.model_number = MODEL_COUNT > 1 ? material_int(scene, index, MATERIAL_MODEL) : (Int)(0);
@@ -81,16 +82,16 @@ static inline Material material_at(const Scene* scene, Int index, TextureCoordin
   return m;
 }
 
-// Lanes whose surface reflects anything on the side that was hit.
+// The lanes whose surface scatters light on the side that was hit.
 static inline Mask reflects(const Scene* scene, Int material, Mask front) {
   if (!(HAS_TWO_SIDED | HAS_BLACK)) return front;
   const Int side = front ? (Int)(MATERIAL_FRONT) : (Int)(MATERIAL_BACK);
   return (material_int(scene, material, MATERIAL_FLAGS) & side) != 0;
 }
 
-// ---- The functions of lobe.h for whichever model a lane has
+// ---- The functions of lobe.h, for the model of each lane
 
-// Lanes whose model may scatter into this direction.
+// The lanes whose model may scatter into this direction.
 static inline Mask may_scatter_into(Material m, Vec3 generated) {
   Mask possible = generated.z > 0.0f;
 #define MAY_SCATTER(number, model, Model, MODEL)                                                                       \
@@ -99,8 +100,8 @@ static inline Mask may_scatter_into(Material m, Vec3 generated) {
   return possible;
 }
 
-// Radiance that passes a surface changes with the square of the index of refraction, importance and power do not (Veach
-// 1997, 5.2): the factor for eye subpaths.
+// The factor by which radiance changes, but not importance or power, when light is refracted: the square of the
+// relative index of refraction (Veach 1997, 5.2). It applies to eye subpaths.
 static inline Real radiance_scale(Material m, Vec3 generated) {
   Real index = (Real)(1.0f);
 #define INDEX(number, model, Model, MODEL)                                                                             \
@@ -136,7 +137,7 @@ static inline Vec3 material_reflectivity(Material m, Vec3 fixed) {
 
 // ---- Russian roulette
 
-// As the model or its sampling strategy has it.
+// By NAME_SURVIVAL of the model or its sampling strategy.
 static inline Real survival_by_strategy(Material m, Vec3 fixed, RandomDraws random) {
   Real survival = (Real)(LARGEST_SURVIVAL);
 #define SURVIVAL(number, model, Model, MODEL)                                                                          \
@@ -145,16 +146,16 @@ static inline Real survival_by_strategy(Material m, Vec3 fixed, RandomDraws rand
   return survival;
 }
 
-// kd + ks of the Phong model is its reflectivity along the normal, where no part of the lobe is below the surface. A
-// model may reflect more elsewhere.
+// kd + ks of the Phong model is its reflectivity for the normal, where no part of the lobe is below the surface. Other
+// models may have a larger reflectivity for other directions.
 static inline Real survival_by_kd_ks(Material m, Vec3 fixed) {
   const Vec3 normal = vec3((Real)(0.0f), (Real)(0.0f), (Real)(1.0f));
   return larger(vec_max(material_reflectivity(m, normal)), vec_max(material_reflectivity(m, fixed)));
 }
 
-// The probability with which the paths of `roulette` survive; all others do. `throughput` is that of the path up to this
-// vertex, relative to its beginning. The largest channel decides: with the channels' mean a path between red walls would
-// have infinite variance in red.
+// The survival probability of the paths of `roulette`; 1 for other paths. `throughput` is that of the path up to this
+// vertex, relative to its beginning. The largest channel is used: with the mean of the channels a path between red
+// walls would have infinite variance in red.
 static inline Real material_survival(Material m, Vec3 fixed, RandomDraws random, Vec3 throughput, Mask roulette) {
   Real survival = (Real)(0.0f);
   if (ROULETTE == ROULETTE_STRATEGY) survival = survival_by_strategy(m, fixed, random);
@@ -168,20 +169,20 @@ static inline Real material_survival(Material m, Vec3 fixed, RandomDraws random,
 }
 
 typedef struct {
-  Vec3 direction; // below the surface it has weight 0 unless the model transmits
+  Vec3 direction; // below the surface its weight is 0 unless the model transmits
   Vec3 weight;    // f_r |cos| / (density x survival probability), per channel
-  Real density;   // of `direction`, given that the path survives
-  Mask survives;  // roulette: all lanes in which it was not asked for
+  Real density;   // of `direction`, on the condition that the path survives
+  Mask survives;  // roulette; 1 in lanes without roulette
   Mask delta;     // `direction` was sampled from a delta distribution
   Int draws;      // directions that were drawn to find this one
 } MaterialSample;
 
-// Roulette for the paths of `roulette`, then a sample of the model for those of `active` that survive it.
+// Applies roulette to the paths of `roulette`, then samples the model for the paths of `active` that survive.
 static inline MaterialSample material_sample(Material m, Vec3 fixed, RandomDraws random, Vec3 throughput, Mask roulette,
                                              Mask active) {
   const Real u = uniform_real(random.words.x), survival = material_survival(m, fixed, random, throughput, roulette);
   const Real inverse_survival = 1.0f / survival;
-  const Real choice = smaller(u * inverse_survival, (Real)(ONE_MINUS_EPSILON)); // uniform, of the paths that survive
+  const Real choice = smaller(u * inverse_survival, (Real)(ONE_MINUS_EPSILON)); // uniform if the path survives
   MaterialSample s;
   s.survives = u < survival;
   s.direction = fixed;

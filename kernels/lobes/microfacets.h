@@ -1,11 +1,10 @@
-// Surfaces of microfacets (Torrance and Sparrow 1967; Walter et al. 2007): distributions of their normals h and Smith's
-// masking, for one roughness alpha in all directions or two, along x and y of the frame. All of Beckmann's and GGX's surfaces
-// are one with alpha = 1, stretched: a slope is divided by the alpha of its direction.
+// Microfacet models (Torrance and Sparrow 1967; Walter et al. 2007): distributions of the normals h of microfacets, and
+// Smith's masking, for one roughness alpha in all directions, or two along x and y of the frame. Beckmann and GGX
+// surfaces with any alpha are stretched surfaces with alpha = 1: slopes are divided by alpha.
 //
-// Of what a surface shows to a direction v, facets with normals about h have the part D(h) (v.h)+ / sigma(v), the density of
-// visible normals (Heitz 2014), where sigma(v) = cos / G1(v) is the area of what is seen per area of the surface. Written
-// with sigma, nothing is divided by a cosine. Slopes are taken from x and y of h: 1 - cos^2 would lose every digit of a
-// slope of 1e-3.
+// The density of visible normals (Heitz 2014) is D(h) (v.h)+ / sigma(v), where sigma(v) = cos / G1(v) is the projected
+// area of the facets visible from v, per area of the surface. With sigma instead of G1 no formula divides by a cosine.
+// Slopes are computed from x and y of h, because 1 - cos^2 has no correct digit for a slope of 1e-3.
 #ifndef PHLUX_MICROFACETS_H
 #define PHLUX_MICROFACETS_H
 
@@ -13,15 +12,15 @@
 #include "math/random.h"
 #include "phong/reflectivity.h"
 
-// How a model's NUMBER `distribution` names the distributions.
+// Values of the parameter `distribution` of a model.
 #define FACETS_BECKMANN 0
 #define FACETS_GGX 1
 #define FACETS_PHONG 2
 
 typedef struct {
   Real alpha, alpha_v; // along x and y
-  int anisotropic;     // 0: they are the same
-  Mask ggx, phong;     // neither: Beckmann's
+  int anisotropic;     // 0: both are equal
+  Mask ggx, phong;     // neither: Beckmann
 } Facets;
 
 static inline Facets facets_of(Real alpha, Real distribution) {
@@ -47,7 +46,7 @@ static inline Facets anisotropic_facets(Real alpha_u, Real alpha_v, Real distrib
 // The exponent of Phong's distribution that resembles Beckmann's with this alpha (Walter et al. 2007, equation 40).
 static inline Real facet_exponent(Real alpha) { return 2.0f / (alpha * alpha) - 2.0f; }
 
-// D(h) of two roughnesses: the stretched slope is sqrt(slope2 / cosine2).
+// D(h) for two roughnesses: the stretched slope is sqrt(slope2 / cosine2).
 static inline Real anisotropic_density(Facets f, Vec3 h, Real cosine2) {
   const Real u = h.x / f.alpha, v = h.y / f.alpha_v;
   const Real slope2 = fma(u, u, v * v), scale = INV_PI / (f.alpha * f.alpha_v);
@@ -58,7 +57,7 @@ static inline Real anisotropic_density(Facets f, Vec3 h, Real cosine2) {
   return f.ggx ? ggx : beckmann;
 }
 
-// D(h), per solid angle, for h.z > 0: the integral of D(h) h.z is 1.
+// D(h), per solid angle, for h.z > 0. The integral of D(h) h.z is 1.
 static inline Real facet_density(Facets f, Vec3 h) {
   const Real sine2 = fma(h.x, h.x, h.y * h.y), cosine2 = larger(1.0f - sine2, (Real)(1e-9f));
   if (f.anisotropic) return anisotropic_density(f, h, cosine2);
@@ -71,9 +70,9 @@ static inline Real facet_density(Facets f, Vec3 h) {
   return f.ggx ? ggx : f.phong ? phong : beckmann;
 }
 
-// sigma(v): GGX by Heitz 2014, equation 72; Beckmann by his equation 65. For Phong it is the reflectivity of the modified
-// Phong lobe, an integral of the same form. (Walter et al. 2007 take Beckmann's masking for it, approximately, and with
-// alpha = 1 reflect a third more than arrives.)
+// sigma(v): for GGX by Heitz 2014, equation 72, for Beckmann by his equation 65. For Phong it is an integral of the
+// same form as the reflectivity of the modified Phong lobe. (Walter et al. 2007 approximate it by Beckmann's masking,
+// and with alpha = 1 reflect a third more light than arrives.)
 static inline Real shown_area(Facets f, Vec3 v) {
   const Real cosine = fabs(v.z), sine = sqrt(fma(v.x, v.x, v.y * v.y));
   Real spread = f.alpha * sine;
@@ -90,13 +89,13 @@ static inline Real shown_area(Facets f, Vec3 v) {
   return f.ggx ? ggx : f.phong ? phong : beckmann;
 }
 
-// The density with which sample_facet gives h for `fixed`, per solid angle about h: of visible normals; of all normals for
-// Phong. `density` is D(h), `shown` sigma(fixed).
+// The density of h by sample_facet for `fixed`, per solid angle of h: that of visible normals, or for Phong of all
+// normals. `density` is D(h), `shown` is sigma(fixed).
 static inline Real facet_sample_density(Facets f, Real density, Real shown, Vec3 h, Real fixed_h) {
   return density * (f.phong ? larger(h.z, (Real)(0.0f)) : fixed_h / shown);
 }
 
-// A visible normal of GGX (Heitz 2018): of the hemisphere that remains after the surface is stretched by 1 / alpha.
+// Samples visible normals of GGX (Heitz 2018): those of a hemisphere, after the surface is stretched by 1 / alpha.
 static inline Vec3 sample_ggx_facet(Facets f, Vec3 fixed, Real u1, Real u2) {
   const Vec3 v = vec_normalize(vec3(f.alpha * fixed.x, f.alpha_v * fixed.y, fixed.z));
   const Real length2 = fma(v.x, v.x, v.y * v.y);
@@ -113,7 +112,7 @@ static inline Vec3 sample_ggx_facet(Facets f, Vec3 fixed, Real u1, Real u2) {
   return vec_normalize(vec3(f.alpha * n.x, f.alpha_v * n.y, larger(n.z, (Real)(1e-7f))));
 }
 
-// The inverse of the error function, to 3e-7 of its value (Giles 2012).
+// The inverse of the error function, with a relative error of 3e-7 (Giles 2012).
 static inline Real inverse_erf(Real x) {
   const Real w = -log((1.0f - x) * (1.0f + x));
   const Real a = w - 2.5f, b = sqrt(w) - 3.0f;
@@ -137,9 +136,10 @@ static inline Real inverse_erf(Real x) {
   return (w < 5.0f ? p : q) * x;
 }
 
-// A visible normal of Beckmann's distribution (Heitz and d'Eon 2014): of the surface stretched to alpha = 1, whose slopes
-// are normally distributed. Across `fixed` the slope is independent of it; along `fixed`, of density
-// (cos - x sin)+ exp(-x^2), its distribution is inverted by Newton's method within a bracket.
+// Samples visible normals of Beckmann's distribution (Heitz and d'Eon 2014). The surface is stretched to alpha = 1,
+// where slopes are normally distributed. The slope perpendicular to `fixed` is independent of it. The slope x along
+// `fixed` has the density (cos - x sin)+ exp(-x^2), whose distribution function is inverted by Newton's method within a
+// bracket.
 static inline Vec3 sample_beckmann_facet(Facets f, Vec3 fixed, Real u1, Real u2) {
   const Vec3 v = vec_normalize(vec3(f.alpha * fixed.x, f.alpha_v * fixed.y, fixed.z));
   const Real sine = sqrt(fma(v.x, v.x, v.y * v.y));
@@ -162,7 +162,7 @@ static inline Vec3 sample_beckmann_facet(Facets f, Vec3 fixed, Real u1, Real u2)
   return vec_normalize(vec3(-f.alpha * fma(p, x, -q * y), -f.alpha_v * fma(q, x, p * y), (Real)(1.0f)));
 }
 
-// A normal for `fixed`, of facet_sample_density.
+// Samples a normal with the density facet_sample_density for `fixed`.
 static inline Vec3 sample_facet(Facets f, Vec3 fixed, Real u1, Real u2) {
   if (all_lanes(f.ggx)) return sample_ggx_facet(f, fixed, u1, u2);
   if (all_lanes(f.phong)) return cosine_power_direction(facet_exponent(f.alpha) + 1.0f, u1, u2);
@@ -174,7 +174,7 @@ static inline Vec3 sample_facet(Facets f, Vec3 fixed, Real u1, Real u2) {
 
 // ---- Reflection
 
-// The mirror image of `fixed` about h; z = -1 where `fixed` cannot see the facet.
+// The mirror image of `fixed` about h; z = -1 if the facet is not visible from `fixed`.
 static inline Vec3 reflected_by_facet(Vec3 fixed, Vec3 h) {
   const Real cosine = vec_dot(fixed, h);
   const Vec3 d = vec_along(vec_scale((Real)(-1.0f), fixed), 2.0f * cosine, h);
@@ -184,7 +184,7 @@ static inline Vec3 reflected_by_facet(Vec3 fixed, Vec3 h) {
 typedef struct {
   Real cosine;           // fixed.h
   Real value;            // D(h) / (4 sigma(fixed) sigma(generated)), 1 / sr
-  Real density, reverse; // of LobeValue, if all facets reflect
+  Real density, reverse; // as in LobeValue, if all facets reflect
 } FacetReflection;
 
 static inline FacetReflection facet_reflection(Facets f, Vec3 fixed, Vec3 generated) {
@@ -194,7 +194,7 @@ static inline FacetReflection facet_reflection(Facets f, Vec3 fixed, Vec3 genera
   const Real density = facet_density(f, h);
   const Real by_fixed = shown_area(f, fixed), by_generated = shown_area(f, generated);
   FacetReflection r;
-  r.cosine = 0.5f * length; // fixed.h = generated.h, without favouring either
+  r.cosine = 0.5f * length; // fixed.h = generated.h, computed symmetrically
   const Real jacobian = 0.25f / r.cosine; // dh / d(generated)
   r.value = 0.25f * density / (by_fixed * by_generated);
   r.density = jacobian * facet_sample_density(f, density, by_fixed, h, r.cosine);

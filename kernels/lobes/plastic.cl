@@ -1,8 +1,9 @@
-// Smooth plastic: a diffuse base under a smooth dielectric surface. The surface reflects the part F of the light and passes
-// the rest to the base and back, where it returns the part d (`internal`) to the base, again and again:
+// Smooth plastic: a diffuse base of reflectance r under a smooth dielectric surface. The surface reflects the fraction
+// F of the light and transmits the rest to the base; of the light from the base it reflects the fraction d (`internal`)
+// back:
 //   f_r = b (1 - F(fixed)) (1 - F(generated)) / (pi I^2), b = r / (1 - r d) with `nonlinear`, else r / (1 - d),
-// for the base's reflectance r, besides the surface's delta distribution. The first accounts for the light that the base
-// absorbs at every encounter, which shifts colours; the second does so at the first alone.
+// in addition to the delta distribution of the surface. With `nonlinear` the base absorbs light at every reflection,
+// which shifts colours; without it only at the first.
 #ifndef PHLUX_PLASTIC_CL
 #define PHLUX_PLASTIC_CL
 
@@ -24,7 +25,7 @@ static inline Real plastic_fresnel(Plastic m, Real cosine) {
   return refraction(in_plane(cosine), m.int_ior / m.ext_ior).reflectance;
 }
 
-// How often the surface is sampled rather than the base.
+// The probability of sampling the surface instead of the base.
 static inline Real plastic_share(Plastic m, Vec3 base, Real fresnel) {
   return part_of(fresnel * vec_max(m.specular_reflectance), (1.0f - fresnel) * (1.0f - m.internal) * vec_max(base));
 }

@@ -1,4 +1,4 @@
-// A rough conductor: mirrors in all directions of the facets' normals (Torrance and Sparrow 1967),
+// A rough conductor: microfacets that are smooth conductors (Torrance and Sparrow 1967),
 //   f_r = F(fixed.h) D(h) / (4 sigma(fixed) sigma(generated)).
 #ifndef PHLUX_ROUGH_CONDUCTOR_H
 #define PHLUX_ROUGH_CONDUCTOR_H
@@ -9,7 +9,7 @@
 
 typedef struct {
   Facets facets;
-  Vec3 eta, k, factor; // `factor`: of the reflectance
+  Vec3 eta, k, factor; // factor of the reflectance
 } RoughConductor;
 
 static inline Vec3 rough_conductor_fresnel(RoughConductor c, Real cosine) {

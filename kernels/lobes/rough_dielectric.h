@@ -1,6 +1,5 @@
-// A rough surface between two dielectrics (Walter et al. 2007): facets that reflect and refract. With I the relative
-// index of refraction, in the flux that lobe.h asks for and with the areas sigma of microfacets.h, f_r on the far side
-// is
+// A rough surface between two dielectrics (Walter et al. 2007): microfacets that reflect and refract. With the relative
+// index of refraction I and sigma of microfacets.h, for power as lobe.h requires, f_r on the far side is
 //   (1 - F(fixed.h)) D(h) I^2 |fixed.h| |generated.h| / (sigma(fixed) sigma(generated) (fixed.h + I generated.h)^2).
 #ifndef PHLUX_ROUGH_DIELECTRIC_H
 #define PHLUX_ROUGH_DIELECTRIC_H
@@ -15,15 +14,15 @@ typedef struct {
   Vec3 reflectance, transmittance; // their factors
 } RoughDielectric;
 
-// How often a facet is sampled to reflect, of the light that it reflects (F) and transmits.
+// The probability of sampling reflection by a facet of Fresnel reflectance F, instead of transmission.
 static inline Real reflected_share(RoughDielectric d, Real reflectance) {
   const Real reflected = reflectance * vec_max(d.reflectance);
   const Real all = fma(1.0f - reflectance, vec_max(d.transmittance), reflected);
   return all > 0.0f ? reflected / all : (Real)(1.0f);
 }
 
-// A facet that is nearer to edge-on transmits nothing: its cosine, a difference of numbers near 1, has a relative
-// rounding error of up to 2^-23 / this, a thousandth.
+// Least cosine to a facet that transmits: a smaller cosine, which is a difference of numbers near 1, would have a
+// relative rounding error of up to 2^-23 / this, a thousandth.
 #define LEAST_FACET_COSINE 1.2e-4f
 
 // The far side: `generated` is below the surface.
@@ -64,8 +63,8 @@ static inline LobeValue rough_dielectric_evaluate(RoughDielectric d, Vec3 fixed,
   return v;
 }
 
-// As if all facets were at the angle of the surface, but some transmit beyond the critical angle too: roulette must let
-// their light survive.
+// An estimate: the reflectivity if the normals of all microfacets were that of the surface. Beyond the critical angle
+// some facets transmit; the estimate includes a part for them, so that their light survives roulette.
 static inline Vec3 rough_dielectric_reflectivity(RoughDielectric d, Vec3 fixed) {
   const Real reflected =
       smaller(refraction(fixed, d.index).reflectance, 1.0f - 0.25f * larger(d.facets.alpha, d.facets.alpha_v));
@@ -76,14 +75,14 @@ static inline LobeSample rough_dielectric_sample(RoughDielectric d, Vec3 fixed, 
   const Real index = d.index;
   const Vec3 h = sample_facet(d.facets, fixed, uniform_real(random.words.y), uniform_real(random.words.z));
   const Real cosine = vec_dot(fixed, h);
-  const Vec3 along = vec_along(fixed, -cosine, h); // the part of `fixed` along the facet
+  const Vec3 along = vec_along(fixed, -cosine, h); // the component of `fixed` in the plane of the facet
   const Vec3 on_facet = vec3((Real)(0.0f), sqrt(vec_dot(along, along)), cosine);
   const Refraction r = refraction(on_facet, index);
   const Mask reflects = choice < reflected_share(d, r.reflectance);
   const Vec3 through = vec_normalize(vec_along(vec_scale(-1.0f / index, along), -r.cosine, h));
   Vec3 direction = vec_select(reflects, reflected_by_facet(fixed, h), through);
-  // No direction: where `fixed` cannot see the facet, or light would have to pass the surface by reflection or be
-  // reflected by refraction.
+  // No direction if the facet is not visible from `fixed`, or if the reflected direction is below the surface or the
+  // refracted one above it.
   const Mask possible = (cosine > 0.0f) & ((direction.z > 0.0f) == reflects);
   direction.z = possible ? direction.z : (Real)(0.0f);
   LobeSample s = lobe_sample(direction, rough_dielectric_evaluate(d, fixed, direction));

@@ -1,4 +1,4 @@
-// A rough conductor of the same roughness in all directions.
+// A rough conductor with the same roughness in all directions.
 #ifndef PHLUX_ROUGHCONDUCTOR_CL
 #define PHLUX_ROUGHCONDUCTOR_CL
 
@@ -26,7 +26,7 @@ static inline LobeValue roughconductor_evaluate(Roughconductor m, Vec3 fixed, Ve
   return rough_conductor_evaluate(roughconductor_surface(m), fixed, generated);
 }
 
-// As if all facets were at the angle of the surface.
+// An estimate: the reflectivity if the normals of all microfacets were that of the surface.
 static inline Vec3 roughconductor_reflectivity(Roughconductor m, Vec3 fixed) {
   return rough_conductor_fresnel(roughconductor_surface(m), fixed.z);
 }

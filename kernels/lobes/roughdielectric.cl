@@ -1,4 +1,4 @@
-// A rough surface between two dielectrics, of the same roughness in all directions.
+// A rough surface between two dielectrics with the same roughness in all directions.
 #ifndef PHLUX_ROUGHDIELECTRIC_CL
 #define PHLUX_ROUGHDIELECTRIC_CL
 

@@ -1,6 +1,6 @@
-// Rough plastic: as plastic, under a surface of microfacets. T is the part of the light that passes the surface inwards,
-// which the host integrates over the facets, and the surface sends the part d (`internal`) of the light inside back: all that
-// does not pass, or if `lossy` what one facet reflects.
+// Rough plastic: as plastic, under a surface of microfacets. T is the fraction of the light that the surface transmits,
+// which the host integrates over the facets. Of the light from the base the surface reflects the fraction d
+// (`internal`): all that is not transmitted, or if `lossy` only what a single facet reflects.
 //   f_r = F(fixed.h) D(h) / (4 sigma(fixed) sigma(generated)) + b T(fixed) T(generated) / (pi I^2).
 #ifndef PHLUX_ROUGHPLASTIC_CL
 #define PHLUX_ROUGHPLASTIC_CL
@@ -19,7 +19,7 @@
   NUMBER(alpha, 0.1, 0.001, 1, "roughness: root mean square slope of the facets, times sqrt(2)")                       \
   NUMBER(distribution, 0, 0, 2, "of the facets' normals: 0 beckmann, 1 ggx, 2 phong")                                  \
   NUMBER(lossy, 0, 0, 1, "1: light inside that a second facet blocks is lost, as in Mitsuba 3")
-// T at ROUGHPLASTIC_INTERVALS + 1 cosines, evenly spaced from 0 to 1, from table_row on.
+// The table has T at ROUGHPLASTIC_INTERVALS + 1 cosines, evenly spaced from 0 to 1, from index table_row on.
 #define ROUGHPLASTIC_DERIVED(NUMBER, INDEX) NUMBER(internal) INDEX(table_row)
 #define ROUGHPLASTIC_INTERVALS 128
 #define ROUGHPLASTIC_REFLECTIVITY_IS_ESTIMATE 1
@@ -33,7 +33,7 @@ static inline Real passing_surface(Roughplastic m, Real cosine) {
   return fma(position - below, v1 - v0, v0);
 }
 
-// How often the surface is sampled rather than the base, where it lets `passing` through.
+// The probability of sampling the surface instead of the base, if the surface transmits the fraction `passing`.
 static inline Real roughplastic_share(Roughplastic m, Vec3 base, Real passing) {
   return part_of((1.0f - passing) * vec_max(m.specular_reflectance), passing * (1.0f - m.internal) * vec_max(base));
 }
@@ -54,7 +54,7 @@ static inline LobeValue roughplastic_evaluate(Roughplastic m, Vec3 fixed, Vec3 g
   return v;
 }
 
-// As if the surface reflected all that it does not let pass.
+// An estimate: as if the surface reflected all light that it does not transmit.
 static inline Vec3 roughplastic_reflectivity(Roughplastic m, Vec3 fixed) {
   const Real passing = passing_surface(m, fixed.z);
   return vec_along(vec_scale(1.0f - passing, m.specular_reflectance), passing * (1.0f - m.internal),

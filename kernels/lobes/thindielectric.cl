@@ -1,6 +1,6 @@
-// A thin plate of a dielectric with parallel faces, such as a window pane: light passes straight on. Of the light between
-// the faces, the part r of each encounter is reflected, so that r + (1 - r)^2 r (1 + r^2 + r^4 + ...) = 2 r / (1 + r)
-// of all light is.
+// A thin plate of a dielectric with parallel faces, such as a window pane, which does not refract light that passes.
+// Each face reflects the fraction r, and the plate r + (1 - r)^2 r (1 + r^2 + r^4 + ...) = 2 r / (1 + r), by repeated
+// reflection between the faces.
 #ifndef PHLUX_THINDIELECTRIC_CL
 #define PHLUX_THINDIELECTRIC_CL
 

@@ -4,8 +4,8 @@
 
 #include "lanes/lanes.h"
 
-// Cosine and sine of 2 pi turns, for turns in [0, 1]; both within 2 ulp of the larger. Polynomials fitted for the
-// least relative error over an eighth of a turn to either side of the nearest quarter.
+// Cosine and sine of 2 pi turns, for turns in [0, 1]; errors are at most 2 ulp of the larger. The polynomials have the
+// least maximal relative error within an eighth of a turn of the nearest multiple of a quarter.
 static inline void cos_sin_turns(Real turns, Real* cosine, Real* sine) {
 #ifdef PHLUX_DOUBLE
   *cosine = cospi(2.0 * turns);

@@ -1,4 +1,4 @@
-// Constants. Those of REAL() have the precision of a Real.
+// Constants. Those in REAL() have the precision of a Real.
 #ifndef PHLUX_CONSTANTS_H
 #define PHLUX_CONSTANTS_H
 

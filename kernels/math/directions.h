@@ -1,5 +1,5 @@
-// Directions from pairs of numbers uniform in (0, 1): the parameters of the hemisphere of CW 197, section 4, and the
-// lobe. z is the normal, or the lobe's axis.
+// Directions from pairs of numbers uniform in (0, 1): the parametrizations of the hemisphere in CW 197, section 4, and
+// the lobe. z is the normal, or the axis of the lobe. Densities are per solid angle.
 #ifndef PHLUX_RANDOM_DIRECTIONS_H
 #define PHLUX_RANDOM_DIRECTIONS_H
 
@@ -20,7 +20,7 @@ static inline Vec3 hemisphere_direction(Real u1, Real u2) {
 // An offset with density 1 - |offset| over (-1, 1).
 static inline Real tent_offset(Real u) { return u < 0.5f ? sqrt(2.0f * u) - 1.0f : 1.0f - sqrt(2.0f - 2.0f * u); }
 
-// Over the whole sphere: density 1 / (4 pi).
+// Uniform over the sphere: density 1 / (4 pi).
 static inline Vec3 sphere_direction(Real u1, Real u2) {
   return polar_direction(2.0f * sqrt(u1 * (1.0f - u1)), 1.0f - 2.0f * u1, u2);
 }
@@ -46,12 +46,12 @@ static inline Vec3 disk_direction(Real u1, Real u2) {
   return vec3(centre ? (Real)(0.0f) : v.x, centre ? (Real)(0.0f) : v.y, v.z);
 }
 
-// cos(alpha) for sin^2(alpha) = -minus_sine2. Half an ulp of 1 keeps a direction at the edge, which rounding would put
-// where the lobe is 0, inside.
+// cos(alpha) for sin^2(alpha) = -minus_sine2. Half an ulp of 1 is added, so that rounding moves no direction at the
+// edge to where the lobe is 0.
 static inline Real lobe_cosine(Real minus_sine2) { return sqrt(larger(1.0f + minus_sine2, (Real)(REAL_HALF_ULP))); }
 
-// Density (n + 1) / (2 pi) cos^n(alpha). -expm1(2 log(u) / (n + 1)) is sin^2(alpha) to 1e-7 at every n;
-// 1 - pow(u, 2 / (n + 1)) is not even of the right order at n = 1e4.
+// Density (n + 1) / (2 pi) cos^n(alpha). sin^2(alpha) = -expm1(2 log(u) / (n + 1)) has a relative error of 1e-7 for
+// every n; 1 - pow(u, 2 / (n + 1)) has one of 1 at n = 1e4.
 static inline Vec3 cosine_power_direction(Real exponent, Real u1, Real u2) {
   const Real minus_sine2 = expm1(2.0f * log(u1) / (exponent + 1.0f));
   return polar_direction(sqrt(-minus_sine2), lobe_cosine(minus_sine2), u2);

@@ -21,9 +21,9 @@ static inline Frame frame_about(Vec3 z) {
   return f;
 }
 
-// A right-handed frame about the unit vector z whose x lies along `tangent`, which need be neither unit nor quite
-// perpendicular; where it is (nearly) parallel to z or 0, any frame about z. The second projection takes out what
-// cancellation leaves of the first.
+// A right-handed frame about the unit vector z whose x is along the projection of `tangent`, of any length; if
+// `tangent` is (nearly) parallel to z or 0, any frame about z. The second projection removes the error that
+// cancellation leaves in the first.
 static inline Frame frame_along(Vec3 z, Vec3 tangent) {
   const Vec3 once = vec_along(tangent, -vec_dot(tangent, z), z);
   const Real length2 = vec_dot(once, once);
@@ -41,8 +41,9 @@ static inline Vec3 to_frame(Frame f, Vec3 v) { return vec3(vec_dot(f.x, v), vec_
 
 static inline Vec3 from_frame(Frame f, Vec3 v) { return vec_along(vec_along(vec_scale(v.x, f.x), v.y, f.y), v.z, f.z); }
 
-// The frame of the mirror image of a direction about the normal: z along that image, x in the plane of it and the
-// normal, pointing away from the normal, y across. Built from components of the direction alone, it cancels nowhere.
+// The frame of the mirror image of a direction about the normal: z along that image, x in the plane of image and
+// normal, away from the normal, y perpendicular to both. It is computed from the components of the direction without
+// cancellation.
 typedef struct {
   Real cosine, sine; // of the angle between the direction (or its image) and the normal
   Real p, q;         // the direction lies in the plane of the normal and (p, q, 0)
@@ -63,7 +64,7 @@ static inline Vec3 from_mirror_frame(MirrorFrame f, Vec3 v) {
   return vec3(fma(f.q, v.y, -f.p * outward), -fma(f.p, v.y, f.q * outward), fma(f.cosine, v.z, -f.sine * v.x));
 }
 
-// How far above the surface v points.
+// The height of v, in the mirror frame, above the surface: its component along the normal.
 static inline Real mirror_frame_height(MirrorFrame f, Vec3 v) { return fma(f.cosine, v.z, -f.sine * v.x); }
 
 #endif

@@ -4,13 +4,13 @@
 
 #include "math/vectors.h"
 
-// The index of refraction of the medium beyond a surface, relative to that of the medium of a direction that lies on its
-// front or not. `inside` is the index behind the surface, `outside` that in front of it.
+// The index of refraction of the medium on the other side of a surface, relative to that on the side of a direction,
+// the front or the back. `inside` is the index behind the surface, `outside` that in front of it.
 static inline Real relative_index(Mask front, Real inside, Real outside) {
   return front ? inside / outside : outside / inside;
 }
 
-// By the cosines of the angles of incidence and refraction; `index` is that of the medium beyond over that before.
+// From the cosines of the angles of incidence and refraction; `index` is the relative index of the far side.
 static inline Real fresnel_reflectance(Real cosine, Real refracted_cosine, Real index) {
   const Real bent = index * refracted_cosine, straight = index * cosine;
   const Real s = (cosine - bent) / (cosine + bent), p = (straight - refracted_cosine) / (straight + refracted_cosine);
@@ -18,13 +18,13 @@ static inline Real fresnel_reflectance(Real cosine, Real refracted_cosine, Real 
 }
 
 typedef struct {
-  Real reflectance; // 1 where all light is reflected
-  Real cosine;      // of the refracted direction to the normal; 0 where all light is reflected
+  Real reflectance; // 1 at total internal reflection
+  Real cosine;      // of the angle of refraction; 0 at total internal reflection
 } Refraction;
 
-// `index` is that of the medium beyond over that of the medium of `direction`, which makes the angle of Snell's law with
-// the normal. The root is index cos(theta_t), of index^2 - sin^2 or of cos^2 + index^2 - 1, whichever cancels less:
-// equal media neither reflect nor bend, at grazing angles too.
+// `index` is that of the far side, relative to that of the side of `direction`. The root is index cos(theta_t) by
+// Snell's law: of index^2 - sin^2 or of cos^2 + index^2 - 1, whichever cancels less, so that equal media reflect
+// nothing and do not bend light, also at grazing angles.
 static inline Refraction refraction(Vec3 direction, Real index) {
   const Real cosine = direction.z, index2 = index * index;
   const Real sine2 = fma(direction.x, direction.x, direction.y * direction.y);
@@ -37,7 +37,7 @@ static inline Refraction refraction(Vec3 direction, Real index) {
   return r;
 }
 
-// A direction at the angle of this cosine to the normal.
+// For a direction at this cosine to the normal.
 static inline Vec3 in_plane(Real cosine) {
   return vec3((Real)(0.0f), sqrt(larger(fma(-cosine, cosine, (Real)(1.0f)), (Real)(0.0f))), cosine);
 }
@@ -48,8 +48,8 @@ static inline Vec3 refracted(Vec3 direction, Real index, Refraction r) {
   return vec3(shorter * direction.x, shorter * direction.y, -r.cosine);
 }
 
-// Of a medium with the complex index of refraction eta + i k. (a + i b)^2 = (eta + i k)^2 - sin^2, with the smaller of a
-// and b from a b = eta k, as the difference of squares would cancel.
+// Reflectance of a medium with the complex index of refraction eta + i k. (a + i b)^2 = (eta + i k)^2 - sin^2; the
+// smaller of a and b is computed from a b = eta k, because the difference of squares would cancel.
 static inline Real conductor_reflectance(Real cosine, Real eta, Real k) {
   const Real cosine2 = cosine * cosine, sine2 = larger(1.0f - cosine2, (Real)(0.0f));
   const Real difference = fma(eta, eta, fma(-k, k, -sine2)), product = eta * k;

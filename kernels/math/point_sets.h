@@ -1,6 +1,6 @@
-// Point sets in four dimensions that fill the unit cube more evenly than independent points: sets of 2^bits points, at
-// most 2^MOST_POINT_BITS. A coordinate is a word, of which the highest bit is the first digit. A set is randomized by
-// four uniform words such that each point is uniform (as words are, exactly).
+// Low-discrepancy point sets in four dimensions: sets of 2^bits points, at most 2^MOST_POINT_BITS. A coordinate is a
+// word whose highest bit is the first digit. A set is randomized by four uniform words, so that each point is exactly
+// uniform over all words.
 #ifndef PHLUX_POINT_SETS_H
 #define PHLUX_POINT_SETS_H
 
@@ -12,11 +12,11 @@ typedef struct {
   Uint x, y, z, w;
 } RandomWords;
 
-// The bits of a set's words that choose its scrambling: below the digits of the shift, so that these are independent.
+// The bits of the random words that determine the scrambling: below those of the shift, so that both are independent.
 #define SCRAMBLING_BITS 19
 
-// Scrambles digits linearly: multiplies the vector of digits, the highest bit first, by a random unit lower triangular
-// matrix (Matousek 1998), a product of three sparse ones.
+// Linear scrambling: multiplies the vector of digits, the highest bit first, by a random unit lower triangular matrix
+// (Matousek 1998), which is a product of three sparse ones.
 static inline Uint scramble_digits(Uint digits, Uint random) {
   const Uint masks = random << (32 - SCRAMBLING_BITS);
   digits ^= (digits >> 1) & masks;
@@ -24,10 +24,10 @@ static inline Uint scramble_digits(Uint digits, Uint random) {
   return digits ^ ((digits >> 4) & (masks << 10));
 }
 
-// Point `number` of a Sobol set with linear scrambling and a digital shift, whose variance is that of Owen's scrambling
-// (Owen 2003). Primitive polynomials and initial direction numbers by Joe and Kuo (2008): x + 1 with 1; x^2 + x + 1 with
-// 1, 3; x^3 + x + 1 with 1, 3, 1. The order of the points is scrambled, as the high digits of the number are the low
-// ones of the point: the first 2^k points are a net for every k.
+// Point `number` of a Sobol set with linear scrambling and a digital shift. Its variance is that of Owen's scrambling
+// (Owen 2003). Primitive polynomials and initial direction numbers by Joe and Kuo (2008): x + 1 with 1; x^2 + x + 1
+// with 1, 3; x^3 + x + 1 with 1, 3, 1. The order of the points is scrambled too, because the high digits of the number
+// are the low ones of the point; the first 2^k points are a net for every k.
 static inline RandomWords sobol_point(Uint number, RandomWords random) {
   const Uint order = random.x + random.y;
   number ^= (number >> 1) & order;
@@ -53,9 +53,10 @@ static inline RandomWords sobol_point(Uint number, RandomWords random) {
   return point;
 }
 
-// Point `number` of a lattice of 2^bits points (Sloan and Joe 1994) with a random shift (Cranley and Patterson 1976). The
-// generating vector is the one of least worst ratio, over 4 to 64 points, of P2 (weight .6 for each dimension) to the
-// best vector's. The order of the points is multiplied by a random odd number.
+// Point `number` of a lattice of 2^bits points (Sloan and Joe 1994) with a random shift (Cranley and Patterson 1976).
+// The generating vector minimizes, over the sets of 4 to 64 points, the largest ratio of P2 (weight .6 for each
+// dimension) to that of the best vector for this number of points. The numbers of the points are multiplied by a random
+// odd number.
 static inline RandomWords lattice_point(Uint number, uint bits, RandomWords random) {
   const Uint step = (number * (random.x | 1u)) << (32u - bits);
   RandomWords point;

@@ -1,17 +1,17 @@
-// Random numbers by counting: Philox 4x32 (Salmon, Moraes, Dror, Shaw 2011) turns (pixel, sample, dimension, draw) into
-// four random words under a key, the seed. Nothing is stored between calls, so an image depends on the seed alone and
-// not on how the work was cut into launches and threads.
+// Counter-based random numbers: Philox 4x32 (Salmon, Moraes, Dror, Shaw 2011) maps (pixel, sample, dimension, draw) to
+// four random words; the seed is its key. There is no state, so that an image depends only on the seed, not on how the
+// work is divided into launches and threads.
 #ifndef PHLUX_RANDOM_H
 #define PHLUX_RANDOM_H
 
 #include "math/point_sets.h"
 
-// The paper's safety margin is 10 rounds; 7 is the fewest that passes BigCrush (its table 2).
+// 7 is the smallest number of rounds that passes BigCrush (table 2 of the paper); the paper recommends 10.
 #ifndef PHILOX_ROUNDS
 #define PHILOX_ROUNDS 7
 #endif
 
-// How the samples of a pixel are related: not at all, or as points of sets.
+// How the samples of a pixel are related: independent, or points of low-discrepancy sets.
 #define SAMPLER_INDEPENDENT 0
 #define SAMPLER_SOBOL 1
 #define SAMPLER_LATTICE 2
@@ -37,16 +37,16 @@ static inline RandomWords philox(RandomWords counter, uint2 key) {
   return c;
 }
 
-// The point sets of a launch: a pixel's samples from `first` on form sets of 2^bits samples.
+// The point sets of a launch: the samples of a pixel from number `first` on form sets of 2^bits samples.
 typedef struct {
   uint first, bits;
 } PointSets;
 
-// A path's place in the sequence: the pixel (or light path) and the sample.
+// The position of a path in the sequence: the pixel (or light path) and the sample.
 typedef struct {
   Uint pixel, sample;
   uint2 seed;
-  PointSets sets; // without meaning for independent samples
+  PointSets sets; // not used by independent samples
 } RandomSequence;
 
 // Four independent random words, see random_words.
@@ -59,9 +59,10 @@ static inline RandomWords independent_words(RandomSequence sequence, Uint sample
   return philox(counter, sequence.seed);
 }
 
-// Four random words for one purpose on one path. `dimension` numbers the purpose (say, 2 bounce + 1), `draw` the
-// repetition of a sampler that draws until it accepts. With a sampler of point sets, the words of draw 0 are a point of
-// the sample's set. Sets are padded: each set and dimension is randomized by itself.
+// Four random words for one sampling decision of a path. `dimension` is the number of the decision (such as
+// 2 bounce + 1), `draw` the repetition of a sampler that draws until it accepts. With a low-discrepancy sampler, the
+// words of draw 0 are a point of the sample's set. Sets are padded: each set and each dimension is randomized
+// separately.
 static inline RandomWords random_words(RandomSequence sequence, Uint dimension, uint draw) {
   if (SAMPLER == SAMPLER_INDEPENDENT || draw > 0 || sequence.sets.bits == 0)
     return independent_words(sequence, sequence.sample, dimension, draw);
@@ -70,7 +71,7 @@ static inline RandomWords random_words(RandomSequence sequence, Uint dimension, 
   return SAMPLER == SAMPLER_SOBOL ? sobol_point(number, random) : lattice_point(number, sequence.sets.bits, random);
 }
 
-// Random numbers for one sampling decision: the words of its first draw, and the place of further draws.
+// Random numbers for one sampling decision: the words of its first draw, and what further draws need.
 typedef struct {
   RandomWords words;
   RandomSequence sequence;
@@ -90,8 +91,8 @@ static inline RandomWords draw_again(RandomDraws random, uint draw) {
   return random_words(random.sequence, random.dimension, draw);
 }
 
-// Further words from two of random_words, one for each number above 0: for many choices of small weight each. The
-// finishing steps of MurmurHash3 over a Weyl sequence.
+// Further words, one for each number above 0, from two of random_words: for many choices with little effect each. They
+// are the final steps of MurmurHash3 on a Weyl sequence.
 static inline Uint further_word(Uint first, Uint step, Uint number) {
   Uint h = first + (step | 1u) * number;
   h = (h ^ (h >> 16)) * 0x85ebca6bu;
@@ -99,7 +100,7 @@ static inline Uint further_word(Uint first, Uint step, Uint number) {
   return h ^ (h >> 16);
 }
 
-// Uniform in the open interval (0, 1): 2^23 equidistant values, the outer ones 2^-24 from the ends.
+// Uniform in the open interval (0, 1): 2^23 equidistant values, from 2^-24 to 1 - 2^-24.
 static inline Real uniform_real(Uint word) {
   return fma(uint_to_real(word >> 9), (Real)(1.1920928955078125e-07f), (Real)(5.9604644775390625e-08f));
 }

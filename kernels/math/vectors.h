@@ -34,7 +34,7 @@ static inline Vec3 vec_select(Mask m, Vec3 yes, Vec3 no) {
 }
 static inline Vec3 pack_vec(Mask m, Vec3 v) { return vec3(pack_lanes(m, v.x), pack_lanes(m, v.y), pack_lanes(m, v.z)); }
 static inline Vec3 vec_normalize(Vec3 a) { return vec_scale((Real)(1.0f) / sqrt(vec_dot(a, a)), a); }
-// The angle between two unit vectors in radians, from half their chord: the cosine of a small angle has lost its digits.
+// The angle between two unit vectors in radians, from half their distance: the cosine of a small angle is inaccurate.
 static inline Real vec_angle(Vec3 a, Vec3 b) {
   const Mask acute = vec_dot(a, b) >= 0.0f;
   const Vec3 chord = vec_select(acute, vec_sub(a, b), vec_add(a, b));
@@ -46,7 +46,7 @@ static inline Real vec_sum(Vec3 a) { return a.x + a.y + a.z; }
 static inline Real vec_mean(Vec3 a) { return (a.x + a.y + a.z) * (REAL(1.0) / 3.0f); }
 static inline Real vec_largest(Vec3 a) { return larger(fabs(a.x), larger(fabs(a.y), fabs(a.z))); }
 
-// ---- Between vectors and memory
+// ---- Memory access
 
 // Three words of memory, the same in every lane.
 static inline Vec3 broadcast_vec(const __global float* v) { return vec3((Real)(v[0]), (Real)(v[1]), (Real)(v[2])); }
@@ -54,7 +54,7 @@ static inline Vec3 broadcast_scalars(const __global Scalar* v) {
   return vec3((Real)(v[0]), (Real)(v[1]), (Real)(v[2]));
 }
 
-// As GATHER_REAL, of a member of three words.
+// GATHER_REAL for a member of three words.
 #define GATHER_VEC3(table, index, member)                                                                              \
   vec3(GATHER_REAL(table, index, member[0]), GATHER_REAL(table, index, member[1]), GATHER_REAL(table, index, member[2]))
 

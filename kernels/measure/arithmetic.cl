@@ -1,5 +1,5 @@
-// Formulas that the kernels use, and others that they could: `phlux bench arithmetic` measures what each errs by and
-// costs. Each is a kernel of the same arguments (MEASURE below).
+// Formulas that the kernels use, and alternatives: `phlux bench arithmetic` measures their errors and times. Each is a
+// kernel with the same arguments (MEASURE below).
 #include "math/frames.h"
 #include "math/directions.h"
 #include "math/vectors.h"
@@ -23,7 +23,7 @@ static inline Real log2_near_one(Real t) {
   return t * p;
 }
 
-// x = 2^exponent (1 + t) with t as above, for x > 0 that is no denormal.
+// x = 2^exponent (1 + t) with t as above, for positive normal x.
 static inline Int exponent_of(Real x) { return (real_bits(x) - (Int)(0x3f3504f3)) >> 23; }
 static inline Real mantissa_of(Real x, Int exponent) { return bits_real(real_bits(x) - (exponent << 23)); }
 
@@ -32,7 +32,7 @@ static inline Real own_log2(Real x) {
   return to_real(exponent) + log2_near_one(mantissa_of(x, exponent) - 1.0f);
 }
 
-// log2(1 + t) for t > -1: no digit of a small t is lost.
+// log2(1 + t) for t > -1, accurate for small t.
 static inline Real own_log2_1p(Real t) {
   const Real x = 1.0f + t;
   const Int exponent = exponent_of(x);
@@ -52,7 +52,7 @@ static inline Real own_exp2(Real x) {
   return p * bits_real((to_int(whole) + 127) << 23);
 }
 
-// -expm1(x) for x <= 0, to 2e-7: a polynomial where 1 - exp(x) would cancel.
+// -expm1(x) for x <= 0, to 2e-7: by a polynomial where 1 - exp(x) would cancel.
 static inline Real own_minus_expm1(Real x) {
   Real p = (Real)(1.12163485e-03f);
   p = fma(p, x, (Real)(8.18738621e-03f));
@@ -63,7 +63,7 @@ static inline Real own_minus_expm1(Real x) {
   return x > -0.5f ? -x * p : 1.0f - exp(x);
 }
 
-// ---- Inputs by what they mean
+// ---- Meanings of the inputs
 
 static inline Vec3 vec_of(const Real* in) { return vec3(in[0], in[1], in[2]); }
 static inline Real dot_of(const Real* in) { return vec_dot(vec_of(in), vec_of(in + 3)); }
@@ -90,7 +90,7 @@ static inline void frame_by_cross(Vec3 z, Vec3* x, Vec3* y) {
   *y = vec_cross(z, *x);
 }
 
-// The cross product with a fixed axis, or another one where z is nearly along it.
+// The cross product with a fixed axis, or with another axis if z is nearly parallel to it.
 static inline void frame_by_up(Vec3 z, Vec3* x, Vec3* y) {
   const Mask along = fabs(z.z) > 0.999f;
   *x = vec_normalize(vec_select(along, vec3((Real)(0.0f), -z.z, z.y), vec3(-z.y, z.x, (Real)(0.0f))));
@@ -105,7 +105,8 @@ static inline void frame_by_frisvad(Vec3 z, Vec3* x, Vec3* y) {
   *y = vec_select(singular, vec3((Real)(-1.0f), (Real)(0.0f), (Real)(0.0f)), vec3(b, 1.0f - z.y * z.y * a, -z.y));
 }
 
-// ---- Offsets that keep a ray from meeting the surface that it leaves: in[0..2] is the position, in[3..5] the normal
+// ---- Offsets that prevent a ray from hitting the surface that it leaves: in[0..2] is the position, in[3..5] the
+// normal
 
 // Waechter and Binder 2019: a step of some units in the last place of each component, or a fixed one near 0.
 static inline Real ulp_step(Real position, Real normal) {
@@ -116,9 +117,10 @@ static inline Real ulp_step(Real position, Real normal) {
 
 // ---- Kernels
 
-// Reads `inputs` floats of each of `count` elements (plane by plane, `count` apart), writes `outputs` likewise. With
-// `repeats` above 1, for timing, the same is done again with `nothing`, 0, added, and the results are summed: the
-// compiler does not know, and the formula's operands stay in registers. count must be a multiple of LANES.
+// Reads `inputs` floats of each of `count` elements (value k of all elements, then value k + 1), and writes `outputs`
+// floats likewise. For timing, with `repeats` above 1, the formula is evaluated again with `nothing` = 0 added to its
+// inputs, and the results are summed: the compiler cannot remove this, and operands stay in registers. count is a
+// multiple of LANES.
 #define MEASURE(name, inputs, outputs, formula)                                                                        \
   __kernel void name(const __global float* values, int count, float exponent, int repeats, float nothing,              \
                      __global float* results) {                                                                        \
@@ -140,7 +142,7 @@ static inline Real ulp_step(Real position, Real normal) {
     }                                                                                                                  \
   }
 
-// What the loop itself costs, for as many inputs and outputs.
+// The loop without a formula, with the same numbers of inputs and outputs.
 MEASURE(empty_1_1, 1, 1, out[0] = in[0] + n)
 MEASURE(empty_1_2, 1, 2, out[0] = in[0] + n; out[1] = in[0])
 MEASURE(empty_6_1, 6, 1, out[0] = (in[0] + in[1]) + (in[2] + in[3]) + (in[4] + in[5]) + n)
@@ -191,7 +193,7 @@ MEASURE(function_rsqrt, 1, 1, out[0] = rsqrt(in[0]))
 MEASURE(function_one_over_sqrt, 1, 1, out[0] = 1.0f / sqrt(in[0]))
 MEASURE(function_divide, 1, 1, out[0] = 1.0f / in[0])
 
-// A position moved off its surface; in[6] is the largest coordinate on the way to it.
+// A position moved off its surface; in[6] is the largest coordinate in its computation.
 MEASURE(offset_fixed, 7, 3, put(vec_along(vec_of(in), (Real)(1e-3f), vec_of(in + 3)), out))
 MEASURE(offset_scaled, 7, 3,
         put(vec_along(vec_of(in), 9.5367432e-7f * (vec_largest(vec_of(in)) + in[6]), vec_of(in + 3)), out))

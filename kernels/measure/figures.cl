@@ -1,5 +1,5 @@
-// What the figures of CW 197 show, from the functions that the path tracer uses: lane i works on element i. Arrays of
-// vectors hold three floats each.
+// Data of the figures of CW 197, from the functions of the path tracer: lane i computes element i. Arrays of vectors
+// have three floats per vector.
 #include "measure/only_material.cl"
 #include "math/directions.h"
 
@@ -18,7 +18,7 @@ static inline Vec3 gather_vec3_at(const __global float* vectors, Int index) {
 
 static inline Vec3 all_lanes_of(float4 v) { return vec3((Real)(v.x), (Real)(v.y), (Real)(v.z)); }
 
-// The horizon counts as part of the hemisphere here; the model is 0 there.
+// Here the horizon is part of the hemisphere; the model is 0 there.
 static inline Vec3 on_hemisphere(Vec3 v) { return vec3(v.x, v.y, larger(v.z, (Real)(1e-6f))); }
 
 // values[i] = f_r for the i-th pair of directions.
@@ -46,8 +46,7 @@ static inline Vec3 direction_of(int space, Real first, Real second) {
   }
 }
 
-// d(omega) cos(theta) per unit of the parameters as CW 197 measures them: theta and phi in radians, the others as they
-// are.
+// d(omega) cos(theta) per unit of the parameters in the units of CW 197: theta and phi in radians, others without unit.
 static inline Real measure_of(int space, Vec3 v) {
   switch (space) {
   case SPACE_THETA_PHI:
@@ -61,8 +60,8 @@ static inline Real measure_of(int space, Vec3 v) {
   }
 }
 
-// The integrand of the reflectivity over a grid of a parameter space, first parameter slowest. `parameters` holds two
-// floats each, in [0, 1] (x, y: in the unit disk); `values` gets five: the direction, f_r and the integrand.
+// The integrand of the reflectivity over a grid of a parameter space, first parameter slowest. `parameters` has two
+// floats per element, in [0, 1] (x, y: in the unit disk); `values` gets five: the direction, f_r and the integrand.
 __kernel void evaluate_parameters(const __global float* materials, const __global float* lobe_tables,
                                   float4 fixed, int space, const __global float* parameters, int count,
                                   __global float* values) {
@@ -78,7 +77,7 @@ __kernel void evaluate_parameters(const __global float* materials, const __globa
   scatter_real(values, 5 * element + 4, value * measure_of(space, v), inside);
 }
 
-// values: x, y and the weight of the i-th sample, 0 where it was absorbed or went below the surface.
+// values: x, y and the weight of the i-th sample, which is 0 if it was absorbed or is below the surface.
 __kernel void sample_squares(const __global float* materials, const __global float* lobe_tables, float4 fixed,
                              uint2 seed, int count, __global float* values) {
   const Int element = elements_of_item();

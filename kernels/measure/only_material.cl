@@ -4,7 +4,7 @@
 
 #include "lobes/material.cl"
 
-// `front`: as of material_at.
+// `front` as in material_at.
 static inline Material only_material_from(const __global float* materials, const __global float* lobe_tables, Mask front) {
   Scene scene;
   scene.materials = materials;

@@ -1,5 +1,5 @@
-// Rays alone, for measuring traversal: each lane takes rays lane, lane + stride, ... from arrays of eight floats each
-// (origin, direction, distance, unused).
+// Only rays, for measuring traversal: each lane traces the rays lane, lane + stride, ... of an array of eight floats
+// each (origin, direction, distance, unused).
 #include "scene/scene.cl"
 #include "scene/traverse.cl"
 #include "math/vectors.h"
@@ -13,7 +13,7 @@ static inline Ray ray_at(const __global float* rays, Int index, Real* distance) 
   return ray;
 }
 
-// found[i]: the distance at which ray i meets the closest primitive; infinite where it meets none.
+// found[i]: the distance of the closest primitive on ray i; infinite if there is none.
 __kernel void find_closest(SCENE_PARAMETERS, const __global float* rays, int ray_count, __global float* found) {
   SCENE_FROM_PARAMETERS
   const int stride = (int)get_global_size(0) * LANES;
@@ -26,7 +26,7 @@ __kernel void find_closest(SCENE_PARAMETERS, const __global float* rays, int ray
   }
 }
 
-// found[i]: 1 where something is before ray i's distance, else 0.
+// found[i]: 1 if a primitive is on ray i before its distance, else 0.
 __kernel void find_any(SCENE_PARAMETERS, const __global float* rays, int ray_count, __global float* found) {
   SCENE_FROM_PARAMETERS
   const int stride = (int)get_global_size(0) * LANES;

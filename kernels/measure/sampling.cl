@@ -1,15 +1,15 @@
-// The sampler of a reflectance model alone, for measuring it: one material, one angle of incidence, one kind of light.
+// Sampling of a reflectance model without a scene: one material, one angle of incidence, one kind of light.
 #include "measure/only_material.cl"
 #include "measure/sampling_radiance.h"
 
-// One of FIXED_DIRECTIONS directions that differ in their longitude alone, in each lane: three times LANES floats each.
-// That they are read for every sample keeps what depends on them in the loop, as in a render.
+// One of FIXED_DIRECTIONS directions that differ only in their longitude, in each lane: three times LANES floats each.
+// They are read for every sample, so that computations that depend on them stay in the loop, as in a render.
 static inline Vec3 fixed_direction(const __global float* directions, int number) {
   const __global float* at = directions + (number & (FIXED_DIRECTIONS - 1)) * 3 * LANES;
   return vec3(load_reals(at), load_reals(at + LANES), load_reals(at + 2 * LANES));
 }
 
-// SAMPLED_BY: the material's model itself, or one of two densities that know nothing of it, to compare it with.
+// Values of SAMPLED_BY: the sampling of the model itself, or one of two densities that do not depend on the model.
 #define SAMPLED_BY_MODEL 0
 #define SAMPLED_BY_COSINE 1
 #define SAMPLED_BY_HEMISPHERE 2
@@ -28,7 +28,8 @@ static inline MaterialSample sample_of(Material m, Vec3 fixed, RandomDraws rando
   return s;
 }
 
-// values[i]: f_r, the mean of its channels, for this fixed direction and the i-th of `count` others, of three floats each.
+// values[i]: mean over the channels of f_r, for this fixed direction and the i-th of `count` others of three floats
+// each.
 __kernel void evaluate_directions(const __global float* materials, const __global float* lobe_tables, float4 fixed,
                                   const __global float* directions, int count, __global float* values) {
   const Int element = (int)get_global_id(0) * LANES + LANE_NUMBERS;
@@ -41,7 +42,7 @@ __kernel void evaluate_directions(const __global float* materials, const __globa
   scatter_real(values, element, vec_mean(v.value), inside);
 }
 
-// What arrives from `direction`, which lies above the surface.
+// Incident radiance from `direction`, which is above the surface.
 static inline Real radiance_from(int kind, Vec3 fixed, Vec3 direction) {
   if (kind == RADIANCE_MIRROR_DISK) {
     const Real dx = direction.x + fixed.x, dy = direction.y + fixed.y, dz = direction.z - fixed.z;
@@ -52,8 +53,8 @@ static inline Real radiance_from(int kind, Vec3 fixed, Vec3 direction) {
   return (Real)(1.0f);
 }
 
-// Sums over the samples of one block in one lane of d = weight x radiance - centre, where weight is 0 for a path that
-// does not survive or goes below the surface and centre is near the mean, so that little is lost to rounding.
+// Sums of powers of d = weight x radiance - centre over the samples of one block in one lane. The weight is 0 for a
+// path that does not survive or is below the surface; centre is near the mean, which reduces rounding errors.
 typedef struct {
   Real d, d2, d3, d4;
 } PowerSums;
@@ -67,8 +68,8 @@ static inline void add_powers(PowerSums* sums, Real d) {
 }
 
 // sums: four floats for every block and lane, at [((item * blocks + block) * 4 + power - 1) * LANES + lane].
-// counts, three for each work-item: rays that go on, directions that were drawn, and samples that are wrong by
-// themselves: not a unit vector, no density, no finite weight.
+// counts, three for each work-item: reflected rays, directions that were drawn, and invalid samples: not a unit vector,
+// no positive density, or a weight that is not finite.
 __kernel void sample_moments(const __global float* materials, const __global float* lobe_tables,
                              const __global float* directions, uint2 seed, uint first_sample, int blocks,
                              int block_samples, int roulette, int light, float centre, __global float* sums,

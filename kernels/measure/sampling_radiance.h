@@ -1,6 +1,6 @@
-// Light that `phlux bench sampling` lets arrive; the host integrates the same (bench/sampling/radiance.h). Each kind is scaled
-// so that its integral over the hemisphere is 2 pi, as that of radiance 1 is, where no part of it lies below the
-// horizon.
+// The incident light of `phlux bench sampling`; the host integrates the same functions (bench/sampling/radiance.h).
+// Each kind is scaled so that its integral over the hemisphere is 2 pi, as that of the radiance 1, if no part of it is
+// below the horizon.
 #ifndef PHLUX_SAMPLING_RADIANCE_H
 #define PHLUX_SAMPLING_RADIANCE_H
 

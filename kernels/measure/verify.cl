@@ -1,6 +1,6 @@
-// What `phlux verify` asks of a reflectance model: the functions of lobes/material.cl for one material.
+// Kernels of `phlux verify`: the functions of lobes/material.cl for one material.
 //
-// Arrays of lanes hold one plane per value: value k of all elements, then value k + 1 of all elements.
+// Arrays have one plane per value: value k of all elements, then value k + 1 of all elements.
 #include "measure/only_material.cl"
 
 #define PLANE(k) ((size_t)(k)*get_global_size(0) + get_global_id(0))
@@ -18,8 +18,8 @@ static inline void vec_to_planes(__global Real* to, int first, Vec3 v) {
   to[PLANE(first + 2)] = v.z;
 }
 
-// Directions are given and returned with z along the front's normal; models that transmit have z on the
-// side of `fixed`, and others do nothing below the surface.
+// Directions are given and returned with z along the normal of the front. Models that transmit have z on the side of
+// `fixed`; others do not scatter below the surface.
 static inline Vec3 seen_from(Vec3 fixed, Vec3 v) {
   return HAS_TRANSMISSION ? vec3(v.x, v.y, fixed.z < 0.0f ? -v.z : v.z) : v;
 }
@@ -41,7 +41,7 @@ static inline void sample_to_planes(__global Real* to, MaterialSample s) {
   to[PLANE(9)] = s.delta ? (Real)(1.0f) : (Real)(0.0f);
 }
 
-// Paths first, first + 1, ... of the sequence that a render with this seed would use.
+// Paths first, first + 1, ... of the random sequence of a render with this seed.
 __kernel void sample_model(VERIFY_PARAMETERS, float fixed_x, float fixed_y, float fixed_z, uint2 seed, uint first,
                            int roulette, __global Real* samples) {
   RandomSequence sequence;
@@ -53,7 +53,7 @@ __kernel void sample_model(VERIFY_PARAMETERS, float fixed_x, float fixed_y, floa
                    sample_on_its_side(VERIFY_MATERIAL(fixed), fixed, random_draws(sequence, (Uint)(0u)), roulette));
 }
 
-// The same for chosen first random words, four planes of them.
+// The same for given first random words, in four planes.
 __kernel void drive_model(VERIFY_PARAMETERS, float fixed_x, float fixed_y, float fixed_z, __global const Uint* words,
                           int roulette, __global Real* samples) {
   RandomDraws random;
@@ -69,9 +69,9 @@ __kernel void drive_model(VERIFY_PARAMETERS, float fixed_x, float fixed_y, float
   sample_to_planes(samples, sample_on_its_side(VERIFY_MATERIAL(fixed), fixed, random, roulette));
 }
 
-// For pairs of directions (a, b), six planes. Ten planes: f_r with a fixed, f_r with b fixed (times the squared relative
-// index of refraction where they are on different sides, so that both are equal), the density of b for a fixed and of a for
-// b fixed as two calls give them, then the reverse densities of the same two calls.
+// For pairs of directions (a, b), six planes. Ten planes: f_r with a fixed, f_r with b fixed (times the squared
+// relative index of refraction where they are on different sides, so that both are equal), the density of b for a fixed
+// and of a for b fixed as two calls give them, then the reverse densities of the same two calls.
 __kernel void evaluate_model(VERIFY_PARAMETERS, __global const Real* pairs, __global Real* values) {
   const Vec3 a = vec_from_planes(pairs, 0), b = vec_from_planes(pairs, 3);
   const Material m = VERIFY_MATERIAL(a);

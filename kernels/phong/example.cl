@@ -2,8 +2,8 @@
 // reflectivity, rho_d + rho_s (example.py, tests/phong).
 #include "phong/load.h"
 
-// Each lane takes `samples` samples for a direction at this cosine with the normal. means[i]: the mean weight in lane i of
-// all lanes, get_global_size(0) * WIDTH of them. table: one row, for this exponent.
+// Each lane draws `samples` samples for a direction at this cosine to the normal. means[i] is the mean weight in lane i
+// of all get_global_size(0) * WIDTH lanes. table: one row, for this exponent.
 __kernel void mean_weight(float kd, float ks, float exponent, const __global float* table, float cosine, uint2 seed,
                           int samples, __global float* means) {
   const Phong model =
@@ -17,7 +17,7 @@ __kernel void mean_weight(float kd, float ks, float exponent, const __global flo
   for (int i = 0; i < samples; ++i) {
     sequence.sample = (Uint)((uint)i);
     const RandomDraws random = random_draws(sequence, (Uint)(0u));
-    const Real choice = uniform_real(random.words.x); // between the diffuse part and the lobe
+    const Real choice = uniform_real(random.words.x); // chooses between the diffuse part and the lobe
     const LobeSample s = phong_sample(model, fixed, choice, random, ALL_LANES);
     sum += s.direction.z > 0.0f ? s.weight.x : (Real)(0.0f);
   }

@@ -1,10 +1,11 @@
-// The parameters of the modified Phong model from plain numbers, for programs without records of materials.
+// The parameters of the modified Phong model from plain numbers, for programs without records of materials
+// (lobes/lobe.h).
 #ifndef PHLUX_PHONG_LOAD_H
 #define PHLUX_PHONG_LOAD_H
 
 #include "phong/phong.cl"
 
-// kd, ks and n in every lane. `table` holds rows of PHONG_TABLE_INTERVALS + 1 values of rho_s / ks, one row for each
+// kd, ks and n in every lane. `table` has rows of PHONG_TABLE_INTERVALS + 1 values of rho_s / ks, one row for each
 // exponent, at evenly spaced cosines from 0 to min(1, 6 / sqrt(n + 1)); the row of n begins at index `row`.
 static inline Phong phong_from(Vec3 kd, Vec3 ks, Real n, const __global float* table, Int row) {
   Phong m;

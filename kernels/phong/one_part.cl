@@ -1,7 +1,7 @@
-// Strategies that sample one part of the model, the diffuse part or the lobe, each by its own density (CW 197, 3.3.2). A
-// strategy defines phong_estimate(m, fixed, random), what it takes for the lobe's reflectivity rho_s / ks in choosing
-// between the parts and in roulette, phong_expected(m, cosine), the mean of that, and two constants:
-//   PHONG_WHOLE_WEIGHT 1: the weight is that of the whole model, f_r cos / density; 0: that of the part alone.
+// Strategies that choose one part of the model, the diffuse part or the lobe, and sample it by its own density (CW 197,
+// 3.3.2). A strategy defines phong_estimate(m, fixed, random), the value of the reflectivity rho_s / ks of the lobe
+// that it uses in the choice and in roulette; phong_expected(m, cosine), the mean of this value; and two constants:
+//   PHONG_WHOLE_WEIGHT 1: the weight is f_r cos / density of the whole model; 0: that of the chosen part alone.
 //   PHONG_FOLD 1: a lobe sample below the surface is mirrored to above.
 #ifndef PHLUX_PHONG_ONE_PART_CL
 #define PHLUX_PHONG_ONE_PART_CL
@@ -12,9 +12,9 @@ static inline Real phong_survival(Phong m, Vec3 fixed, RandomDraws random) {
   return phong_survival_for(m, phong_estimate(m, fixed, random));
 }
 
-// The lobe's density where samples below the surface are mirrored about psi = 0: twice as dense where the mirror image
-// lies below. There z c + x s of the mirror frame is negative; with x = -(p, q) . w c - s w.z and
-// z = -(p, q) . w s + c w.z that is -2 c s (p, q) . w + (c^2 - s^2) w.z.
+// Density of the lobe if samples below the surface are mirrored about psi = 0: it is doubled where the mirror image is
+// below the surface. That is where z c + x s in the mirror frame is negative; with x = -(p, q) . w c - s w.z and
+// z = -(p, q) . w s + c w.z this is -2 c s (p, q) . w + (c^2 - s^2) w.z.
 static inline Real folded_density(Vec3 fixed, Vec3 generated, Real density) {
   const MirrorFrame f = mirror_frame(fixed);
   const Real along = fma(f.p, generated.x, f.q * generated.y);
@@ -22,7 +22,7 @@ static inline Real folded_density(Vec3 fixed, Vec3 generated, Real density) {
   return generated.z > 0.0f ? (image < 0.0f ? 2.0f * density : density) : (Real)(0.0f);
 }
 
-// Where the share is an estimate, the density for its mean, which serves as well for weighting other strategies.
+// If phong_estimate is random, this is the density for its mean, which is sufficient for weights of other techniques.
 static inline Real phong_density(Phong m, Vec3 fixed, Vec3 generated, Real lobe) {
   const PhongShares shares = phong_shares(m, phong_expected(m, fixed.z));
   Real density = lobe * (m.exponent + 1.0f) / (m.exponent + 2.0f); // times pi
@@ -46,7 +46,7 @@ static inline LobeSample phong_sample(Phong m, Vec3 fixed, Real choice, RandomDr
   whole.density = phong_density(m, fixed, direction, lobe);
   LobeSample s = lobe_sample(direction, whole);
   if (PHONG_WHOLE_WEIGHT) return s;
-  // The part that was sampled over its own density and its probability.
+  // The chosen part, divided by its own density and its probability.
   const Real of_lobe = total / shares.specular * (m.exponent + 2.0f) / (m.exponent + 1.0f) * direction.z;
   const Vec3 of_part = vec_select(from_lobe, vec_scale(of_lobe, m.specular_reflectance),
                                   vec_scale(total / shares.diffuse, m.diffuse_reflectance));

@@ -5,8 +5,8 @@
 // alpha is the angle between `generated` and the mirror image of `fixed`, clamped to pi / 2. The interface and the
 // conventions are those of lobes/lobe.h.
 //
-// PHONG_STRATEGY names the file of the sampling strategy, such as "phong/strategies/exact.cl", or a user's own
-// (`--strategy FILE.cl`). A strategy defines
+// PHONG_STRATEGY is the file of the sampling strategy, such as "phong/strategies/exact.cl" or that of
+// `--strategy FILE.cl`. A strategy defines
 //
 //   Real phong_density(Phong m, Vec3 fixed, Vec3 generated, Real lobe)     lobe: phong_lobe, which is reciprocal
 //   LobeSample phong_sample(Phong m, Vec3 fixed, Real choice, RandomDraws random, Mask active)
@@ -23,7 +23,7 @@
   COLOUR(diffuse_reflectance, 0.5, 0, 1, "kd")                                                                         \
   COLOUR(specular_reflectance, 0.2, 0, 1, "ks; kd + ks is at most 1 in every channel")                                 \
   NUMBER(exponent, 30, 0, 1e30, "n")
-// The largest channels of kd and ks decide how often each part is sampled. The reflectivity of the lobe is tabulated
+// The probabilities of the parts depend on the largest channels of kd and ks. The reflectivity of the lobe is tabulated
 // over the cosine (host/lobes/phong.cpp): table_row is the index of the row's first value, table_scale the number of
 // intervals per unit of cosine, and grazing_reflectivity is rho_s / ks at 90 degrees.
 #define PHONG_DERIVED(NUMBER, INDEX)                                                                                   \
@@ -38,13 +38,14 @@ static inline Phong phong_textured(Phong m) {
   return m;
 }
 
-// Intervals of a row of the reflectivity table; a row has one value more. The host that fills the table defines it.
+// Number of intervals in a row of the reflectivity table, one less than its values. Defined by the host, which fills
+// the table.
 #ifndef PHONG_TABLE_INTERVALS
 #define PHONG_TABLE_INTERVALS 1024
 #endif
 
 // (n + 2) / 2 cos^n(alpha), 0 beyond pi / 2: f_r of the lobe for ks = pi. |generated - mirrored|^2 / 2 = 1 - cos(alpha)
-// does not cancel: the power is right to 1e-7 at every n, where pow(dot, n) is off by 3e-2 at n = 1e6.
+// does not cancel: the relative error of the power is 1e-7 for every n; that of pow(dot, n) is 3e-2 at n = 1e6.
 static inline Real phong_lobe(Phong m, Vec3 fixed, Vec3 generated) {
   const Real dx = generated.x + fixed.x, dy = generated.y + fixed.y, dz = generated.z - fixed.z;
   const Real one_minus_cosine = 0.5f * fma(dx, dx, fma(dy, dy, dz * dz));
@@ -52,8 +53,8 @@ static inline Real phong_lobe(Phong m, Vec3 fixed, Vec3 generated) {
   return one_minus_cosine < 1.0f ? fma(m.exponent, (Real)(0.5f), (Real)(1.0f)) * power : (Real)(0.0f);
 }
 
-// rho_s / ks, the reflectivity of the lobe alone at this cosine: the integral of CW 197, 3.3.1, which has a closed form
-// (Arvo's double-axis moments). Linear interpolation of the table errs by at most 7e-5.
+// rho_s / ks, the reflectivity of the lobe at this cosine: the integral of CW 197, 3.3.1, which has a closed form
+// (Arvo's double-axis moments). The error of linear interpolation in the table is at most 7e-5.
 static inline Real phong_lobe_reflectivity(Phong m, Real cosine) {
   const Real position = cosine * m.table_scale;
   const Real below = smaller(floor(larger(position, (Real)(0.0f))), (Real)(PHONG_TABLE_INTERVALS - 1));
@@ -68,7 +69,7 @@ static inline Vec3 phong_reflectivity(Phong m, Vec3 fixed) {
   return vec_along(m.diffuse_reflectance, phong_lobe_reflectivity(m, fixed.z), m.specular_reflectance);
 }
 
-// f_r for a value of phong_lobe.
+// f_r from the value of phong_lobe.
 static inline Vec3 phong_value(Phong m, Real lobe) {
   return vec_scale((Real)(INV_PI), vec_along(m.diffuse_reflectance, lobe, m.specular_reflectance));
 }

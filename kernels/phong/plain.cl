@@ -1,5 +1,5 @@
-// Strategies that sample without regard to the lobe. A strategy defines plain_direction(u1, u2) and plain_density(v), the
-// density of a direction above the surface, before it includes this file.
+// Strategies whose density does not depend on the lobe. Before it includes this file, a strategy defines
+// plain_direction(u1, u2) and plain_density(v), the density of a direction above the surface.
 #ifndef PHLUX_PHONG_PLAIN_CL
 #define PHLUX_PHONG_PLAIN_CL
 

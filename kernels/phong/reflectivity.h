@@ -4,14 +4,15 @@
 
 #include "math/constants.h"
 
-// rho_s / ks: (n + 2) / (2 pi) times the integral over the hemisphere of cos^n(alpha) cos(theta), where the lobe's axis
-// makes an angle of this cosine with the normal. It is (3) of sampling.md,
+// rho_s / ks: (n + 2) / (2 pi) times the integral over the hemisphere of cos^n(alpha) cos(theta), if the axis of the
+// lobe is at this cosine to the normal. It is equation (3) of sampling.md,
 //
 //     c (1 - I_{s^2}(n / 2 + 1, 1 / 2) / 2) + K s^(n + 2),
 //
-// whose first factor is a probability of Student's t with n + 2 degrees of freedom, by Hill's expansion about the normal
-// distribution (Communications of the ACM 13, 1970, algorithm 395), and whose K is a ratio of Gamma functions, by three
-// terms of its continued fraction. The relative error is at most 2e-5 for n >= 1, 3e-4 for n >= 0.
+// where the factor of c is a probability of Student's t distribution with n + 2 degrees of freedom, computed by Hill's
+// expansion about the normal distribution (Communications of the ACM 13, 1970, algorithm 395), and K is a ratio of
+// Gamma functions, computed by three terms of a continued fraction. The relative error is at most 2e-5 for n >= 1, 3e-4
+// for n >= 0.
 static inline Real phong_reflectivity_of(Real exponent, Real cosine) {
   const Real minus_log_sine2 = -log1p(-cosine * cosine); // infinite at cosine 1
   const Real a = exponent + 1.5f, b = 48.0f * a * a;

@@ -1,12 +1,12 @@
-// How often a strategy samples the diffuse part and the lobe of the modified Phong model, and the survival probability
-// of roulette, from what it takes for the reflectivity of the lobe.
+// Probabilities of sampling the diffuse part and the lobe of the modified Phong model, and the survival probability of
+// roulette, from the strategy's value of the reflectivity of the lobe.
 #ifndef PHLUX_PHONG_SHARES_H
 #define PHLUX_PHONG_SHARES_H
 
 #include "phong/phong.cl"
 
 typedef struct {
-  Real diffuse, specular; // in proportion to the probability of sampling each part
+  Real diffuse, specular; // proportional to the probabilities of sampling the parts
 } PhongShares;
 
 // lobe_reflectivity: rho_s / ks, or an estimate of it.
@@ -17,7 +17,7 @@ static inline PhongShares phong_shares(Phong m, Real lobe_reflectivity) {
   return shares;
 }
 
-// The largest channel: with the channels' mean a path between red walls would have infinite variance in red.
+// By the largest channel: with the mean of the channels a path between red walls would have infinite variance in red.
 static inline Real phong_survival_for(Phong m, Real lobe_reflectivity) {
   return vec_max(vec_along(m.diffuse_reflectance, lobe_reflectivity, m.specular_reflectance));
 }

@@ -1,5 +1,5 @@
-// Strategies whose density is the model itself, f_r cos / rho, in the largest channels: the weight of a colourless
-// material is rho for every sample.
+// Strategies whose density is f_r cos / rho with the largest channels of kd and ks: for a grey material the weight of
+// every sample is rho.
 #ifndef PHLUX_PHONG_WHOLE_H
 #define PHLUX_PHONG_WHOLE_H
 
@@ -15,7 +15,7 @@ static inline Real phong_density(Phong m, Vec3 fixed, Vec3 generated, Real lobe)
   return larger(generated.z, (Real)(0.0f)) * INV_PI * value / (shares.diffuse + shares.specular);
 }
 
-// The sample `direction`, drawn with the shares' density.
+// The sample `direction`, with the density for these shares.
 static inline LobeSample whole_sample(Phong m, Vec3 fixed, Vec3 direction, PhongShares shares) {
   const Real total = shares.diffuse + shares.specular;
   const Real lobe = phong_lobe(m, fixed, direction);

@@ -1,8 +1,10 @@
-// The camera: a pinhole, a thin lens (HAS_LENS) or parallel rays (HAS_ORTHOGRAPHIC), and the film's reconstruction filter.
+// The camera: a pinhole, a thin lens (HAS_LENS) or parallel rays (HAS_ORTHOGRAPHIC), and the film's reconstruction
+// filter.
 //
 // Eye subpaths sample the filter: the radiance of a pixel is the mean over offsets from its centre with the filter's
-// density. A splat adds to one pixel near its place on the film, with such a probability and weight that the mean is the
-// same (filter_splat). A point of the lens is sampled uniformly in both cases; its density cancels in all weights.
+// density. A splat adds to one pixel near its position on the film; the probability and the weight of that pixel are
+// such that the mean is the same (filter_splat). The lens is sampled uniformly in both cases; its density cancels in
+// weights.
 #ifndef PHLUX_CAMERA_CL
 #define PHLUX_CAMERA_CL
 
@@ -14,16 +16,16 @@
 
 #define HAS_FILTER (HAS_TENT_FILTER | HAS_GAUSSIAN_FILTER)
 
-// What is random about the camera.
+// Random numbers of the camera.
 typedef struct {
-  Real x, y;           // a point of a pixel, from its upper left corner, in pixels; beyond [0, 1] by filters wider than it
-  Real lens_x, lens_y; // a point of the lens, in lengths of the record's left and up
+  Real x, y;           // a point of a pixel, in pixels from its upper left corner; outside [0, 1] for wide filters
+  Real lens_x, lens_y; // a point of the lens, in units of `left` and `up` of the camera's record
 } CameraSample;
 
-// Further functions of the camera need only a sample if this is 1.
+// 1 if the functions below depend on a CameraSample.
 #define HAS_CAMERA_SAMPLE (HAS_LENS | HAS_FILTER)
 
-// Uniform in the pixel and on the lens, or by the filter.
+// Samples the pixel uniformly or by the filter, and the lens uniformly.
 static inline CameraSample camera_sample(const Scene* scene, RandomWords words) {
   CameraSample s;
   s.x = uniform_real(words.x);
@@ -59,7 +61,7 @@ static inline Vec3 lens_position(const Scene* scene, CameraSample sample) {
                    broadcast_vec(camera->up));
 }
 
-// The ray through a sampled point of a pixel. Pixels count row by row.
+// The ray through a sampled point of a pixel. Pixels are numbered row by row.
 static inline Ray camera_ray(const Scene* scene, Uint pixel, CameraSample sample) {
   const __global CameraRecord* camera = scene->camera;
   const float width = (float)camera->width, height = (float)camera->height;
@@ -68,7 +70,7 @@ static inline Ray camera_ray(const Scene* scene, Uint pixel, CameraSample sample
   const Real x = (to_real(column) + sample.x) / width + camera->principal_x;
   const Real y = (to_real(row) + sample.y) / height + camera->principal_y;
   Real leftwards = 1.0f - 2.0f * x, upwards = 1.0f - 2.0f * y;
-  if (HAS_LENS) { // towards the point in focus
+  if (HAS_LENS) { // towards the point of the plane in focus
     leftwards -= sample.lens_x * camera->inv_focus_distance;
     upwards -= sample.lens_y * camera->inv_focus_distance;
   }
@@ -81,23 +83,23 @@ static inline Ray camera_ray(const Scene* scene, Uint pixel, CameraSample sample
   return ray;
 }
 
-// The density of camera_ray over the whole film, per solid angle at the eye: 1 / (film area x cos^3), `cosine` being of
-// the angle to the camera's axis. Of parallel rays: per area across them.
+// The density of camera_ray over the whole film, per solid angle at the eye: 1 / (film area x cos^3), where `cosine` is
+// that of the angle to the axis of the camera. For parallel rays: per area perpendicular to them.
 static inline Real film_density(const Scene* scene, Real cosine) {
   if (HAS_ORTHOGRAPHIC) return (Real)(1.0f / scene->camera->film_area);
   return 1.0f / (scene->camera->film_area * cosine * cosine * cosine);
 }
 
-// How the camera sees a direction or a point.
+// A direction or a point as the camera sees it.
 typedef struct {
   Mask seen;    // in front of the camera and on the film
   Int pixel;    // which pixel it adds to
   Real density; // film_density there
-  Real share;   // of the filter, by which what it adds is multiplied
+  Real share;   // weight of the pixel by the filter
 } FilmPoint;
 
-// The filter's density at a distance from its centre, in pixels, over the probability that camera_sample offsets by so
-// much or up to half a pixel less or more; for one axis.
+// For one axis: the density of the filter at the distance x from its centre, in pixels, divided by the probability that
+// the offset of camera_sample is within half a pixel of x.
 static inline Real filter_ratio(const Scene* scene, Real distance) {
   const float size = scene->camera->filter_size;
   const Real near = distance - 0.5f, far = distance + 0.5f;
@@ -113,8 +115,8 @@ static inline Real filter_ratio(const Scene* scene, Real distance) {
   return height > 0.0f ? 2.0f * height / (erfc(near * unit) - erfc(far * unit)) : (Real)(0.0f);
 }
 
-// Moves a place on the film, in pixels, by an offset that the filter samples. Returns the weight of the pixel that it is
-// then in: the filter's density at that pixel's centre over the pixel's probability.
+// Moves a position on the film, in pixels, by an offset sampled from the filter. Returns the weight of the pixel in
+// which it then is: the density of the filter at the centre of that pixel, divided by the probability of the pixel.
 static inline Real filter_splat(const Scene* scene, CameraSample sample, Real* x, Real* y) {
   const Real from_x = *x, from_y = *y;
   *x += sample.x - 0.5f;
@@ -130,7 +132,7 @@ static inline FilmPoint film_point(const Scene* scene, Real x, Real y, CameraSam
   Real across = x * width, down = y * height;
   FilmPoint point;
   point.share = HAS_FILTER ? filter_splat(scene, sample, &across, &down) : (Real)(1.0f);
-  // Floor, not a cast: a cast would draw in light from beyond the left and upper borders.
+  // Floor, not a cast: a cast would include light from outside the left and upper borders.
   const Real column = floor(across), row = floor(down);
   point.seen = in_front & (column >= 0.0f) & (column < width) & (row >= 0.0f) & (row < height);
   const Int first = (Int)(0);
@@ -139,7 +141,7 @@ static inline FilmPoint film_point(const Scene* scene, Real x, Real y, CameraSam
   return point;
 }
 
-// How a pinhole or a point of the lens sees the direction `from_eye` (unit).
+// The unit direction `from_eye` as a pinhole or a point of the lens sees it.
 static inline FilmPoint camera_sees(const Scene* scene, Vec3 from_eye, CameraSample sample) {
   const __global CameraRecord* camera = scene->camera;
   const Vec3 left = broadcast_vec(camera->left), up = broadcast_vec(camera->up);
@@ -153,10 +155,10 @@ static inline FilmPoint camera_sees(const Scene* scene, Vec3 from_eye, CameraSam
   return film_point(scene, x, y, sample, cosine > 0.0f, film_density(scene, cosine));
 }
 
-// How the camera sees a position: from where, in which direction, and where on the film.
+// A position as the camera sees it: the eye point, the direction, and the position on the film.
 typedef struct {
   Vec3 eye, from_camera;
-  Real distance2; // by which the film's density per solid angle becomes one per area; of parallel rays 1
+  Real distance2; // converts the density per solid angle to one per area; 1 for parallel rays
   FilmPoint film;
 } View;
 

@@ -1,6 +1,7 @@
-// Emission: the first edge of a light path. Its density, the choice of the light included, is the light's
-// emission_density (per projected solid angle where the light has a surface), so that the edge carries the emitted
-// radiance over that density. An environment map's density of the direction comes on top.
+// Emission: samples the first edge of a light path. Its density, which includes the choice of the light, is the
+// emission_density of the light (per area and projected solid angle if the light has a surface); for an environment map
+// this is multiplied by the density of the direction. The power of the edge is the emitted radiance divided by the
+// density.
 #ifndef PHLUX_EMISSION_CL
 #define PHLUX_EMISSION_CL
 
@@ -8,7 +9,7 @@
 
 typedef struct {
   Ray ray;       // from the light
-  Vec3 radiance; // emitted along it: radiance, intensity or irradiance
+  Vec3 radiance; // emitted along the ray: radiance, intensity or irradiance
   Real density;
   SurfacePosition origin; // of lights with a surface
   Int light;
@@ -17,7 +18,7 @@ typedef struct {
   Real sky_density; // of the direction to it, per solid angle
 } Emission;
 
-// Emits from a point of a surface in the direction `upward` of its frame.
+// Emission from a point of a surface in the direction `upward`, in the frame of the surface.
 static inline void emit_from_surface(Emission* e, SurfacePosition from, Vec3 upward, Mask m) {
   const Vec3 direction = from_frame(frame_about(from.normal), upward);
   e->origin.position = vec_select(m, from.position, e->origin.position);
@@ -28,8 +29,8 @@ static inline void emit_from_surface(Emission* e, SurfacePosition from, Vec3 upw
   e->surface = e->surface | m;
 }
 
-// Emits from outside the scene through a point, uniform over the disk that the scene's bounding sphere fills as seen
-// along `direction`.
+// Emission from outside the scene along `direction`, uniform over the disk that is the projection of the scene's
+// bounding sphere.
 static inline void emit_from_infinity(const Scene* scene, Emission* e, Vec3 direction, Real u1, Real u2, Mask m) {
   Real cos_phi, sin_phi;
   cos_sin_turns(u2, &cos_phi, &sin_phi);
@@ -41,7 +42,7 @@ static inline void emit_from_infinity(const Scene* scene, Emission* e, Vec3 dire
   e->ray.direction = vec_select(m, direction, e->ray.direction);
 }
 
-// Samples a light, a point of it (choice) and a direction (aim). All lanes.
+// Samples a light and a point of it (choice), and a direction (aim), in all lanes.
 static inline Emission emission_sample(const Scene* scene, RandomWords choice, RandomWords aim) {
   Emission e;
   e.light = choose_light(scene, choice.x, choice.y);
@@ -93,7 +94,7 @@ static inline Emission emission_sample(const Scene* scene, RandomWords choice, R
       direction = vec_scale((Real)(-1.0f), to_sky);
       e.sky_density = sky.density;
       e.density = emission_density(scene, e.light, sky.density);
-      // Black where the density is 0 by rounding: a weight of 0 / 0 would not be finite.
+      // Black if the density is 0 because of rounding: a weight of 0 / 0 would not be finite.
       const Vec3 radiance = vec_select(sky.density > 0.0f, sky.radiance, vec_all((Real)(0.0f)));
       e.radiance = vec_select(e.sky, radiance, e.radiance);
     } else {

@@ -1,12 +1,12 @@
-// The environment map: radiance from every direction at infinity, bilinear between the texels of an image in latitude
-// and longitude whose rows begin at the pole +y of the map's frame (EnvironmentRecord). A direction is sampled in
-// proportion to its radiance, but for the ratio of a texel's colours: a texel by the alias method in proportion to the
-// solid angle of its share of the interpolation times its mean over the channels, then an offset from the texel's
-// centre by the interpolation's own weights, which fall linearly to 0 at the neighbours' centres.
+// The environment map: radiance from every direction at infinity, interpolated bilinearly between the texels of an
+// image in latitude and longitude, whose rows begin at the pole +y of the map's frame (EnvironmentRecord). Directions
+// are sampled in proportion to the mean of the channels of the radiance: first a texel by the alias method, in
+// proportion to its mean over the channels times the solid angle of its weight in the interpolation; then an offset
+// from the centre of the texel by these weights, which decrease linearly to 0 at the centres of the neighbours.
 //
-// With the rows interpolated as sin(theta_j) texel_j / sin(theta), the offset's density is linear in rows and columns.
-// Beyond the last row's centre, in the cap about a pole, the radiance does not depend on theta, and the density is
-// uniform in solid angle.
+// Rows are interpolated as sin(theta_j) texel_j / sin(theta), so that the density of the offset is linear in rows and
+// columns. In the cap between the centre of the last row and the pole, the radiance does not depend on theta, and the
+// density is uniform in solid angle.
 #ifndef PHLUX_ENVIRONMENT_CL
 #define PHLUX_ENVIRONMENT_CL
 
@@ -16,24 +16,24 @@
 
 typedef struct {
   Vec3 radiance;
-  Real density; // of sample_environment, per solid angle; 0 where the radiance is
+  Real density; // of sample_environment, per solid angle; 0 where the radiance is 0
 } Environment;
 
-// sin(theta) at the centre of a row, from the nearer pole.
+// sin(theta) at the centre of a row, computed from the nearer pole.
 static inline Real row_sine(Int row, int height) {
   Real cosine, sine;
   cos_sin_turns((to_real(min(row, height - 1 - row)) + 0.5f) * (0.5f / (float)height), &cosine, &sine);
   return sine;
 }
 
-// The interpolated radiance of a row, `across` of the way from one column to another.
+// The radiance of a row, interpolated between two columns with the fraction `across`.
 static inline Vec3 row_radiance(const Scene* scene, Int row_start, Int column, Int next_column, Real across) {
   const Vec3 left = GATHER_VEC3(scene->environment_texels, row_start + column, radiance);
   const Vec3 right = GATHER_VEC3(scene->environment_texels, row_start + next_column, radiance);
   return vec_along(vec_scale(1.0f - across, left), across, right);
 }
 
-// What arrives from `direction` (unit, towards the sky). Indices are clamped for lanes whose direction is not finite.
+// Radiance and density for `direction` (unit, towards the sky). Indices are clamped for directions that are not finite.
 static inline Environment environment_towards(const Scene* scene, Vec3 direction) {
   const __global EnvironmentRecord* map = scene->environment;
   const int width = map->width, height = map->height;
@@ -61,7 +61,7 @@ static inline Environment environment_towards(const Scene* scene, Vec3 direction
   return e;
 }
 
-// A direction with the density of environment_towards.
+// Samples a direction with the density of environment_towards.
 static inline Vec3 sample_environment(const Scene* scene, RandomWords words) {
   const __global EnvironmentRecord* map = scene->environment;
   const int width = map->width, height = map->height;
@@ -72,7 +72,7 @@ static inline Vec3 sample_environment(const Scene* scene, RandomWords words) {
   const Int column = texel - row * width;
 
   const Real around = (to_real(column) + 0.5f + tent_offset(uniform_real(words.z))) / (float)width;
-  // Above the texel's centre or below; a row at a pole has a cap on that side.
+  // Above or below the centre of the texel; a row at a pole has a cap on one side.
   const Mask first = row == 0, last = row == height - 1;
   const Real above_share = first ? (Real)(map->cap_share) : (last ? (Real)(1.0f - map->cap_share) : (Real)(0.5f));
   const Real v = uniform_real(words.w);

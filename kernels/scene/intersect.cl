@@ -1,5 +1,5 @@
-// Rays against flat primitives and spheres. Each test serves both ways of filling lanes: many rays against one
-// primitive (its values the same in every lane) and one ray against many primitives.
+// Intersection of rays with flat primitives and spheres. Each test can be used in two ways: many rays with one
+// primitive, whose values are the same in every lane, or one ray with many primitives.
 #ifndef PHLUX_INTERSECT_CL
 #define PHLUX_INTERSECT_CL
 
@@ -10,14 +10,14 @@ typedef struct {
   Vec3 origin, direction; // unit direction
 } Ray;
 
-// The closest hit so far, at distance `numerator` / `denominator`: dividing once, at the end, is cheaper.
+// The closest hit so far, at distance `numerator` / `denominator`, which are divided only once, at the end.
 typedef struct {
   Real numerator, denominator; // denominator > 0
   Int primitive;               // -1: none
 } ClosestHit;
 
 typedef struct {
-  Real distance; // along the unit direction; meaningless without a primitive
+  Real distance; // along the unit direction; undefined without a primitive
   Int primitive; // -1: none
 } Hit;
 
@@ -35,8 +35,8 @@ typedef struct {
   Vec3 origin, edge_v, minus_u, normal; // scaled as enum PlanarValues says
 } Planar;
 
-// Where the ray meets the plane: u, v and the distance, each multiplied by facing = |cosine to the normal|. By Cramer's
-// rule, relative to the primitive's origin (Moller and Trumbore 1997, with the normal stored).
+// Intersection with the plane: u, v and the distance, each multiplied by facing = |cosine to the normal|. By Cramer's
+// rule, relative to the origin of the primitive (Moller and Trumbore 1997, but with a stored normal).
 typedef struct {
   Real u, v, distance, facing;
 } PlaneCrossing;
@@ -44,7 +44,7 @@ typedef struct {
 static inline PlaneCrossing cross_plane(Ray ray, Planar p) {
   const Vec3 from_origin = vec_sub(ray.origin, p.origin);
   const Vec3 moment = vec_cross(from_origin, ray.direction);
-  const Real towards = -vec_dot(p.normal, ray.direction); // > 0: hits the front
+  const Real towards = -vec_dot(p.normal, ray.direction); // > 0: the ray hits the front
   PlaneCrossing c;
   c.facing = fabs(towards);
   c.u = times_sign(vec_dot(moment, p.edge_v), towards);
@@ -57,7 +57,7 @@ static inline Mask in_triangle(PlaneCrossing c) { return (c.u >= 0.0f) & (c.v >=
 static inline Mask in_parallelogram(PlaneCrossing c) { return (fabs(c.u) <= c.facing) & (fabs(c.v) <= c.facing); }
 static inline Mask in_ellipse(PlaneCrossing c) { return fma(c.u, c.u, c.v * c.v) <= c.facing * c.facing; }
 
-// In front of the origin and closer than `hit`.
+// Lanes in which the intersection is in front of the origin and closer than `hit`.
 static inline Mask crosses_before(PlaneCrossing c, ClosestHit hit) {
   return (c.distance > 0.0f) & (c.distance * hit.denominator < hit.numerator * c.facing);
 }
@@ -70,8 +70,8 @@ typedef struct {
   Real radius;
 } SphereShape;
 
-// The smallest distance > 0 at which the ray meets the sphere, or 0. The discriminant is taken from the vector of
-// closest approach and the roots by the product rule, which keeps them right for large spheres and near the surface
+// The smallest distance > 0 to the sphere along the ray, or 0. The discriminant is computed from the vector of closest
+// approach, and the second root from the product of the roots, which is accurate for large spheres and near the surface
 // (Haines, Gunther, Akenine-Moller, Ray Tracing Gems, 2019, chapter 7).
 static inline Real cross_sphere(Ray ray, SphereShape s) {
   const Vec3 to_origin = vec_sub(ray.origin, s.center);

@@ -1,20 +1,19 @@
 // Importance sampling of many lights (Conty Estevez and Kulla 2018, without their splitting): a binary tree over the
-// lights that have a position is descended, at each node to one of its two children in proportion to a bound on the
-// radiance that they send to the point. A light's probability is the product of these choices. The bound leaves out the
-// reflectance at the point; multiple importance sampling with the reflected directions accounts for that.
+// lights with a position is descended. At each node one of the two children is chosen in proportion to bounds on the
+// irradiance from their lights at the point. The probability of a light is the product of these probabilities. The
+// bounds ignore f_r at the point; multiple importance sampling with reflected directions compensates for that.
 #ifndef PHLUX_LIGHT_TREE_CL
 #define PHLUX_LIGHT_TREE_CL
 
 #include "math/random.h"
 #include "scene/scene.cl"
 
-// Lower bound on a child's probability, so that rounding of the bounds never excludes a light; far above the spacing of
-// uniform_real, 2^-23.
+// Lower bound on the probability of a child, so that rounding of the bounds never excludes a light. It is far above the
+// spacing of uniform_real, 2^-23.
 #define SMALLEST_CHILD_PROBABILITY 0.000244140625f
-// The share of choices made in proportion to power where the tree could choose: a light with a large bound may be
-// occluded.
+// The probability of choosing by power instead of by the tree, because lights with large bounds may be occluded.
 #define POWER_SHARE 0.25f
-// Lower bound on a squared distance that is a divisor.
+// Lower bound on squared distances by which is divided.
 #define SMALLEST_SQUARE 1e-36f
 
 static inline Real sine_of(Real cosine) { return sqrt(larger(fma(-cosine, cosine, (Real)(1.0f)), (Real)(0.0f))); }
@@ -23,15 +22,14 @@ static inline Real sine_of(Real cosine) { return sqrt(larger(fma(-cosine, cosine
 #define LIGHT_NODE_INT(scene, index, member) GATHER_INT((scene)->light_nodes, index, member)
 #define LIGHT_NODE_VEC3(scene, index, member) GATHER_VEC3((scene)->light_nodes, index, member)
 
-// The largest cosine between an axis and the direction to any point of a box; `center` is the vector to the box's
-// centre.
+// The largest cosine between an axis and the direction to any point of a box; `center` is the vector to its centre.
 static inline Real largest_cosine(Vec3 axis, Vec3 center, Vec3 half_size, Real inv_distance) {
   const Real beyond = vec_dot(vec3(fabs(axis.x), fabs(axis.y), fabs(axis.z)), half_size);
   return clamp((vec_dot(axis, center) + beyond) * inv_distance, (Real)(-1.0f), (Real)(1.0f));
 }
 
-// A bound, up to a factor, on the irradiance from a node's lights at a surface with that normal (0: with any normal): at the distance of the
-// box's centre, with the most favourable orientation that the cone of normals allows.
+// A bound, up to a factor, on the irradiance from the lights of a node at a surface with this normal (0: with any
+// normal), for the distance of the centre of the box and the best orientation in the cone of normals.
 static inline Real node_importance(const Scene* scene, Int node, Vec3 lit, Vec3 normal) {
   const Vec3 half_size = LIGHT_NODE_VEC3(scene, node, half_size);
   const Vec3 center = vec_sub(LIGHT_NODE_VEC3(scene, node, center), lit);
@@ -42,7 +40,7 @@ static inline Real node_importance(const Scene* scene, Int node, Vec3 lit, Vec3 
   const Real inv_least_distance = 1.0f / sqrt(larger(vec_dot(gap, gap), (Real)(SMALLEST_SQUARE)));
   Real arriving = largest_cosine(normal, center, half_size, inv_least_distance);
   if (HAS_TRANSMISSION) arriving = vec_dot(normal, normal) > 0.0f ? arriving : (Real)(1.0f);
-  // The cosine of the angle to the nearest normal of the cone.
+  // The largest cosine to a normal of the cone.
   const Vec3 axis = LIGHT_NODE_VEC3(scene, node, axis);
   const Real cos_spread = LIGHT_NODE_REAL(scene, node, cos_spread);
   const Real cos_axis = largest_cosine(axis, vec_scale((Real)(-1.0f), center), half_size, inv_least_distance);
@@ -52,14 +50,14 @@ static inline Real node_importance(const Scene* scene, Int node, Vec3 lit, Vec3 
          larger(distance2, (Real)(SMALLEST_SQUARE));
 }
 
-// The probability of the child whose importance is `own`, not that of importance `other`.
+// The probability of the child with importance `own` if the other child has importance `other`.
 static inline Real child_probability(Real own, Real other) {
   const Real both = own + other;
   const Real share = both > 0.0f ? own / both : (Real)(0.5f);
   return clamp(share, (Real)(SMALLEST_CHILD_PROBABILITY), (Real)(1.0f - SMALLEST_CHILD_PROBABILITY));
 }
 
-// The light that the tree chooses for a point with that normal in the lanes of m; `light` in the others.
+// The light that the tree chooses for a point with this normal in the lanes of m; `light` in other lanes.
 static inline Int choose_from_tree(const Scene* scene, Vec3 lit, Vec3 normal, Uint word, Uint step, Mask m, Int light) {
   Int child = m ? (Int)(scene->light_nodes[0].child) : ~light;
   Mask descending = m;
@@ -75,7 +73,7 @@ static inline Int choose_from_tree(const Scene* scene, Vec3 lit, Vec3 normal, Ui
   return ~child;
 }
 
-// The probability with which choose_from_tree chooses the light of this leaf in the lanes of m; 1 in the others.
+// The probability with which choose_from_tree chooses the light of this leaf in the lanes of m; 1 in other lanes.
 static inline Real tree_probability(const Scene* scene, Vec3 lit, Vec3 normal, Int leaf, Mask m) {
   Real probability = (Real)(1.0f);
   Int node = leaf;

@@ -1,6 +1,6 @@
-// Lights: choosing one, choosing a direction towards it, and the density with which that direction is chosen.
-// Densities are per solid angle at the lit point and include the probability of choosing the light. Emission, the other
-// way round, is in emission.cl.
+// Light samples: the choice of a light, of a direction towards it, and the density of that direction. Densities are per
+// solid angle at the lit point and include the probability of the light. emission.cl samples paths that start at
+// lights.
 #ifndef PHLUX_LIGHTS_CL
 #define PHLUX_LIGHTS_CL
 
@@ -11,12 +11,12 @@
 #include "math/random.h"
 #include "scene/surface.cl"
 
-// Lanes whose light is of this kind; all of them in a scene with one kind.
+// Lanes whose light is of this kind; all lanes if the scene has a single kind.
 #define LIGHT_IS(kind, which) (LIGHT_KINDS > 1 ? (Mask)((kind) == (which)) : ALL_LANES)
 
 // ---- Choosing a light
 
-// A light in proportion to its power, by the alias method (Walker 1974; Vose 1991): light paths start from it.
+// Chooses a light in proportion to its power by the alias method (Walker 1974; Vose 1991), for light paths.
 static inline Int choose_light(const Scene* scene, Uint cell_word, Uint alias_word) {
   if (!HAS_LIGHT_CHOICE) return (Int)(0);
   const Int cell = uint_to_int(mul_hi(cell_word, (Uint)((uint)scene->light_count)));
@@ -28,7 +28,7 @@ static inline Int light_kind(const Scene* scene, Int light) {
   return LIGHT_KINDS > 1 ? LIGHT_INT(scene, light, kind) : (Int)(scene->lights[0].kind);
 }
 
-// Lanes whose light a ray can find.
+// Lanes whose light a ray can hit.
 static inline Mask is_hittable(Int kind) {
   return (kind != LIGHT_POINT) & (kind != LIGHT_SPOT) & (kind != LIGHT_DIRECTIONAL);
 }
@@ -42,7 +42,7 @@ static inline Real light_probability(const Scene* scene, Int light) {
   return HAS_LIGHT_CHOICE ? LIGHT_REAL(scene, light, probability) : (Real)(1.0f);
 }
 
-// The probability with which light_sample chooses `light` for a point with that normal, in the lanes of m.
+// The probability with which light_sample chooses `light` for a point with this normal, in the lanes of m.
 static inline Real probability_for(const Scene* scene, Vec3 lit, Vec3 normal, Int light, Mask m) {
   const Real by_power = light_probability(scene, light);
   if (!HAS_LIGHT_TREE) return by_power;
@@ -52,8 +52,8 @@ static inline Real probability_for(const Scene* scene, Vec3 lit, Vec3 normal, In
   return placed ? POWER_SHARE * by_power + (1.0f - POWER_SHARE) * in_tree : by_power;
 }
 
-// The light that light_sample chooses for a point with that normal. A light of the tree, chosen by power, gives way to
-// one that the tree chooses with probability 1 - POWER_SHARE.
+// Chooses a light for a point with this normal: first by power; if that light is in the tree, it is replaced with the
+// probability 1 - POWER_SHARE by one that the tree chooses.
 static inline Int choose_light_for(const Scene* scene, Vec3 lit, Vec3 normal, Uint word, Uint other_word) {
   const Int light = choose_light(scene, word, other_word);
   if (!HAS_LIGHT_TREE) return light;
@@ -61,14 +61,14 @@ static inline Int choose_light_for(const Scene* scene, Vec3 lit, Vec3 normal, Ui
   return choose_from_tree(scene, lit, normal, word, other_word, by_tree & (LIGHT_INT(scene, light, node) >= 0), light);
 }
 
-// The normal with which a light is chosen for a point: the one that decides which lights can shine on it; none (0) where
-// light passes through, so that the probability does not depend on the side that a subpath came from.
+// The normal on which the choice of a light for a point depends: the one that determines which lights can illuminate
+// it; 0 if the material transmits light, so that the probability does not depend on the side from which a subpath came.
 static inline Vec3 lit_normal(SurfacePoint point) {
   const Vec3 normal = SIDES_BY_SHADING ? point.frame.z : point.normal;
   return HAS_TRANSMISSION ? vec_select(point.transmits, vec_all((Real)(0.0f)), normal) : normal;
 }
 
-// The density of emission (emission.cl); of an environment map, in a direction that it samples with density `sky`.
+// The density of emission (emission.cl); for an environment map, in a direction whose density is `sky`.
 static inline Real emission_density(const Scene* scene, Int light, Real sky) {
   const Real density = LIGHT_REAL(scene, light, emission_density);
   if (!HAS_ENVIRONMENT_MAP) return density;
@@ -77,13 +77,13 @@ static inline Real emission_density(const Scene* scene, Int light, Real sky) {
 
 // ---- Points of lights
 
-// A point of a flat light, uniform over its area; its normal is on the side that emits. The lanes of m are on one.
+// A point of a flat light, uniform over its area, in the lanes of m; its normal is on the side that emits.
 static inline SurfacePosition planar_light_point(const Scene* scene, Int light, Mask m, Real u1, Real u2) {
   const Int primitive = m ? LIGHT_INT(scene, light, primitive) : (Int)(0);
   const Int words = planar_words(primitive);
   const Int region = PRIMITIVE_INT(scene, primitive, region);
   const Real area = LIGHT_REAL(scene, light, area);
-  // |edge_u x edge_v| from the area of the region that it spans; the parallelogram's is 4 of them.
+  // |edge_u x edge_v| from the area of the region; that of the parallelogram is 4 |edge_u x edge_v|.
   Real u = 2.0f * u1 - 1.0f, v = 2.0f * u2 - 1.0f, cross_length = 0.25f * area;
   if (HAS_TRIANGLES) {
     const Mask triangle = region == REGION_TRIANGLE;
@@ -112,7 +112,7 @@ static inline SurfacePosition planar_light_point(const Scene* scene, Int light, 
   return point;
 }
 
-// The primitive of a spherical light in the lanes of m; the first sphere in the others.
+// The primitive of a spherical light in the lanes of m; the first sphere in other lanes.
 static inline Int sphere_primitive(const Scene* scene, Int light, Mask m) {
   return m ? LIGHT_INT(scene, light, primitive) : (Int)(HAS_PLANARS ? scene->first_sphere : 0);
 }
@@ -130,7 +130,7 @@ static inline SurfacePosition sphere_light_point(SphereShape sphere, Vec3 unit, 
   return point;
 }
 
-// The fraction of its intensity that a spot light sends at this angle to its axis.
+// The intensity of a spot light at this angle to its axis, divided by that on the axis.
 static inline Real spot_falloff(const Scene* scene, Int light, Real angle) {
   return clamp((LIGHT_REAL(scene, light, cutoff) - angle) * LIGHT_REAL(scene, light, inv_transition), (Real)(0.0f),
                (Real)(1.0f));
@@ -139,24 +139,24 @@ static inline Real spot_falloff(const Scene* scene, Int light, Real angle) {
 
 typedef struct {
   Ray ray;       // from the lit point, offset from its surface, to the light
-  Real distance; // before which the ray must be free
-  Vec3 radiance; // radiance / density arrives along it; intensity or irradiance of a light without a surface
-  Real density;  // of a light without a surface: choice x distance^2 (point, spot) or choice (directional)
+  Real distance; // up to which the ray must be unoccluded
+  Vec3 radiance; // emitted radiance; for a light without a surface: intensity or irradiance
+  Real density;  // per solid angle; without a surface: choice x distance^2 (point, spot) or choice (directional)
   Int light;
   Real choice;   // the probability of choosing the light
-  Mask hittable; // a ray along a sampled direction of the surface could find this light as well
-  Mask valid;    // something arrives: the light faces the point
+  Mask hittable; // a ray in a direction sampled by scattering could hit this light too
+  Mask valid;    // the light faces the point
 } LightSample;
 
-// The cone that a sphere fills as seen from outside: 1 - cos of its half angle, without cancellation.
+// 1 - cos of the half angle of the cone that a sphere subtends from outside, without cancellation.
 static inline Real one_minus_cone_cosine(SphereShape sphere, Real distance2) {
   const Real sine2 = sphere.radius * sphere.radius / distance2;
   return sine2 / (1.0f + sqrt(larger(1.0f - sine2, (Real)(0.0f))));
 }
 
-// Density with which light_sample at `lit`, where `light` is chosen with probability `choice`, would have found the
-// point of it that lies `distance` away, where the light's normal makes an angle of `cosine` with the way back; without
-// meaning in lanes whose light has no surface.
+// Density with which light_sample at `lit`, if it chooses `light` with the probability `choice`, finds the point of the
+// light at `distance`, where `cosine` is that of the normal of the light with the direction to `lit`. Undefined in
+// lanes whose light has no surface.
 static inline Real light_density(const Scene* scene, Vec3 lit, Int light, Real choice, Real distance, Real cosine) {
   Real density = choice * distance * distance / (cosine * LIGHT_REAL(scene, light, area));
   if (HAS_SPHERE_LIGHTS) {
@@ -172,7 +172,7 @@ static inline Real light_density(const Scene* scene, Vec3 lit, Int light, Real c
   return density;
 }
 
-// Takes a ray to a light's surface into *s in the lanes of m.
+// Sets the ray of *s to a point on the surface of a light in the lanes of m.
 static inline void keep_surface_sample(LightSample* s, Ray ray, Real distance, Real cosine, Real density, Mask m) {
   s->ray.origin = vec_select(m, ray.origin, s->ray.origin);
   s->ray.direction = vec_select(m, ray.direction, s->ray.direction);
@@ -191,7 +191,7 @@ static inline void sample_planar_light(const Scene* scene, LightSample* s, Surfa
   keep_surface_sample(s, ray, distance, cosine, s->choice * by_area, m);
 }
 
-// A point of a sphere: uniform in the cone that it fills from outside, else uniform over its area.
+// A point of a sphere: uniform in solid angle if seen from outside, else uniform over its area.
 static inline void sample_sphere_light(const Scene* scene, LightSample* s, SurfacePosition lit, Mask m, Real u1, Real u2) {
   const Int primitive = sphere_primitive(scene, s->light, m);
   const SphereShape sphere = sphere_of_light(scene, primitive);
@@ -202,7 +202,7 @@ static inline void sample_sphere_light(const Scene* scene, LightSample* s, Surfa
   const Mask in_cone = (distance2 > sphere.radius * sphere.radius) & !front_inside;
   Real cos_phi, sin_phi;
   cos_sin_turns(u2, &cos_phi, &sin_phi);
-  // In the cone: the sphere's near point at angle theta from the centre's direction; its direction from the centre has
+  // In the cone: the near point of the sphere at the angle theta from its centre; its direction from the centre has the
   // cosine (center_distance sin^2(theta) + cos(theta) sqrt(r^2 - center_distance^2 sin^2(theta))) / r to the lit point.
   const Real cone = one_minus_cone_cosine(sphere, distance2);
   const Real drop = u1 * cone; // 1 - cos(theta)
@@ -248,8 +248,8 @@ static inline void aim_to_infinity(LightSample* s, SurfacePosition lit, Vec3 dir
   s->valid = s->valid | m;
 }
 
-// Density of sampling a constant light in a direction of this cosine to the shading normal: by the cosine, on either side
-// where light passes through.
+// Density with which a constant light is sampled in a direction at this cosine to the shading normal: cos / pi, on both
+// sides if the material transmits light.
 static inline Real sky_sample_density(SurfacePoint point, Real cosine) {
   if (!HAS_TRANSMISSION) return cosine * INV_PI;
   return point.transmits ? fabs(cosine) * (0.5f * INV_PI) : larger(cosine, (Real)(0.0f)) * INV_PI;
@@ -261,7 +261,7 @@ static inline Vec3 sky_sample_direction(SurfacePoint point, Real u1, Real u2) {
   return vec3(direction.x, direction.y, below ? -direction.z : direction.z);
 }
 
-// A direction to the sky: by the cosine if it is constant, else by the map.
+// A direction to the sky: with the density cos / pi if it is constant, else that of the environment map.
 static inline void sample_sky(const Scene* scene, LightSample* s, SurfacePoint point, Mask m, Real u1, Real u2,
                               RandomDraws random) {
   const SurfacePosition lit = surface_position(point);
@@ -278,7 +278,7 @@ static inline void sample_sky(const Scene* scene, LightSample* s, SurfacePoint p
   s->hittable = s->hittable | m;
 }
 
-// Chooses a light for each point and a direction towards it. All lanes.
+// Chooses a light for each point and a direction towards it, in all lanes.
 static inline LightSample light_sample(const Scene* scene, SurfacePoint point, RandomDraws random) {
   const SurfacePosition lit = surface_position(point);
   const RandomWords words = random.words;

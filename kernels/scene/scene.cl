@@ -6,7 +6,7 @@
 #include "scene/parts.h"
 #include "scene/scene_data.h"
 
-// Of a table that is not kept in registers, one: an array has at least one entry.
+// 1 for a table that is not kept in registers, because an array has at least one entry.
 #define MEMBERS_IN_REGISTERS(kept, members) ((kept) ? (members) : 1)
 
 typedef struct {
@@ -22,7 +22,7 @@ typedef struct {
   const __global float* nodes;    // of the bounding volume hierarchy
   int root;
   const __global LightNodeRecord* light_nodes;
-  float light_tree_probability; // with which choose_light gives one of the tree's lights
+  float light_tree_probability; // with which choose_light chooses a light of the tree
   const __global EnvironmentRecord* environment;
   const __global EnvironmentTexel* environment_texels; // row by row
   const __global float* lobe_tables; // of the reflectance models
@@ -40,7 +40,7 @@ typedef struct {
   float sphere_members[MEMBERS_IN_REGISTERS(PRIMITIVES_IN_REGISTERS, SPHERE_FLOATS)][LANES];
 } Scene;
 
-// The member of an entry of a table, in every lane.
+// A member of an entry of a table, in every lane.
 #define PRIMITIVE_INT(scene, index, member)                                                                            \
   (PRIMITIVES_IN_REGISTERS ? PERMUTE_INT((scene)->primitive_members, (scene)->primitives, index, member)               \
                            : GATHER_INT((scene)->primitives, index, member))
@@ -56,7 +56,7 @@ typedef struct {
   vec3(LIGHT_REAL(scene, index, member[0]), LIGHT_REAL(scene, index, member[1]), LIGHT_REAL(scene, index, member[2]))
 
 // The row of entry `index` of a table that is stored row by row. The quotient of floats is off by one at most for fewer
-// than 2^22 rows, and put right.
+// than 2^22 rows, and corrected.
 static inline Int row_of(Int index, int width) {
   const Int row = to_int(to_real(index) / (float)width);
   const Int column = index - row * width;
@@ -84,7 +84,7 @@ static inline void keep_small_tables(Scene* scene) {
   }
 }
 
-// A kernel's parameters for the scene, and the statements that gather them in a Scene named `scene`.
+// The parameters of a kernel for the scene, and statements that copy them to a Scene named `scene`.
 #define SCENE_PARAMETERS                                                                                               \
   const __global CameraRecord *camera, const __global PrimitiveRecord *primitives,                                     \
       const __global float *materials, const __global LightRecord *lights, int light_count,                   \

@@ -1,4 +1,4 @@
-// The surface point that a ray hits: position, shading frame and sides; and rays that start or end at surfaces.
+// The point of a surface that a ray hits: position, shading frame and sides; rays that start or end at surfaces.
 #ifndef PHLUX_SURFACE_CL
 #define PHLUX_SURFACE_CL
 
@@ -11,23 +11,23 @@
 typedef struct {
   Vec3 position; // on the primitive, to a few ulp
   Vec3 normal;   // geometric, unit, on the side that the ray came from
-  Frame frame;   // shading frame on the side that the ray came from by its z: the interpolated normal where the mesh has normals
-  Real error;    // bounds the rounding error of `position` and of a ray's intersection near it
-  Mask front;    // that side is the front
-  Mask shaded_front; // the ray came from the front by the shading normal
-  Mask transmits; // light passes through
+  Frame frame;   // shading frame on the side from which the ray came; z is the interpolated normal if there is one
+  Real error;    // bound on the rounding error of `position`, and of the intersection of a ray near it
+  Mask front;    // the ray came from the front
+  Mask shaded_front; // the ray came from the front, by the shading normal
+  Mask transmits; // the material transmits light
   Int material, light;
-  TextureCoordinates uv; // HAS_TEXTURES, where the material has some
+  TextureCoordinates uv; // HAS_TEXTURES; only if the material has a texture
 } SurfacePoint;
 
-// The rounding error of a position, and of the intersection test that could find the same surface again, is a few half
-// units in the last place of the largest number involved; an offset of 16 such units prevents self-intersection.
+// The rounding errors of a position, and of the test that could hit the same surface again, are a few half units in the
+// last place of the largest coordinate. An offset of 16 half units prevents self-intersection.
 #define ERROR_UNITS (16.0f * REAL_HALF_ULP)
 
-// Primitives stand one after another for brute force, in blocks of LANES for the hierarchy.
+// Primitives are stored one after another for brute force, and in blocks of LANES for the hierarchy.
 #define SCENE_BLOCK (HAS_BVH ? LANES : 1)
 
-// Where value 0 of a flat primitive is, and value k from there (scene_data.h).
+// The index of value 0 of a flat primitive, and the offset of value k (scene_data.h).
 static inline Int planar_words(Int primitive) {
   if (PRIMITIVES_IN_REGISTERS) return primitive;
   return primitive * PLANAR_FLOATS - (primitive & (SCENE_BLOCK - 1)) * (PLANAR_FLOATS - 1);
@@ -53,7 +53,7 @@ static inline SphereShape gather_sphere(const Scene* scene, Int sphere) {
   return s;
 }
 
-// The normal interpolated from a triangle's corners; `flat` where it has none or where they cancel.
+// The interpolated normal of a triangle; `flat` if it has no normals or if they cancel.
 static inline Vec3 interpolated_normal(const Scene* scene, Int primitive, Real u, Real v, Vec3 flat) {
   const Int a = gather_int(scene->corners, primitive * 3);
   const Int b = gather_int(scene->corners, primitive * 3 + 1), c = gather_int(scene->corners, primitive * 3 + 2);
@@ -69,7 +69,7 @@ static inline Vec3 interpolated_normal(const Scene* scene, Int primitive, Real u
   return vec_select(smooth & (vec_dot(sum, sum) > 0.0f), vec_normalize(sum), flat);
 }
 
-// What a primitive says of the point `seen` on it; normals are on its front.
+// Geometry of a primitive at the point `seen`; normals are on the front.
 typedef struct {
   Vec3 position, normal, shading_normal, tangent;
   Vec3 place; // flat: along edge_u and edge_v from the origin; sphere: the direction from the centre
@@ -124,7 +124,7 @@ static inline PrimitivePoint primitive_point(const Scene* scene, Int primitive, 
   return p;
 }
 
-// Texture coordinates of a point whose place on its primitive is known, in the lanes of m.
+// Texture coordinates of a point given by its place on its primitive, in the lanes of m.
 static inline TextureCoordinates texture_coordinates(const Scene* scene, Int primitive, Vec3 place, Mask m) {
   TextureCoordinates at;
   at.u = at.v = (Real)(0.0f);
@@ -139,7 +139,7 @@ static inline TextureCoordinates texture_coordinates(const Scene* scene, Int pri
   return at;
 }
 
-// The point that `hit` found along `ray`; lanes without a hit hold a valid but meaningless point.
+// The point of `hit` along `ray`; in lanes without a hit some valid point.
 static inline SurfacePoint surface_point(const Scene* scene, Ray ray, Hit hit) {
   const Int primitive = max(hit.primitive, (Int)(0));
   const PrimitivePoint p = primitive_point(scene, primitive, vec_along(ray.origin, hit.distance, ray.direction));
@@ -163,10 +163,10 @@ static inline SurfacePoint surface_point(const Scene* scene, Ray ray, Hit hit) {
   return s;
 }
 
-// A position on a surface from which a ray can start or at which it can end. SurfacePoint, a sampled point of a light
-// and a stored vertex share it.
+// A position on a surface at which a ray can start or end: that of a SurfacePoint, of a sampled point of a light, or of
+// a stored vertex.
 typedef struct {
-  Vec3 position, normal; // as SurfacePoint's
+  Vec3 position, normal; // as in SurfacePoint
   Real error;
 } SurfacePosition;
 
@@ -183,7 +183,7 @@ static inline Vec3 offset_origin(Vec3 position, Vec3 normal, Real error, Vec3 di
   return vec_along(position, times_sign(error, vec_dot(normal, direction)), normal);
 }
 
-// The ray from a surface to a point in space, and the distance before which it must be free.
+// The ray from a surface to a point in space, and the distance up to which it must be unoccluded.
 static inline Ray ray_to_point(SurfacePosition from, Vec3 to, Real* distance) {
   Ray ray;
   ray.origin = offset_origin(from.position, from.normal, from.error, vec_sub(to, from.position));
@@ -193,8 +193,8 @@ static inline Ray ray_to_point(SurfacePosition from, Vec3 to, Real* distance) {
   return ray;
 }
 
-// The same to a point of a surface, whose normal faces the start unless HAS_SIGNED_COSINES: it ends short by what the
-// surface's crossing may be wrong as seen from there.
+// The same to a point on a surface, whose normal faces the start unless HAS_SIGNED_COSINES. The distance is shorter by
+// the error of the intersection with that surface along the ray.
 static inline Ray ray_between(SurfacePosition from, SurfacePosition to, Real* distance) {
   const Real reach = vec_largest(vec_sub(to.position, from.position));
   Real short_by = to.error + ERROR_UNITS * reach;

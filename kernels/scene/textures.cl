@@ -1,5 +1,5 @@
-// Colours from textures (scene_data.h): bitmaps and checkerboards. A lookup is a point's, not a footprint's: the samples
-// of a pixel average over what it covers.
+// Colours from textures (scene_data.h): bitmaps and checkerboards. Lookups are not filtered over a footprint: the
+// samples of a pixel average over the area that it covers.
 #ifndef PHLUX_TEXTURES_CL
 #define PHLUX_TEXTURES_CL
 
@@ -12,22 +12,22 @@ typedef struct {
 #define TEXTURE_REAL(scene, texture, member) GATHER_REAL((scene)->textures, texture, member)
 #define TEXTURE_INT(scene, texture, member) GATHER_INT((scene)->textures, texture, member)
 
-// The coordinate in [0, 1] that has the same colour.
+// Wraps a coordinate to [0, 1].
 static inline Real wrapped(Real x, Int wrap) {
   const Real repeated = x - floor(x);
-  const Real two_images = fma((Real)(-2.0f), floor(0.5f * x), x); // in [0, 2]: an image and its mirror image
+  const Real two_images = fma((Real)(-2.0f), floor(0.5f * x), x); // in [0, 2]: the image and its mirror image
   const Real mirrored = 1.0f - fabs(1.0f - two_images);
   const Real clamped = smaller(larger(x, (Real)(0.0f)), (Real)(1.0f));
   return wrap == WRAP_REPEAT ? repeated : wrap == WRAP_MIRROR ? mirrored : clamped;
 }
 
-// The two texels of a row or column between whose centres a coordinate lies, and how far along.
+// The two texels of a row or column whose centres enclose a coordinate, and its fraction of the distance between them.
 typedef struct {
   Int before, after;
   Real along;
 } TexelPair;
 
-// Of `count` texels; valid indices for every x, NaN included. `nearest`: both are the texel that holds x.
+// `count` is the number of texels; indices are valid for every x, NaN included. `nearest`: both are the texel with x.
 static inline TexelPair texel_pair(Real x, Int count, Int wrap, Mask nearest) {
   const Real position = fma(wrapped(x, wrap), to_real(count), nearest ? (Real)(0.0f) : (Real)(-0.5f));
   const Real below = floor(position);
@@ -41,7 +41,7 @@ static inline TexelPair texel_pair(Real x, Int count, Int wrap, Mask nearest) {
   return p;
 }
 
-// The colour of texel `index`, counted from the image's first; `first`: the word where its texels begin.
+// The colour of texel `index` of an image; `first` is the word where its texels begin.
 static inline Vec3 byte_texel(const Scene* scene, Int first, Int index, Int decoding) {
   const Int word = gather_int((const __global int*)scene->texels, first + index);
   return vec3(gather_real(scene->texels, decoding + (word & 255)),
@@ -54,7 +54,7 @@ static inline Vec3 float_texel(const Scene* scene, Int first, Int index) {
               gather_real(scene->texels, word + 2));
 }
 
-// In the lanes of m, whose textures are bitmaps; the other lanes read valid texels too.
+// For the lanes of m, whose textures are bitmaps; other lanes read valid texels too.
 static inline Vec3 bitmap_colour(const Scene* scene, Int texture, Int kind, TextureCoordinates at, Mask m) {
   const Mask nearest = TEXTURE_INT(scene, texture, nearest) != 0;
   const Int width = TEXTURE_INT(scene, texture, width), first = TEXTURE_INT(scene, texture, first_word);
@@ -81,7 +81,7 @@ static inline Vec3 bitmap_colour(const Scene* scene, Int texture, Int kind, Text
   return vec_scale(TEXTURE_REAL(scene, texture, colors[0]), sum);
 }
 
-// Squares of edge 1/2.
+// The edges of the squares are 1/2 long.
 static inline Vec3 checkerboard_colour(const Scene* scene, Int texture, TextureCoordinates at) {
   const Mask right = at.u - floor(at.u) > 0.5f, below = at.v - floor(at.v) > 0.5f;
   const Mask first = right == below;
@@ -92,7 +92,7 @@ static inline Vec3 checkerboard_colour(const Scene* scene, Int texture, TextureC
   return vec_select(first, one, other);
 }
 
-// The colour of texture `number` at a surface's coordinates, in the lanes of m.
+// The colour of texture `number` at the coordinates of a surface, in the lanes of m.
 static inline Vec3 texture_colour(const Scene* scene, Int number, TextureCoordinates surface, Mask m) {
   const Int texture = m ? number : (Int)(0);
   TextureCoordinates at;

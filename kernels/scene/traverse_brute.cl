@@ -1,4 +1,4 @@
-// Traversal for a few dozen primitives: all lanes' rays against each in turn.
+// Traversal for few primitives: the rays of all lanes are tested with each primitive in turn.
 #ifndef PHLUX_TRAVERSE_BRUTE_CL
 #define PHLUX_TRAVERSE_BRUTE_CL
 

@@ -1,5 +1,6 @@
-// Traversal of a bounding volume hierarchy, one ray after another: the lanes hold a node's children or a leaf's
-// primitives (at one lane it is a plain binary hierarchy). Meshes are fastest so on CPUs, where rays soon part ways.
+// Traversal of a bounding volume hierarchy, one ray after another: the lanes test the children of a node or the
+// primitives of a leaf together (with one lane the hierarchy is binary). This is the fastest traversal of meshes on
+// CPUs, because rays are incoherent.
 #ifndef PHLUX_TRAVERSE_BVH_CL
 #define PHLUX_TRAVERSE_BVH_CL
 
@@ -8,21 +9,21 @@
 
 #if LANES == 1
 #define CHILDREN 2
-#define STACK_SIZE 66 // BVH_MAX_DEPTH_BINARY of the builder, and the two children being pushed
+#define STACK_SIZE 66 // BVH_MAX_DEPTH_BINARY of the builder, plus two children
 #else
 #define CHILDREN LANES
 #define STACK_SIZE (24 * (LANES - 1) + LANES) // BVH_MAX_DEPTH_WIDE of the builder
 #endif
 
-// One ray, the same in every lane, ready for box tests.
+// One ray, the same in every lane, prepared for box tests.
 typedef struct {
   Ray ray;
-  Vec3 inverse;               // of the direction, finite
-  int near_x, near_y, near_z; // enum NodeValues of the planes that the ray meets first
+  Vec3 inverse;               // of the direction; finite
+  int near_x, near_y, near_z; // enum NodeValues of the planes that the ray crosses first
   int far_x, far_y, far_z;
 } BoxRay;
 
-// 1 / d, with d kept away from 0: a ray within 1e-20 of an axis plane may as well be that far from it.
+// 1 / d, where |d| is at least 1e-20, so that the result is finite.
 static inline Scalar finite_inverse(Scalar d) { return 1.0f / (fabs(d) < 1e-20f ? copysign((Scalar)(1e-20f), d) : d); }
 
 static inline BoxRay box_ray(const Scalar* r) {
@@ -39,8 +40,8 @@ static inline BoxRay box_ray(const Scalar* r) {
   return b;
 }
 
-// Pushes the children of a node that the ray meets before `limit`, the nearest last. Distances are rounded to within
-// 2 ulp; the far one is taken 3 ulp further so that no box is missed (Ize 2013).
+// Pushes the children of a node that the ray hits before `limit`, the nearest last. The error of distances is at most 2
+// ulp; the far one is increased by 3 ulp, so that no box is missed (Ize 2013).
 static inline int push_children(const __global float* node, const BoxRay* b, Scalar limit, Scalar* nears, int* children,
                                 int top) {
   const int first = top;
@@ -72,7 +73,7 @@ static inline int push_children(const __global float* node, const BoxRay* b, Sca
   return top;
 }
 
-// The primitives of one block that the ray meets before `limit`, and how far along.
+// The primitives of one block that the ray hits before `limit`, and their distances.
 static inline Vec3 load_planar(const __global Scalar* block, int value) {
   return vec3(load_scalars(block + value * LANES), load_scalars(block + (value + 1) * LANES),
               load_scalars(block + (value + 2) * LANES));
@@ -117,7 +118,7 @@ static inline Mask meet_block(const Scene* scene, int block, int spheres, Ray ra
   return meet_planars(scene, block, ray, limit, distance);
 }
 
-// The closest primitive before *distance; returns its index, or -1 and leaves *distance.
+// Finds the closest primitive before *distance; returns its index, or -1 without changing *distance.
 static inline int closest_along(const Scene* scene, const Scalar* ray, Scalar* distance) {
   Scalar nears[STACK_SIZE];
   int children[STACK_SIZE];
@@ -172,7 +173,7 @@ static inline int blocked_along(const Scene* scene, const Scalar* ray, Scalar di
   return 0;
 }
 
-// Rays as an array of six floats per lane: origin, direction.
+// Rays in an array with six floats per lane: origin, direction.
 static inline void rays_to_array(Ray ray, Scalar (*array)[LANES]) {
   lanes_to_array(ray.origin.x, array[0]);
   lanes_to_array(ray.origin.y, array[1]);

@@ -1,4 +1,4 @@
-// Texture coordinates and tangents of surface points: the parametrization of each shape as Mitsuba's.
+// Texture coordinates and tangents of surface points, with the parametrizations of Mitsuba.
 #ifndef PHLUX_UV_CL
 #define PHLUX_UV_CL
 
@@ -14,7 +14,7 @@ static inline Vec3 uv_vector(const Scene* scene, Int primitive, int value) {
               uv_value(scene, primitive, value + 2));
 }
 
-// The angle of (x, y) from the x axis in turns, from 0 to 1.
+// The angle of (x, y) from the x axis, in turns from 0 to 1.
 static inline Real turns_of(Real x, Real y) {
   const Real turns = (0.5f * INV_PI) * atan2(y, x);
   return turns < 0.0f ? turns + 1.0f : turns;
@@ -24,7 +24,7 @@ static inline Mask is_ellipse(const Scene* scene, Int primitive) {
   return PRIMITIVE_INT(scene, primitive, region) == REGION_ELLIPSE;
 }
 
-// Of the point a edge_u + b edge_v from a flat primitive's origin.
+// Texture coordinates of the point origin + a edge_u + b edge_v of a flat primitive.
 static inline TextureCoordinates flat_uv(const Scene* scene, Int primitive, Real a, Real b) {
   TextureCoordinates at;
   at.u = fma(a, uv_value(scene, primitive, UV_PER_U),
@@ -40,13 +40,13 @@ static inline TextureCoordinates flat_uv(const Scene* scene, Int primitive, Real
   return at;
 }
 
-// d position / d u, of any length; `from_origin` is the point's place in the plane.
+// d position / d u, of any length; `from_origin` is the vector from the origin of the primitive to the point.
 static inline Vec3 flat_tangent(const Scene* scene, Int primitive, Vec3 from_origin) {
   const Vec3 straight = uv_vector(scene, primitive, UV_TANGENT);
   return HAS_ELLIPSES ? vec_select(is_ellipse(scene, primitive), from_origin, straight) : straight;
 }
 
-// A direction from a sphere's centre along the object's axes.
+// Components of a direction from the centre of a sphere along the axes of the object.
 static inline Vec3 along_axes(const Scene* scene, Int primitive, Vec3 unit) {
   return vec3(vec_dot(unit, uv_vector(scene, primitive, UV_AXES)),
               vec_dot(unit, uv_vector(scene, primitive, UV_AXES + 3)),
@@ -57,7 +57,7 @@ static inline TextureCoordinates sphere_uv(const Scene* scene, Int primitive, Ve
   const Vec3 d = along_axes(scene, primitive, unit);
   TextureCoordinates at;
   at.u = turns_of(d.x, d.y);
-  at.v = INV_PI * atan2(sqrt(fma(d.x, d.x, d.y * d.y)), d.z); // acos loses half its digits at the poles
+  at.v = INV_PI * atan2(sqrt(fma(d.x, d.x, d.y * d.y)), d.z); // acos would lose half of its digits at the poles
   return at;
 }
 

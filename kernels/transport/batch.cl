@@ -1,5 +1,5 @@
-// Batches: the paths of so many jobs, which one work-item makes before it goes on to others. Its lanes take the paths
-// in order, whichever lane is idle. What a batch yields does not depend on how work was cut into launches.
+// A batch is the paths of several jobs, which a work-item completes before it begins the next batch. Idle lanes take
+// the paths in order. The results of a batch do not depend on how the work is divided into launches.
 #ifndef PHLUX_BATCH_CL
 #define PHLUX_BATCH_CL
 
@@ -8,9 +8,9 @@
 #include "math/random.h"
 
 typedef struct {
-  int job, jobs;    // its first job of the launch, and how many
-  int path_count;   // paths are numbered job by job
-  int next;         // path that is taken next
+  int job, jobs;    // first job in the launch, and number of jobs
+  int path_count;   // paths are numbered in the order of the jobs
+  int next;         // next path to be taken
   int first_pixel;  // of the first job
   int first_sample; // of the first job
 } Batch;
@@ -29,7 +29,7 @@ static inline Batch batch_at(JobList list, int batch_jobs, int index) {
   return batch;
 }
 
-// Gives the lanes of `idle` the paths that are next, in lane order; returns the lanes that got one.
+// Gives the next paths to the lanes of `idle`, in lane order; returns the lanes that got one.
 static inline Mask take_paths(Batch* batch, Int* path, Mask idle) {
   const Int number = batch->next + rank_lanes(idle);
   const Mask taken = idle & (number < batch->path_count);
@@ -38,13 +38,13 @@ static inline Mask take_paths(Batch* batch, Int* path, Mask idle) {
   return taken;
 }
 
-// floor(a / b) for 0 <= a < 2^22 and b > 0: the half keeps the quotient of floats off the whole numbers.
+// floor(a / b) for 0 <= a < 2^22 and b > 0. With the half, rounding cannot move the quotient across a whole number.
 static inline Int quotient(Int a, int b) { return to_int((to_real(a) + 0.5f) / (float)b); }
 
 // The pixel and sample of a path of the batch.
 static inline void find_path(JobList list, const Batch* batch, Int path, RandomSequence* sequence) {
   const Int job = quotient(path, list.block_samples);
-  // Pixels past the image's end belong to later blocks; a small image may end several times in a batch.
+  // Pixels beyond the end of the image belong to the next block; a batch may contain several blocks of a small image.
   const Int beyond = batch->first_pixel - list.pixel_count + job;
   const Int ends = beyond >= 0 ? 1 + quotient(max(beyond, (Int)(0)), list.pixel_count) : (Int)(0);
   const Int sample = path - job * list.block_samples;

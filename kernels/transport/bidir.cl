@@ -1,6 +1,6 @@
-// Bidirectional path tracing (Lafortune and Willems 1993): a subpath from a light, one from the camera, and every
-// connection of their vertices, weighted (mis_weights.cl). A batch's light subpaths are traced first, then its eye
-// subpaths, then the pairs of their vertices are connected; each stage keeps all lanes busy by itself.
+// Bidirectional path tracing (Lafortune and Willems 1993): a subpath from a light, one from the camera, and weighted
+// connections of their vertices (mis_weights.cl). A batch has three stages: its light subpaths are traced, then its eye
+// subpaths, then pairs of their vertices are connected. Each stage keeps all lanes busy.
 #include "transport/eye_subpath.cl"
 #include "transport/light_subpath.cl"
 
@@ -17,13 +17,13 @@ static inline Contribution to_own_pixel(Int path, Uint pixel, Vec3 value, Real w
 
 // ---- Eye subpaths
 
-// Light that an eye subpath found: with no light vertex (a hit) or one (a light sample).
+// Adds light that an eye subpath found: with s = 0 (a hit) or s = 1 (a light sample).
 static inline Contribution found_by(const Subpath* s, FoundLight light, int light_vertices) {
   return to_own_pixel(s->path, s->sequence.pixel, light.value, light.weight, TECHNIQUE(light_vertices, s->edges + 1));
 }
 
-// Traces the batch's eye subpaths, adding the lights that they hit and sample. Returns whether there was room for their
-// vertices.
+// Traces the eye subpaths of the batch, and adds the light that they hit and sample. Returns whether there was room for
+// their vertices.
 static inline int trace_eye_subpaths(WorkItem* work, Batch batch) {
   const Scene* scene = work->scene;
   Subpath s = no_subpath(work->seed, work->sets), next = s;
@@ -74,18 +74,18 @@ static inline int trace_eye_subpaths(WorkItem* work, Batch batch) {
 
 // ---- Connections
 
-// Each lane's pair of vertices. Indices count from 0 the vertices after the first of their subpaths.
+// The pair of vertices of each lane. Indices are those of vertices after the first of their subpaths, from 0.
 typedef struct {
   Int path;
   Uint pixel;
   StoredSubpath light, eye;
   Int light_index, eye_index;
-  Int light_count; // of light vertices that can be connected to without making too long a path
-  Uint word, step; // random, for the roulette of connections
+  Int light_count; // number of light vertices to which a connection does not make the path too long
+  Uint word, step; // random numbers for the roulette of connections
 } Pair;
 
-// Roulette of connections: a path of e edges can be made by e - 2 connections, which share its radiance. Where these are
-// more than CONNECTIONS, each is made with probability CONNECTIONS / (e - 2).
+// Roulette of connections: e - 2 connections can make a path of e edges, and share its radiance by their weights. If
+// this is more than CONNECTIONS, each connection is made with the probability CONNECTIONS / (e - 2).
 static inline Real connection_probability(const Pair* pair) {
   if (CONNECTIONS == 0) return (Real)(1.0f);
   const Int most = pair->light_index + pair->eye_index + 1; // e - 2
@@ -101,7 +101,7 @@ static inline Int connectable(const WorkItem* work, const Pair* pair) {
   return min(pair->light.length, work->limits.longest - 2 - pair->eye_index);
 }
 
-// Gives paths that have pairs to the lanes that are not `pairing`; returns the lanes that are then.
+// Gives paths with pairs to the lanes that are not `pairing`; returns the lanes that have a path.
 static inline Mask take_pairs(const WorkItem* work, Batch* batch, Pair* pair, Mask pairing) {
   while (!all_lanes(pairing)) {
     const Mask starting = take_paths(batch, &pair->path, !pairing);
@@ -129,7 +129,7 @@ static inline Mask take_pairs(const WorkItem* work, Batch* batch, Pair* pair, Ma
   return pairing;
 }
 
-// Moves the lanes of m to their next pairs that are connected; returns those that have one.
+// Moves the lanes of m to the next pair that is to be connected; returns the lanes that have one.
 static inline Mask next_pair(const WorkItem* work, Pair* pair, Mask m) {
   Mask pairing = m;
   for (Mask moving = m; any_lane(moving); moving &= pairing & !is_connected(pair)) {
@@ -143,7 +143,7 @@ static inline Mask next_pair(const WorkItem* work, Pair* pair, Mask m) {
   return pairing;
 }
 
-// Connects an eye vertex and a light vertex in the lanes of m.
+// Connects the eye vertex and the light vertex of the lanes of m.
 static inline void connect(WorkItem* work, const Pair* pair, StoredVertex eye, StoredVertex light, Mask m) {
   Real distance;
   const Ray ray = ray_between(surface_position(eye.vertex.point), surface_position(light.vertex.point), &distance);
@@ -190,7 +190,7 @@ static inline void connect_subpaths(WorkItem* work, Batch batch) {
 
 // ---- Batches
 
-// A work-item's share of `scratch`, in words: light vertices, eye vertices, then a few words per path.
+// The part of `scratch` for a work-item, in words: light vertices, eye vertices, then a few words per path.
 static inline void divide_scratch(WorkItem* work, __global Scalar* scratch, int rows, int paths) {
   const size_t vertices = (size_t)rows * ROW_WORDS, share = 2 * vertices + SCRATCH_WORDS_PER_PATH * (size_t)paths;
   __global Scalar* mine = scratch + get_global_id(0) * share;

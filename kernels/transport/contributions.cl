@@ -1,17 +1,17 @@
-// Contributions of light paths and bidirectional paths to the film. A bidirectional path adds to its own pixel at once;
-// splats to other pixels are recorded. The records of a batch are written in order and the host sums them in order: the
-// same seed gives the same image, without atomics.
+// Contributions of light paths and bidirectional paths to the film. A bidirectional path adds to its own pixel
+// directly; splats to other pixels are written as records. The order of the records of a batch is fixed, and the host
+// adds them in that order, so that the same seed gives the same image, without atomics.
 #ifndef PHLUX_CONTRIBUTIONS_CL
 #define PHLUX_CONTRIBUTIONS_CL
 
 #include "scene/scene_data.h"
 #include "math/vectors.h"
 
-// A contribution of `path` to `pixel`: value x weight, by the technique of s light and t eye vertices (s << 16 | t). The
-// radiance of a pixel is the sum of its contributions over all paths, divided by the number of paths per pixel.
+// A contribution of `path` to `pixel`: value x weight, by the technique of s light and t eye vertices (s << 16 | t).
+// The radiance of a pixel is the sum of its contributions over all paths, divided by the number of paths per pixel.
 typedef struct {
   Int path, pixel, technique;
-  Mask own; // the pixel is the path's own
+  Mask own; // the pixel is that of the path itself
   Vec3 value;
   Real weight;
 } Contribution;
@@ -19,18 +19,18 @@ typedef struct {
 typedef struct {
   __global float* records; // arrays of `capacity` words each, see RecordWords
   int capacity;
-  int count; // records so far, those beyond the capacity included: the host then makes more room and tries again
+  int count; // records so far, also those beyond the capacity: the host then repeats the launch with more room
   __global float* radiance; // bidir: four words for each path, its contributions to its own pixel
 } Output;
 
-// Directs output to the records of batch `index`.
+// Selects the records of batch `index` for output.
 static inline void output_to(Output* output, __global float* records, int index, int record_words, int capacity) {
   output->records = records + (size_t)index * (size_t)record_words * (size_t)capacity;
   output->capacity = capacity;
   output->count = 0;
 }
 
-// Whether a contribution is worth a shadow ray: it is not black. NaN is traced too, so that it is counted.
+// Lanes whose contribution needs a shadow ray: those that are not black. NaN is traced too, so that it is counted.
 static inline Mask brings_light(Vec3 value) { return !(vec_sum(value) <= 0.0f); }
 
 static inline void append_record(Output* output, Contribution c, Mask m) {
@@ -51,7 +51,7 @@ static inline void append_record(Output* output, Contribution c, Mask m) {
   output->count += count_lanes(m);
 }
 
-// Contributions that are not finite are recorded: the host counts them and knows their paths.
+// Contributions that are not finite are recorded too: the host counts them and reports their paths.
 static inline void add_contribution(Output* output, Contribution c, Mask m) {
   Mask recorded = m;
   const Vec3 weighted = vec_scale(c.weight, c.value);
@@ -65,7 +65,7 @@ static inline void add_contribution(Output* output, Contribution c, Mask m) {
   if (any_lane(recorded)) append_record(output, c, recorded);
 }
 
-// Writes the sums over each job's samples, for `jobs` jobs from the launch's `first_job` on.
+// Writes the sums over the samples of each job, for `jobs` jobs from `first_job` of the launch on.
 static inline void sum_jobs(const Output* output, int first_job, int jobs, int block_samples, __global float* sums) {
   for (int job = 0; job < jobs; ++job) {
     float4 sum = (float4)(0.0f), sum_of_squares = (float4)(0.0f);

@@ -1,5 +1,5 @@
-// Eye subpaths: how they start at the camera, and the light that they find, by hits and by light samples. Path tracing
-// and bidirectional path tracing share them; only the weights differ.
+// Eye subpaths: their start at the camera, and the light that they find by hits and by light samples. Path tracing and
+// bidirectional path tracing share this code; only the weights differ.
 #ifndef PHLUX_EYE_SUBPATH_CL
 #define PHLUX_EYE_SUBPATH_CL
 
@@ -7,7 +7,7 @@
 #include "scene/lights.cl"
 #include "transport/subpath.cl"
 
-// Starts a subpath at the camera for its pixel and sample, in every lane.
+// Starts a subpath at the camera for its pixel and sample, in all lanes.
 static inline void start_at_camera(const Scene* scene, Subpath* s) {
   const CameraSample sample = camera_sample(scene, random_words(s->sequence, (Uint)(0), 0));
   s->ray = camera_ray(scene, s->sequence.pixel, sample);
@@ -19,36 +19,37 @@ static inline void start_at_camera(const Scene* scene, Subpath* s) {
     s->mis = mis_from_eye(film_density(scene, vec_dot(s->ray.direction, broadcast_vec(scene->camera->forward))));
 }
 
-// Radiance that reaches the camera along a path: value x weight, in the lanes of `found`.
+// Radiance that arrives at the camera along a path: value x weight, in the lanes of `found`.
 typedef struct {
   Vec3 value;
   Real weight;
   Mask found;
 } FoundLight;
 
-// The length of an eye subpath's edge by which its density per solid angle becomes one per area: 1 for an edge from an
-// orthographic camera, whose density is per area across its parallel rays.
+// The length that converts the density of an edge per solid angle to one per area: that of the edge; 1 for the first
+// edge from an orthographic camera, whose density is per area perpendicular to its parallel rays.
 static inline Real edge_length(const Subpath* s, Real distance) {
   if (!HAS_ORTHOGRAPHIC) return distance;
   return s->edges == 1 ? (Real)(1.0f) : distance;
 }
 
-// Lanes where a light sample at the vertex before could have found what the ray hits: there is such a vertex, and its
-// event was no delta event.
+// Lanes in which a light sample at the previous vertex could have found what the ray hits: there is a previous vertex,
+// and its event was not a delta event.
 static inline Mask light_sample_possible(const Subpath* s) {
   const Mask scattered = s->edges > 1;
   return HAS_DELTA ? scattered & !s->delta : scattered;
 }
 
-// The weight of hitting a light (s = 0). `light_sample` is the density with which a light sample at the vertex before
-// would have found it, `from_camera` that with which a light path would have been connected to the camera.
+// The weight of hitting a light (s = 0). `light_sample` is the density with which a light sample at the previous vertex
+// would have found the point; `from_camera` is that density for the first edge, where a light path is connected to the
+// camera instead.
 static inline Real weight_of_hit_light(const Subpath* s, Real light_sample, Real from_camera, Real emission) {
   if (IS_BIDIR) return weight_of_hit(s->mis, s->edges == 1 ? from_camera : light_sample, emission);
   if (CONNECT != CONNECT_MIS) return (Real)(1.0f);
   return light_sample_possible(s) ? s->density / (s->density + light_sample) : (Real)(1.0f);
 }
 
-// Lanes of m whose hits count: where the camera may see lights; without weights, where no light sample is possible.
+// Lanes of m whose hits count: those that may show lights; with CONNECT_LIGHT only where no light sample is possible.
 static inline Mask hits_count(const Subpath* s, Mask m) {
   if (HAS_HIDDEN_EMITTERS) m &= s->edges > 1;
   const int light_samples_alone = !IS_BIDIR & (CONNECT == CONNECT_LIGHT);
@@ -88,7 +89,7 @@ static inline FoundLight hit_sky(const Scene* scene, const Subpath* s, int sky_l
     sampled = emitted = here.density;
     emission *= here.density;
   }
-  if (HAS_ORTHOGRAPHIC) emitted = (Real)(0.0f); // no emission has exactly the direction of the camera's rays
+  if (HAS_ORTHOGRAPHIC) emitted = (Real)(0.0f); // no emitted ray has exactly the direction of the camera rays
   found.value = vec_mul(s->throughput, radiance);
   found.weight = weight_of_hit_light(s, sky->probability * sampled, emitted * sky->probability, emission);
   found.found = hits_count(s, m);
@@ -106,8 +107,8 @@ static inline Real weight_of_sampled_light(const Scene* scene, const Subpath* s,
   return light.hittable ? light.density / (light.density + lobe.density) : (Real)(1.0f);
 }
 
-// Draws a light sample at the vertices of m. Returns the lanes in which light may arrive and be scattered, unless
-// light->ray is occluded before light->distance.
+// Draws a light sample at the vertices of m. Returns the lanes in which light arrives and may be scattered, if
+// light->ray is unoccluded before light->distance.
 static inline Mask draw_light(const Scene* scene, const Subpath* s, Vertex v, LightSample* light, Mask m) {
   *light = light_sample(scene, v.point, random_draws(s->sequence, DIMENSION_LIGHT_SAMPLE(s->edges)));
   const Vec3 generated = to_frame(v.point.frame, light->ray.direction);

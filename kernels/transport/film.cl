@@ -1,5 +1,5 @@
-// The film as the path tracer sees it: jobs, whose sums are handed to the host. Lane l of a launch takes jobs
-// l, l + stride, ... so that a lane whose path has ended begins the next at once.
+// The film in path tracing: jobs, whose sums are sent to the host. Lane l of a launch takes the jobs l, l + stride,
+// ..., so that a lane whose path has ended begins the next path at once.
 #ifndef PHLUX_FILM_CL
 #define PHLUX_FILM_CL
 
@@ -7,13 +7,13 @@
 #include "scene/scene_data.h"
 #include "math/vectors.h"
 
-// The job that each lane is at.
+// The current job of each lane.
 typedef struct {
   Int job, pixel, block;
   Int samples; // done
   Vec3 sum, sum_of_squares;
-  Uint nonfinite; // samples that were not finite: they count as black
-  Real clamped;   // radiance that CLAMP_RADIANCE took away
+  Uint nonfinite; // samples that were not finite, which count as black
+  Real clamped;   // radiance that CLAMP_RADIANCE removed
 } Job;
 
 static inline int job_stride(void) { return (int)get_global_size(0) * LANES; }
@@ -32,12 +32,12 @@ static inline Job first_job(JobList list) {
 
 static inline Mask jobs_left(JobList list, Job job) { return job.job < list.job_count; }
 
-// The number of the sample that is next.
+// The number of the next sample.
 static inline Int sample_number(JobList list, Job job) {
   return list.first_sample + job.block * list.block_samples + job.samples;
 }
 
-// Writes the sums of the lanes in `complete` and moves them to their next job.
+// Writes the sums of the lanes of `complete` and moves them to their next job.
 static inline void hand_over(JobList list, Job* job, __global float* sums, Mask complete) {
   const Int slot = job->job * SUM_WORDS;
   scatter_vec(sums + SUM_RADIANCE, slot, job->sum, complete);

@@ -1,8 +1,9 @@
-// What the rays of the camera hit first: albedo, shading normal and depth, for denoisers and compositing.
+// Albedo, shading normal and depth of the first surface that camera rays hit, for denoisers and compositing.
 #include "transport/eye_subpath.cl"
 
 // Lane l of the launch takes pixel first_pixel + l. `features` receives its FeatureWords, means over the pixel's first
-// `samples` samples: albedo and normal are 0 for rays that hit nothing; depth is the mean over those that do, 0 if none does.
+// `samples` samples: albedo and normal are 0 for rays that hit nothing; depth is the mean over those that do, 0 if none
+// does.
 __kernel void trace_first_hits(SCENE_PARAMETERS, int first_pixel, int pixel_count, int first_sample, int samples,
                                uint2 seed, __global float* features) {
   SCENE_FROM_PARAMETERS

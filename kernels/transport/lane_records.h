@@ -1,22 +1,23 @@
-// Records of several lanes in private memory, one array for every word of a record. A record's fields are a macro list,
+// Records of several lanes in private memory, with an array for every word of a record. The fields of a record are a
+// list,
 //   #define FIELDS(VECTOR, NUMBER, INTEGER, UNSIGNED) VECTOR(ray.origin) NUMBER(distance) INTEGER(path) UNSIGNED(pixel)
-// and what writes and reads them expands it.
+// from which the functions that write and read records are made.
 #ifndef PHLUX_LANE_RECORDS_H
 #define PHLUX_LANE_RECORDS_H
 
 #include "math/vectors.h"
 
-// The number of words of a list of fields.
+// Number of words of a list of fields.
 #define VECTOR_WORDS(member) +3
 #define SCALAR_WORD(member) +1
 #define RECORD_WORDS_OF(FIELDS) (0 FIELDS(VECTOR_WORDS, SCALAR_WORD, SCALAR_WORD, SCALAR_WORD))
 
-// Room for the records of two work-items' lanes.
+// Capacity: two records for each lane.
 typedef Scalar LaneWords[2 * LANES];
 
-// Each takes the words of the next field and advances *word.
+// Each function handles the words of the next field and advances *word.
 
-// Writes the lanes of m from record `at` on, in lane order.
+// Writes the records of the lanes of m from record `at` on, in lane order.
 static inline void put_number(LaneWords* words, int* word, int at, Real v, Mask m) {
   lanes_to_array(pack_lanes(m, v), words[(*word)++] + at);
 }
@@ -26,7 +27,7 @@ static inline void put_vector(LaneWords* words, int* word, int at, Vec3 v, Mask 
   put_number(words, word, at, v.z, m);
 }
 
-// The records from `at` on, one in each lane.
+// Reads the records from `at` on, one in each lane.
 static inline Real number_at(const LaneWords* words, int* word, int at) { return lanes_from_array(words[(*word)++] + at); }
 static inline Vec3 vector_at(const LaneWords* words, int* word, int at) {
   Vec3 v;

@@ -1,5 +1,5 @@
-// Light subpaths: how they start at a light, are scattered, and are connected to the camera. Light tracing and
-// bidirectional path tracing share them; the latter weights the connections and stores the vertices.
+// Light subpaths: their start at a light, scattering, and connections to the camera. Light tracing and bidirectional
+// path tracing share this code; the latter weights the connections and stores the vertices.
 #ifndef PHLUX_LIGHT_SUBPATH_CL
 #define PHLUX_LIGHT_SUBPATH_CL
 
@@ -11,7 +11,7 @@
 
 #define TECHNIQUE(light_vertices, eye_vertices) (((light_vertices) << 16) | (eye_vertices))
 
-// What the stages of a work-item share.
+// Data that the stages of a work-item share.
 typedef struct {
   const Scene* scene;
   JobList list;
@@ -25,7 +25,7 @@ typedef struct {
   uint rays;
 } WorkItem;
 
-// A contribution to the pixel that sees it.
+// A contribution to the pixel in which the camera sees the vertex.
 static inline Contribution splat(const Subpath* s, Int pixel, Vec3 value, Real weight, Int technique) {
   Contribution c;
   c.path = s->path;
@@ -37,16 +37,16 @@ static inline Contribution splat(const Subpath* s, Int pixel, Vec3 value, Real w
   return c;
 }
 
-// The point of the lens to which a vertex after so many edges is connected, and the offset of its splat.
+// The point of the lens to which the vertex after `edges` edges is connected, and the offset of its splat.
 static inline CameraSample splat_sample(const Scene* scene, const Subpath* s, Int edges) {
   CameraSample none;
   none.x = none.y = none.lens_x = none.lens_y = (Real)(0.0f);
   return HAS_CAMERA_SAMPLE ? camera_sample(scene, random_words(s->sequence, DIMENSION_SPLAT(edges), 0)) : none;
 }
 
-// Connects the camera to the point at infinity of the lanes of `sky`. An orthographic camera sees the sky in one
-// direction, which no emission has: the ray of the path's own pixel takes its place in light tracing, and hits in
-// bidirectional path tracing.
+// Connects the camera to the point at infinity in the lanes of `sky`. An orthographic camera sees the sky in a single
+// direction, which no emitted ray has. In light tracing the ray of the path's own pixel is used instead; in
+// bidirectional path tracing the sky is found by hits.
 static inline void see_sky(const Scene* scene, const Subpath* s, Emission* e, CameraSample sample, View* view, Ray* ray,
                            Real* density, Mask sky) {
   Vec3 from_camera = vec_scale((Real)(-1.0f), e->ray.direction);
@@ -69,7 +69,7 @@ static inline void see_sky(const Scene* scene, const Subpath* s, Emission* e, Ca
   *density = sky ? sky_density * light_probability(scene, e->light) : *density;
 }
 
-// Connects the camera to the light's own point (s = 1, t = 1) in the lanes of m.
+// Connects the camera to the point on the light itself (s = 1, t = 1) in the lanes of m.
 static inline void connect_light_to_camera(WorkItem* work, const Subpath* s, Emission e, Mask m) {
   if (!HAS_HITTABLE_LIGHTS | HAS_HIDDEN_EMITTERS) return;
   const Scene* scene = work->scene;
@@ -115,8 +115,8 @@ static inline void connect_to_camera(WorkItem* work, const Subpath* s, Vertex v,
                     splat(s, view.film.pixel, value, weight, TECHNIQUE(s->edges + 1, 1)), seen & brings_light(value));
 }
 
-// Samples the emission of the batch's next paths, one for each lane as long as there are any. Returns the lanes that
-// have an edge to trace; *started: those that have a path.
+// Samples the emission of the next paths of the batch, one for each lane as long as there are any. Returns the lanes
+// that have an edge to trace; *started: the lanes that have a path.
 static inline Mask start_at_light(WorkItem* work, Batch* batch, Subpath* s, Mask* started) {
   const Scene* scene = work->scene;
   *started = take_paths(batch, &s->path, ALL_LANES);
@@ -134,8 +134,8 @@ static inline Mask start_at_light(WorkItem* work, Batch* batch, Subpath* s, Mask
   return work->limits.longest > 1 ? shines : NO_LANES;
 }
 
-// The density with which a light sample at the vertex would have found the point where the light subpath started,
-// `distance` away, in the lanes of m; that of a light without a surface as in LightSample.
+// The density with which a light sample at the vertex would have found the start of the light subpath, at `distance`,
+// in the lanes of m. For a light without a surface as in LightSample.
 static inline Real density_of_start(const Scene* scene, const Subpath* s, Vertex v, Real distance, Mask m) {
   const Vec3 lit = v.point.position;
   const Real choice = probability_for(scene, lit, lit_normal(v.point), s->light, m);
@@ -153,7 +153,7 @@ static inline Real density_of_start(const Scene* scene, const Subpath* s, Vertex
   return density;
 }
 
-// The quantities of a light subpath that has arrived at the vertex.
+// The MIS quantities of a light subpath that has arrived at the vertex.
 static inline MisQuantities mis_arrived_from_light(const Scene* scene, const Subpath* s, Vertex v, Real distance) {
   const Real cosine = -vec_dot(v.point.normal, s->ray.direction);
   const MisQuantities later = mis_arrived(s->mis, distance * distance, cosine);
@@ -168,8 +168,8 @@ static inline MisQuantities mis_arrived_from_light(const Scene* scene, const Sub
   return q;
 }
 
-// Traces the batch's light subpaths and connects them to the camera. Returns whether there was room for the vertices
-// that bidirectional path tracing stores.
+// Traces the light subpaths of the batch and connects them to the camera. Returns whether there was room for the
+// vertices that bidirectional path tracing stores.
 static inline int trace_light_subpaths(WorkItem* work, Batch batch) {
   const Scene* scene = work->scene;
   Subpath s = no_subpath(work->seed, work->sets), next = s;

@@ -1,15 +1,15 @@
-// Surfaces of partial opacity: at a point of opacity a, the part 1 - a of all light passes straight on, and the
-// material scatters the part a. Such a point is a vertex of a path only if the path is scattered there: an edge passes
-// through any number of masks, with the product of the parts 1 - a as its transmittance. Subpaths choose at each mask
-// whether they pass; shadow rays carry the transmittance as a factor. It is the same for all techniques that make a
-// path, and so has no part in their weights.
+// Masks, surfaces of partial opacity: at a point of opacity a the fraction 1 - a of the light passes in a straight
+// line, and the material scatters the fraction a. The point is a vertex of a path only if the path is scattered there.
+// An edge may pass any number of masks; its transmittance is the product of their 1 - a. Subpaths choose at random at
+// each mask whether they pass; shadow rays are multiplied by the transmittance. The transmittance is the same for all
+// techniques that make a path, so that weights do not depend on it.
 #ifndef PHLUX_MASKS_CL
 #define PHLUX_MASKS_CL
 
 #include "lobes/material.cl"
 #include "scene/surface.cl"
 
-// The opacity of a point's material in the lanes of m, by channel.
+// The opacity of the material at a point in the lanes of m, per channel.
 static inline Vec3 opacity_at(const Scene* scene, SurfacePoint point, Mask m) {
   const Vec3 opaque = vec_all((Real)(1.0f));
   const Mask masked = m & ((material_int(scene, point.material, MATERIAL_FLAGS) & MATERIAL_MASKED) != 0);
@@ -21,8 +21,8 @@ static inline Vec3 opacity_at(const Scene* scene, SurfacePoint point, Mask m) {
   return vec_select(masked, opacity, opaque);
 }
 
-// Moves the origin of the ray in the lanes of m to the far side of a point that it has met. Returns by how much it
-// moved along the ray.
+// Moves the origin of the ray in the lanes of m beyond a point that it has hit. Returns the distance along the ray by
+// which it moved.
 static inline Real pass_point(Ray* ray, SurfacePoint point, Mask m) {
   const Vec3 origin = offset_origin(point.position, point.normal, point.error, ray->direction);
   const Real moved = vec_dot(vec_sub(origin, ray->origin), ray->direction);
@@ -30,9 +30,9 @@ static inline Real pass_point(Ray* ray, SurfacePoint point, Mask m) {
   return m ? moved : (Real)(0.0f);
 }
 
-// The first surface along the ray that scatters a subpath of `alive` or absorbs it. Multiplies *throughput by the ratio
-// of opacity, or of transmittance, to the probability of the choice: 1 if the opacity is grey. All choices are made
-// with further_word of `words`.
+// Finds the first surface along the ray that scatters or absorbs the subpath, in the lanes of `alive`. Multiplies
+// *throughput by opacity or transmittance, divided by the probability of the choice; the quotient is 1 if the opacity
+// is grey. All choices use further_word of `words`.
 static inline Hit first_scattering(const Scene* scene, Ray ray, RandomWords words, Vec3* throughput, Mask alive) {
   Hit hit;
   hit.distance = (Real)(0.0f);
@@ -58,8 +58,8 @@ static inline Hit first_scattering(const Scene* scene, Ray ray, RandomWords word
   return hit;
 }
 
-// Lanes of `asking` whose shadow ray meets something opaque before `distance`. Multiplies *light, what the ray brings,
-// by the transmittance of the masks on its way.
+// Lanes of `asking` whose shadow ray hits an opaque surface before `distance`. Multiplies *light, the contribution of
+// the ray, by the transmittance of the masks that the ray passes.
 static inline Mask shadow_ray_blocked(const Scene* scene, Ray ray, Real distance, Vec3* light, Mask asking) {
   if (!HAS_MASKS) return scene_occluded(scene, ray, distance, asking);
   Mask passing = asking;

@@ -1,5 +1,6 @@
-// Path tracing (CW 197, 3.3.2): from the camera, scattered at every surface, until roulette, the depth or the dark ends
-// the path. CONNECT says how it reaches the lights: by hits alone, by light samples, or by both with weights.
+// Path tracing (CW 197, 3.3.2): a path starts at the camera and is scattered at every surface, until it leaves the
+// scene or is ended by roulette or the largest depth. CONNECT selects how light is found: by hits, by light samples, or
+// by both with weights.
 #include "transport/eye_subpath.cl"
 #include "transport/film.cl"
 
@@ -7,7 +8,7 @@ static inline Vec3 add_found(Vec3 radiance, FoundLight light, Mask m) {
   return vec_select(m, vec_add(radiance, vec_scale(light.weight, light.value)), radiance);
 }
 
-// Starts the lanes of `starting` on their jobs' next samples.
+// Starts the next sample of the job in the lanes of `starting`.
 static inline void start_paths(const Scene* scene, Subpath* path, Vec3* radiance, JobList list, Job job, Mask starting) {
   Subpath first = *path;
   first.sequence.pixel = int_to_uint(job.pixel);
@@ -24,8 +25,8 @@ static inline void start_paths(const Scene* scene, Subpath* path, Vec3* radiance
   *radiance = vec_select(starting, vec_all((Real)(0.0f)), *radiance);
 }
 
-// The control variate of --ambient: radiance `ambient` from everywhere, its exact reflection less the sampled one. Its
-// mean is 0.
+// The control variate of --ambient: for the constant incident radiance `ambient`, the exact reflected radiance minus
+// the sampled one. Its mean is 0.
 static inline Vec3 ambient_variate(Vertex v, MaterialSample sample, Vec3 throughput, float ambient) {
   const Vec3 sampled = vec_select(sample.survives, sample.weight, vec_all((Real)(0.0f)));
   const Vec3 difference = vec_sub(material_reflectivity(v.material, v.fixed), sampled);

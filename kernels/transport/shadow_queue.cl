@@ -1,5 +1,5 @@
-// A queue of shadow rays: they wait until every lane has one, so that no lane idles while they are traced. Each carries
-// the contribution that counts if the ray is unoccluded.
+// A queue of shadow rays, which wait until every lane has one, so that no lane is idle while they are traced. Each has
+// a contribution, which is added if the ray is unoccluded.
 #ifndef PHLUX_SHADOW_QUEUE_CL
 #define PHLUX_SHADOW_QUEUE_CL
 
@@ -9,9 +9,9 @@
 
 typedef struct {
   Ray ray;
-  Real distance; // before which the ray must be unoccluded
-  Vec3 value;    // of the contribution; without RECORD_TECHNIQUES times its weight
-  Int path, pixel; // pixel: its complement where the contribution is to the path's own pixel
+  Real distance; // up to which the ray must be unoccluded
+  Vec3 value;    // of the contribution; without RECORD_TECHNIQUES it includes the weight
+  Int path, pixel; // pixel: its complement if it is the path's own pixel
   Real weight;
   Int technique;
 } ShadowRay;
@@ -46,7 +46,7 @@ static inline void put_shadow_rays(ShadowQueue* queue, int at, ShadowRay shadow,
 #define SHADOW_VECTOR(member) shadow.member = vector_at(queue->words, &word, at);
 #define SHADOW_NUMBER(member) shadow.member = number_at(queue->words, &word, at);
 #define SHADOW_INTEGER(member) shadow.member = carried_int(number_at(queue->words, &word, at));
-// The rays from `at` on.
+// Reads the rays from `at` on.
 static inline ShadowRay shadow_rays_at(const ShadowQueue* queue, int at) {
   ShadowRay shadow;
   int word = 0;
@@ -59,8 +59,8 @@ static inline ShadowRay shadow_rays_at(const ShadowQueue* queue, int at) {
   return shadow;
 }
 
-// Traces the first rays, one for each lane or what is left, and adds what is unoccluded. With RECORD_TECHNIQUES an occluded
-// ray adds 0, so that the host counts the rays of each technique.
+// Traces the first rays of the queue, at most one per lane, and adds the contributions of those that are unoccluded.
+// With RECORD_TECHNIQUES an occluded ray adds 0, so that the host counts the rays of each technique.
 static inline void trace_shadow_rays(const Scene* scene, ShadowQueue* queue, Output* output) {
   const Mask waiting = LANE_NUMBERS < (Int)(queue->count);
   ShadowRay shadow = shadow_rays_at(queue, 0);

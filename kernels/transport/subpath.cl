@@ -1,4 +1,4 @@
-// Subpaths from the camera and from the lights: they meet a surface, and are scattered there.
+// Subpaths from the camera and from the lights: their next vertex, and scattering there.
 #ifndef PHLUX_SUBPATH_CL
 #define PHLUX_SUBPATH_CL
 
@@ -8,9 +8,9 @@
 #include "transport/masks.cl"
 #include "transport/mis_weights.cl"
 
-// Dimensions of the random numbers of a path. Eye subpaths: 0 is the position in the pixel, then two for every edge.
-// Light subpaths: two for the first edge, then one for every edge; one for every splat. One for the roulette of
-// connections. For masks, one for every edge of either subpath.
+// Dimensions of the random numbers of a path. Eye subpaths have one for the position in the pixel (0), then two for
+// every edge. Light subpaths have two for the first edge, one for every other edge, and one for every splat. The
+// roulette of connections has one, and masks have one for every edge of both subpaths.
 #define DIMENSION_SCATTERING(edges) int_to_uint(2 * (edges))
 #define DIMENSION_LIGHT_SAMPLE(edges) int_to_uint(2 * (edges) + 1)
 #define DIMENSION_EMISSION 0x40000000u
@@ -24,27 +24,27 @@ typedef struct {
   Ray ray;
   Vec3 throughput; // of importance (eye subpaths) or power (light subpaths)
   Real begin;      // largest channel of its first throughput, for roulette by throughput
-  Int edges;       // so far
+  Int edges;       // number of edges so far
   Int path;        // number in the batch
   RandomSequence sequence;
-  // Of the vertex where the ray starts, for the weights of what it finds:
-  Vec3 normal;         // by which a light is chosen: lit_normal
+  // Of the vertex where the ray starts, for the weights of light that it finds:
+  Vec3 normal;         // lit_normal, on which the choice of a light depends
   Real density;        // of the ray's direction, per solid angle
-  Real cosine_density; // of the same direction by the cosine, with which a constant sky is sampled
+  Real cosine_density; // density of the same direction as a light sample of a constant sky
   Mask delta;          // the direction was sampled from a delta distribution
-  // Bidirectional path tracing alone:
+  // Only in bidirectional path tracing:
   MisQuantities mis;
   Int light;         // light subpaths: where they started
-  Real light_cosine; // light subpaths: of the first edge to that light's normal; from the sky, its direction's density
+  Real light_cosine; // light subpaths: of the first edge to the normal of the light; from the sky: its density
 } Subpath;
 
-// Lengths of paths, in edges.
+// Limits of path lengths, in edges.
 typedef struct {
   int longest;
-  int roulette; // decides from this edge on
+  int roulette; // first edge at which roulette decides
 } PathLimits;
 
-// A surface that a subpath has met.
+// A vertex of a subpath on a surface.
 typedef struct {
   SurfacePoint point;
   Material material;
@@ -63,11 +63,11 @@ static inline Subpath no_subpath(uint2 seed, PointSets sets) {
   return s;
 }
 
-// What the rays of some subpaths find.
+// What the rays of the subpaths have found.
 typedef struct {
   Real distance;
   Mask hits;      // a surface
-  Mask scattered; // a surface that reflects on this side, on a path that may have more edges
+  Mask scattered; // the surface scatters on this side, and the path may have more edges
   Vertex vertex;
 } Arrival;
 
@@ -77,7 +77,7 @@ static inline Hit trace_edge(const Scene* scene, Subpath* s, int adjoint, Mask a
   return first_scattering(scene, s->ray, words, &s->throughput, alive);
 }
 
-// `adjoint`: light subpaths.
+// `adjoint`: 1 for light subpaths.
 static inline Arrival next_vertex(const Scene* scene, Subpath* s, int adjoint, PathLimits limits, Mask alive) {
   const Hit hit = trace_edge(scene, s, adjoint, alive);
   s->edges += alive ? (Int)(1) : (Int)(0);
@@ -93,19 +93,19 @@ static inline Arrival next_vertex(const Scene* scene, Subpath* s, int adjoint, P
   return a;
 }
 
-// |cosine|, where directions that count may have negative ones.
+// |cosine| if directions that count may have negative cosines.
 static inline Real size_of_cosine(Real cosine) { return HAS_SIGNED_COSINES ? fabs(cosine) : cosine; }
 
-// The cosine factor at the vertex of a light subpath that arrives along `fixed` and leaves along `generated` (in the
-// shading frame; with its cosine to the geometric normal): Veach's (1997, 5.3) adjoint BSDF times cosine, over f_r.
-// Without interpolated normals, the cosine of `generated`. Cosines are not negative.
+// The factor of f_r at the vertex of a light subpath that arrives along `fixed` and leaves along `generated` (in the
+// shading frame; with its cosine to the geometric normal): Veach's adjoint BSDF (1997, 5.3) times cosine, divided by
+// f_r. Without interpolated normals it is the cosine of `generated`. Cosines are not negative.
 static inline Real adjoint_cosine(Vertex v, Vec3 generated, Real geometric_cosine) {
   if (!HAS_SMOOTH_NORMALS) return size_of_cosine(generated.z);
   return v.fixed.z * size_of_cosine(geometric_cosine) / vec_dot(v.point.normal, from_frame(v.point.frame, v.fixed));
 }
 
-// Lanes whose direction leaves the surface on the same side by both normals, so that no light leaks through; by the shading
-// normal alone if strictNormals is false. Below the surface: where light passes through.
+// Lanes whose direction is above the surface by both normals, so that no light leaks through; by the shading normal
+// alone if strictNormals is false. Directions below the surface count if the material transmits light.
 static inline Mask leaves(Vec3 generated, Real geometric_cosine) {
   Mask above = generated.z > 0.0f, below = generated.z < 0.0f;
   if (!SIDES_BY_SHADING) {
@@ -115,8 +115,8 @@ static inline Mask leaves(Vec3 generated, Real geometric_cosine) {
   return HAS_TRANSMISSION ? above | below : above;
 }
 
-// Scatters the subpaths of m. Returns those that continue: not absorbed by roulette. `adjoint`: light subpaths. *sample is
-// the event.
+// Scatters the subpaths of m. Returns those that roulette does not end. `adjoint`: 1 for light subpaths. *sample is the
+// scattering event.
 static inline Mask scatter(Subpath* s, Vertex v, int adjoint, Uint dimension, PathLimits limits, MaterialSample* sample,
                            Mask m) {
   *sample = material_sample(v.material, v.fixed, random_draws(s->sequence, dimension),

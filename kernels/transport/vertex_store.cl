@@ -1,18 +1,19 @@
-// The vertices of a batch's subpaths in memory. The vertex that lane l reaches in step t of its loop is in column l of row
-// t: a subpath's vertices are in consecutive rows of one column, and a row is written from registers as it is.
+// The vertices of the subpaths of a batch in memory. The vertex of lane l in iteration t of the loop is in column l of
+// row t, so that a row is written directly from registers. The vertices of a subpath are in consecutive rows of one
+// column.
 #ifndef PHLUX_VERTEX_STORE_CL
 #define PHLUX_VERTEX_STORE_CL
 
 #include "transport/lane_records.h"
 #include "transport/subpath.cl"
 
-// What connecting to a vertex takes.
+// The data of a vertex that a connection needs.
 typedef struct {
   Vec3 position, shading_normal;
   Vec3 back; // along the subpath, in world space
   Vec3 throughput;
   Real error;
-  Int material; // its complement where the vertex is on the back of a surface (HAS_TRANSMISSION)
+  Int material; // its complement if the vertex is on the back of a surface (HAS_TRANSMISSION)
   MisQuantities mis;
   Vec3 normal;  // HAS_SMOOTH_NORMALS
   Vec3 tangent; // HAS_TANGENTS
@@ -33,12 +34,12 @@ typedef struct {
 
 typedef struct {
   __global Scalar* words;
-  int rows;             // that there is room for
+  int rows;             // capacity
   __global int* first;  // per path: word 0 of its first vertex
-  __global int* length; // and how many vertices it has
+  __global int* length; // per path: number of vertices
 } VertexStore;
 
-// Where the vertices of each lane's subpath are.
+// The places of the vertices of the subpath of each lane.
 typedef struct {
   Int first, length;
 } StoredSubpath;
@@ -75,8 +76,8 @@ static inline Vec3 gather_vector(const __global Scalar** words, Int at) {
 #define STORE_NUMBER(member) store_number(&words, record.member);
 #define STORE_INTEGER(member) store_number(&words, carry_int(record.member));
 
-// Stores the vertices of all lanes in a row; those of `scattered` are the next of their subpaths, which in the lanes of
-// `starting` begin here.
+// Stores the vertices of all lanes in a row. In the lanes of `scattered` they are the next vertices of their subpaths;
+// in the lanes of `starting` the subpaths begin with them.
 static inline void store_vertices(const VertexStore* store, int row, const Subpath* s, Vertex v, StoredSubpath* stored,
                                   Mask starting, Mask scattered) {
   VertexRecord record;
@@ -106,7 +107,7 @@ static inline void store_vertices(const VertexStore* store, int row, const Subpa
   stored->length += scattered ? (Int)(1) : (Int)(0);
 }
 
-// A stored vertex, ready for a connection.
+// Reads a stored vertex for a connection.
 typedef struct {
   Vertex vertex;
   Vec3 throughput;
@@ -153,7 +154,7 @@ static inline StoredVertex stored_vertex(const Scene* scene, const VertexStore* 
   return s;
 }
 
-// Where the subpaths of m have their vertices, once they have ended.
+// Records the places of the vertices of the subpaths of m, which have ended.
 static inline void set_stored(const VertexStore* store, Int path, StoredSubpath stored, Mask m) {
   scatter_int(store->first, path, stored.first, m);
   scatter_int(store->length, path, stored.length, m);

@@ -1,4 +1,4 @@
-// Subpaths that wait to be traced. They are sampled for all lanes at once, and lanes that fall idle take them, last first.
+// Subpaths that wait to be traced. They are started for all lanes at once; idle lanes take them, the last one first.
 #ifndef PHLUX_WAITING_SUBPATHS_CL
 #define PHLUX_WAITING_SUBPATHS_CL
 
@@ -6,7 +6,7 @@
 #include "transport/lane_records.h"
 #include "transport/subpath.cl"
 
-// What a subpath has before its first edge.
+// The data of a subpath before its first edge.
 #define WAITING_FIELDS(VECTOR, NUMBER, INTEGER, UNSIGNED)                                                              \
   VECTOR(ray.origin)                                                                                                   \
   VECTOR(ray.direction) VECTOR(throughput) INTEGER(path) UNSIGNED(sequence.pixel) UNSIGNED(sequence.sample)
@@ -22,7 +22,7 @@ typedef struct {
   int count;
 } WaitingSubpaths;
 
-// Whether more are wanted for so many idle lanes, and the batch has more.
+// Whether this number of idle lanes needs more subpaths than wait, and the batch has more.
 static inline int wants_subpaths(const WaitingSubpaths* waiting, const Batch* batch, int idle) {
   return waiting->count < min(idle, LANES) && batch->next < batch->path_count;
 }
@@ -53,7 +53,7 @@ static inline void put_subpaths(WaitingSubpaths* waiting, const Subpath* s, Mask
   s->member = int_to_uint(                                                                                             \
       carried_int(take_number(waiting->words, &word, waiting->count, carry_int(uint_to_int(s->member)), starting)));
 
-// Starts as many lanes of `idle` as there are subpaths waiting; returns those.
+// Gives waiting subpaths to lanes of `idle`, as many as there are; returns these lanes.
 static inline Mask take_subpaths(WaitingSubpaths* waiting, Subpath* s, Mask idle) {
   const int taken = min(waiting->count, count_lanes(idle));
   const Mask starting = idle & (rank_lanes(idle) < taken);

@@ -79,7 +79,7 @@ TEST_CASE(
   CHECK(choice_for(shipped("caustic", 64, 48), 16).words ==
         "`integrator` path: the render is too short for trials");
   CHECK(choice_for(shipped("caustic", 64, 48), 16, {{"weights", "power"}}).words ==
-        "`integrator` bidir `weights` power: no other method can render this");
+        "`integrator` bidir `weights` power: no other method can render this scene with these options");
   CHECK_THROWS_AS(choice_for(shipped("caustic", 64, 48), 16, {{"weights", "power"}, {"connect", "light"}}),
                   UsageError);
   scene::Scene mirror = shipped("mirror-ball", 32, 32);

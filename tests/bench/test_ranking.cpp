@@ -71,7 +71,7 @@ TEST_CASE("Methods whose interval reaches 1 are tied, and no sound method means 
       Catch::StartsWith(
           "tied for the least time for the same error: -i path --connect mis; -i path --connect none, "));
   const std::vector<MethodResult> refused = {{.method = light, .verdict = Verdict::refused}};
-  CHECK(answer_of(refused, rank(refused, CostClock::wall), 10) == "no method is right");
+  CHECK(answer_of(refused, rank(refused, CostClock::wall), 10) == "no method is sound");
   // Images without noise cost nothing.
   const std::vector<MethodResult> exact = {result_of(none, {0, 0, 0}), result_of(mis, {1, 1, 1})};
   CHECK(rank(exact, CostClock::processor)[1].rank == Rank::slower);

@@ -89,12 +89,12 @@ TEST_CASE("The format is that of its version: who changes one raises the other, 
 TEST_CASE("A file that is not a complete checkpoint of this version is refused with the reason") {
   const Saved saved;
   CHECK(saved.refusal(saved.bytes) == "nothing");
-  CHECK_THAT(saved.refusal(""), Contains("is no checkpoint of phlux"));
-  CHECK_THAT(saved.refusal("<scene version=\"0.6.0\"/>\n"), Contains("is no checkpoint of phlux"));
+  CHECK_THAT(saved.refusal(""), Contains("is not a checkpoint of phlux"));
+  CHECK_THAT(saved.refusal("<scene version=\"0.6.0\"/>\n"), Contains("is not a checkpoint of phlux"));
   for (const std::size_t length :
        {std::size_t{20}, std::size_t{60}, std::size_t{74}, saved.bytes.size() / 2, saved.bytes.size() - 1})
-    CHECK_THAT(saved.refusal(saved.bytes.substr(0, length)), Contains("is not whole"));
-  CHECK_THAT(saved.refusal(saved.bytes + "x"), Contains("is not whole"));
+    CHECK_THAT(saved.refusal(saved.bytes.substr(0, length)), Contains("is incomplete"));
+  CHECK_THAT(saved.refusal(saved.bytes + "x"), Contains("is incomplete"));
   for (const std::size_t place :
        {std::size_t{25}, std::size_t{80}, saved.bytes.size() / 2, saved.bytes.size() - 1}) {
     std::string damaged = saved.bytes;

@@ -10,7 +10,8 @@ TEST_CASE("phlux bench rays writes the contract's columns") {
       run({{"bench", "rays", "--triangles", "36,1000", "--out", "out/new"}, folder.path(), {}, {}});
   CAPTURE(outcome.err);
   if (has_charts(outcome)) {
-    CHECK_THAT(TemporaryFolder::read(folder / "out/new/index.html"), Catch::Contains("Rays against Embree"));
+    CHECK_THAT(TemporaryFolder::read(folder / "out/new/index.html"),
+               Catch::Contains("Rays, compared with Embree"));
     CHECK_THAT(TemporaryFolder::read(folder / "out/new/rays-rates.svg"), Catch::Contains("</svg>"));
   }
   const auto lines = lines_of(TemporaryFolder::read(folder / "out/new/rays.csv"));
@@ -186,7 +187,8 @@ TEST_CASE("phlux bench precision writes a row for each width, its charts and a s
   for (const char* chart : {"tradeoff", "time"})
     CHECK_THAT(TemporaryFolder::read(folder / (std::string("out/precision-") + chart + ".svg")),
                Catch::Contains("</svg>"));
-  CHECK_THAT(TemporaryFolder::read(folder / "out/index.html"), Catch::Contains("Float32 against float64"));
+  CHECK_THAT(TemporaryFolder::read(folder / "out/index.html"),
+             Catch::Contains("Float32 compared with float64"));
 }
 
 TEST_CASE("phlux bench: bad input is one line and its exit code") {

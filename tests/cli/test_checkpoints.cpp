@@ -84,7 +84,7 @@ TEST_CASE("A file that is not a checkpoint of this render is refused in one line
   CHECK_THAT(refusal({"--resume", "c", "-D", "radiance=5"}, 3),
              Contains("c: is of another scene, scene.xml"));
   CHECK_THAT(refusal({"--resume", "c", "-n", "1"}, 2), Contains("c: has 2 samples per pixel already"));
-  CHECK_THAT(refusal({"--resume", "foreign"}, 3), Contains("foreign: is no checkpoint of phlux"));
+  CHECK_THAT(refusal({"--resume", "foreign"}, 3), Contains("foreign: is not a checkpoint of phlux"));
   CHECK_THAT(refusal({"--checkpoint-every", "5"}, 2),
              Contains("--checkpoint-every: no checkpoint is written"));
   CHECK_THAT(refusal({"--checkpoint", "b.exr"}, 2), Contains("b.exr: named for two outputs"));

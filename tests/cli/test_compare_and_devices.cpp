@@ -84,7 +84,7 @@ TEST_CASE("phlux compare --fail-above ends with 1 and a line for each metric abo
     std::string errors;
   };
   const std::string left_out =
-      "phlux: 1 values of nan.exr and b.exr are not finite: the figures leave their pixels out\n";
+      "phlux: 1 values of nan.exr and b.exr are not finite: their pixels are left out of the metrics\n";
   const std::vector<Case> cases = {
       {{"a.exr", "b.exr", "--fail-above", "rmse=1", "--fail-above=mean_error=0.5"}, 0, ""},
       {{"a.exr", "b.exr", "--fail-above", "rmse=.99", "--fail-above", "relmse=1", "--fail-above",

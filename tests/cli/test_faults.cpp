@@ -120,7 +120,7 @@ TEST_CASE("No output replaces an input or another output, whatever their names")
           "./c: named for an output, but is the input c");
   refused({"-o", "same", "--checkpoint", place / "same"}, "named for two outputs");
   refused({"-o", "new.exr", "--checkpoint", "dangling"}, "named for two outputs");
-  refused({"--checkpoint", "notes.txt"}, "--checkpoint notes.txt: is no checkpoint of phlux");
+  refused({"--checkpoint", "notes.txt"}, "--checkpoint notes.txt: is not a checkpoint of phlux");
   CHECK(TemporaryFolder::read(place / "c") == checkpoint);
 
   place.write("empty", "");

@@ -55,7 +55,7 @@ TEST_CASE("two drivers' CPUs are the same cores: a type and a part of a name tak
     const Choice choice = choose({specification}, machine);
     CHECK(choice.devices == Indices{1});
     REQUIRE(choice.notes.size() == 1);
-    CHECK_THAT(choice.notes[0], Contains("2:0 (Intel(R) OpenCL) is the same cores as 1:0 (Portable"));
+    CHECK_THAT(choice.notes[0], Contains("2:0 (Intel(R) OpenCL) uses the same cores as 1:0 (Portable"));
   }
   // Two CPUs of one driver are two processors.
   std::vector<DeviceInfo> sockets = {machine[1], machine[1], machine[2]};
@@ -70,7 +70,7 @@ TEST_CASE("the same cores are taken twice where the user names both, with a note
     const Choice choice = choose(both, machine);
     CHECK(choice.devices == Indices{1, 2});
     REQUIRE_FALSE(choice.notes.empty());
-    CHECK_THAT(choice.notes.back(), Contains("are the same cores: each slows the other"));
+    CHECK_THAT(choice.notes.back(), Contains("use the same cores: each slows the other"));
   }
   const Choice all = choose({"all"}, machine);
   CHECK(all.devices == Indices{0, 1, 2, 3});

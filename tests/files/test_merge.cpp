@@ -110,7 +110,7 @@ TEST_CASE("What cannot be merged is refused, saying why") {
   CHECK_THAT(refusal([](Image& i) { i.info.settings["clamp"] = 4.0; }),
              Contains("b.exr: was rendered with `clamp` 4, but a.exr without `clamp`"));
   CHECK_THAT(refusal([](Image& i) { i.info.settings["strategy"] = "lobe-estimate-printed"; }),
-             Contains("which has a bias"));
+             Contains("which is biased"));
   CHECK(refusal([](Image& i) { i.info.settings["strategy"] = "lobe-estimate"; }) == "nothing");
 }
 

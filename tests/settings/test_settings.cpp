@@ -108,11 +108,11 @@ TEST_CASE("A choice that is of no use to the integrator is refused, saying why")
   };
   CHECK(refusal({{"connect", "mis"}}) == "nothing");
   CHECK(refusal({{"integrator", "light"}, {"connect", "mis"}}) ==
-        "`connect` is for path alone: light has its own ways to the lights");
-  CHECK_THAT(refusal({{"weights", "power"}}), Contains("`weights` is for bidir alone: path makes"));
-  CHECK_THAT(refusal({{"connections", "3"}}), Contains("`connections` is for bidir alone: path connects"));
+        "`connect` is for path only: light finds lights by other techniques");
+  CHECK_THAT(refusal({{"weights", "power"}}), Contains("`weights` is for bidir only: path has"));
+  CHECK_THAT(refusal({{"connections", "3"}}), Contains("`connections` is for bidir only: path connects"));
   CHECK_THAT(refusal({{"integrator", "bidir"}, {"connections", "3"}}, true),
-             Contains("`contributions` shows every connection"));
+             Contains("`contributions` needs every connection"));
   CHECK_THAT(refusal({{"connect", "none"}, {"light-selection", "power"}}),
              Contains("`light-selection` is for light samples"));
   CHECK(refusal({{"connect", "light"}, {"light-selection", "power"}}) == "nothing");

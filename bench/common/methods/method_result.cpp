@@ -114,14 +114,16 @@ void MethodRenders::judge(MethodResult& result, const ReferenceImage& reference,
   if (!(result.variance.value > 0)) {
     if (mean_differs || pixels_differ)
       result.decide(Verdict::suspect_variance,
-                    "all renders are equal: the samples that carry the light were never drawn");
+                    "all renders are equal: samples that carry light were never drawn");
     return;
   }
   if (suspect(result, reference, variances)) return;
   if (mean_differs)
-    return result.decide(Verdict::biased,
-                         fmt::format("the image's mean is {:+.2g}% off the reference's ({:+.1f} sigma)",
-                                     100 * difference.value / reference.mean.value, result.mean_bias_sigma));
+    return result.decide(
+        Verdict::biased,
+        fmt::format(
+            "the mean of the image differs from that of the reference by {:+.2g}% ({:+.1f} standard errors)",
+            100 * difference.value / reference.mean.value, result.mean_bias_sigma));
   if (pixels_differ)
     return result.decide(Verdict::biased, fmt::format("the variances do not explain a relative MSE of {:.2g}",
                                                       unexplained.value));
@@ -133,7 +135,7 @@ void MethodRenders::judge(MethodResult& result, const ReferenceImage& reference,
                   error / largest_error);
   else if (detectable > detectable_bias)
     result.decide(Verdict::undecided,
-                  fmt::format("only a bias above {:.0f}% would be found", 100 * detectable),
+                  fmt::format("a bias of less than {:.0f}% would not be found", 100 * detectable),
                   detectable / detectable_bias);
 }
 

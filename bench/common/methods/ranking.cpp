@@ -166,7 +166,7 @@ std::string answer_of(const std::vector<MethodResult>& results, const std::vecto
       longest = std::max(longest, results[i].times_longer);
     }
   }
-  if (fastest.empty() && open.empty()) return "no method is right";
+  if (fastest.empty() && open.empty()) return "no method is sound";
   if (fastest.empty())
     return fmt::format("too little time to tell which method is best: --seconds {:.2g} or more",
                        seconds * soonest);
@@ -179,7 +179,7 @@ std::string answer_of(const std::vector<MethodResult>& results, const std::vecto
   const std::string what = open.empty() ? "the least time for the same error" : "the least time";
   text += fastest.size() == 1 ? fmt::format("{} needs {}", fastest[0], what)
                               : fmt::format("tied for {}: {}", what, fmt::join(fastest, "; "));
-  return text + (slower.empty() ? "; no other method is known to be right" : "; the next, " + slower[0]);
+  return text + (slower.empty() ? "; no other method is known to be sound" : "; the next, " + slower[0]);
 }
 
 } // namespace phlux::bench

@@ -170,7 +170,7 @@ def provenance(folder, sections):
     commands = [values["command"] for _, _, values in made if values.get("command")]
     if commands:
         parts.append("<h3>Commands</h3><pre>" + "\n".join(escape(command) for command in commands) + "</pre>")
-        parts.append("<p>Run it in the folder of Phlux as <code>./phlux</code>, with <code>--out DIR</code>. If DIR is the folder of this "
+        parts.append("<p>Run these in the folder of Phlux as <code>./phlux</code>, with <code>--out DIR</code>. If DIR is the folder of this "
                      "report, results that it already contains are not measured again.</p>")
     return "\n".join(parts) + "</section>"
 

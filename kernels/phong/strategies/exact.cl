@@ -1,10 +1,10 @@
-// Exact sampling of f_r cos: the diffuse part by the cosine, the lobe by cos^n(alpha) cos(theta) itself.
+// Exact sampling of f_r cos: the diffuse part with the density cos / pi, the lobe with that of cos^n(alpha) cos(theta).
 #include "phong/whole.h"
 
 // A direction with density cos^n(alpha) cos(theta), normalised (sampling.md). In longitude psi and latitude beta of the
 // mirror frame the density separates into cos^(n + 2)(beta) and cos^n(psi) cos(psi + theta). The latter is the sum of a
-// part that is even in psi (a) and one along the edge of the clamped region (b). `coin` chooses between the parts and
-// is used again, rescaled, within its part.
+// part (a) that is even in psi and a part (b) at the edge of the clamped region. `coin` chooses between the parts, and
+// is rescaled and used again within the part.
 static inline Vec3 exact_direction(Phong m, Vec3 fixed, Real reflectivity, RandomDraws random, Mask active,
                                    Int* draws) {
   const Real coin = uniform_real(random.words.w);
@@ -22,8 +22,8 @@ static inline Vec3 exact_direction(Phong m, Vec3 fixed, Real reflectivity, Rando
     const Vec3 b = vec3(-cos_beta * sqrt(fma(-s * s, minus_fall, c * c)), v.y, cos_beta * s * lobe_cosine(minus_fall));
     chosen = vec_select(in_b, b, chosen);
   }
-  // a: v or its mirror image about psi = 0, in proportion to their heights; where the lower one is below the surface
-  // half of the draws are rejected.
+  // a: v or its mirror image about psi = 0, in proportion to their heights; if the lower one is below the surface, half
+  // of the draws are rejected.
   Mask drawing = active & !in_b;
   Real again = (coin - share_b) / (1.0f - share_b);
   *draws = (Int)(1);

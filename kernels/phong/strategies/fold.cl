@@ -1,4 +1,4 @@
-// As mixture, but a lobe sample below the surface is mirrored about the longitude psi = 0: no sample is lost.
+// As mixture, but a lobe sample below the surface is mirrored about the longitude psi = 0, so that no sample is lost.
 #define PHONG_WHOLE_WEIGHT 1
 #define PHONG_FOLD 1
 static inline Real phong_expected(Phong m, Real cosine) { return phong_lobe_reflectivity(m, cosine); }

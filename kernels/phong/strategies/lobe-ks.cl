@@ -1,4 +1,4 @@
-// One part, chosen by kd and ks alone (seeds 003); the part that was sampled is weighted alone.
+// One part, chosen in proportion to kd and ks; the weight is that of the chosen part alone.
 #define PHONG_WHOLE_WEIGHT 0
 #define PHONG_FOLD 0
 static inline Real phong_expected(Phong m, Real cosine) { return (Real)(1.0f); }

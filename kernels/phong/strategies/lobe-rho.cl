@@ -1,4 +1,4 @@
-// One part, chosen by kd and the exact reflectivity rho_s; the part that was sampled is weighted alone.
+// One part, chosen in proportion to kd and the exact reflectivity rho_s; the weight is that of the chosen part alone.
 #define PHONG_WHOLE_WEIGHT 0
 #define PHONG_FOLD 0
 static inline Real phong_expected(Phong m, Real cosine) { return phong_lobe_reflectivity(m, cosine); }

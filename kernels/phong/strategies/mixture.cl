@@ -1,4 +1,4 @@
-// One part, chosen by kd and rho_s; the weight is that of the mixture of both, which bounds it.
+// One part, chosen in proportion to kd and rho_s; the weight is that of the mixture of both parts, which bounds it.
 #define PHONG_WHOLE_WEIGHT 1
 #define PHONG_FOLD 0
 static inline Real phong_expected(Phong m, Real cosine) { return phong_lobe_reflectivity(m, cosine); }

@@ -1,4 +1,4 @@
-// Rejection sampling of f_r cos: hit or miss against a bound, over the cosine density.
+// Rejection sampling of f_r cos, with proposals of density cos / pi and a bound on f_r.
 #include "phong/whole.h"
 
 static inline LobeSample phong_sample(Phong m, Vec3 fixed, Real choice, RandomDraws random, Mask active) {
