@@ -1,5 +1,5 @@
-// Text for the user. What a full disk, a closed terminal or a pipe without a reader does not take is lost,
-// and ends nothing.
+// Text for the user. Text that a full disk, a closed terminal or a pipe without a reader does not accept is
+// lost, without ending the program.
 #pragma once
 
 #include <cstdio>

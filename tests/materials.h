@@ -1,4 +1,4 @@
-// The parameters of phong-like materials by their names in MATH.md, for every model that has them.
+// The parameters of phong-like materials by their usual names, for every model that has them.
 #pragma once
 
 #include "lobes/models.h"

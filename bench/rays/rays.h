@@ -15,7 +15,7 @@ struct RaysOptions : CommonOptions {
   int rounds = 7; ///< of which the medians are reported
 };
 
-/// Writes rays.csv (the columns of the contract, then the Embree call) and prints its rows, then writes
+/// Writes rays.csv (the fixed columns, then the Embree call) and prints its rows, then writes
 /// charts and the report. Embree uses as many threads as the device has compute units. @throws DeviceError;
 /// WriteError, also if the charts cannot be drawn, when the table is complete
 void measure_rays(const RaysOptions& options);

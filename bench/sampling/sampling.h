@@ -32,7 +32,7 @@ struct SamplingOptions : CommonOptions {
 /// `rejection` is left out of cases in which it needs more proposals per sample on average.
 inline constexpr double most_proposals = 1000;
 
-/// Four cases whose variances are known by quadrature (MATH.md 2.6), then a grid over material, exponent and
+/// Four cases whose variances are known by quadrature, then a grid over material, exponent and
 /// angle.
 [[nodiscard]] std::vector<Case> sampling_cases(bool quick);
 

@@ -21,7 +21,7 @@ struct SamplingRow {
 /// Relative standard deviation that float32 rounding gives a constant estimate.
 inline constexpr double float_rounding = 1e-6;
 
-/// The columns of the contract, then those about the measurement; the last one is the kind of light.
+/// The fixed columns, then those about the measurement; the last one is the kind of light.
 [[nodiscard]] const std::vector<std::string>& sampling_columns();
 
 /// Reasons why a row must not be compared with others.

@@ -14,7 +14,7 @@ struct ScenesOptions : ComparisonOptions {
   std::vector<std::filesystem::path> scenes; ///< empty: shipped_scenes()
 };
 
-/// Writes scenes.csv (the columns of the contract, then those about the measurement), scenes-convergence.csv
+/// Writes scenes.csv (the fixed columns, then those about the measurement), scenes-convergence.csv
 /// (errors at doubling times), references and images, then charts and the report. Keeps the rows that an
 /// earlier run with the same settings left in the folder; resumes an interrupted run at its scene. Returns
 /// false if interrupted. @throws UsageError, SceneError, DeviceError, WriteError

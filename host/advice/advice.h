@@ -19,8 +19,8 @@ struct Advice {
 
 /// Renders small images of the scene by the settings' method and by the others, each for `seconds` after its
 /// kernels are built. Suggests the most efficient method if it is at least twice as efficient. Costs are
-/// corrected for rare light that pixels lack, and methods that lack too much of it are not suggested. Names
-/// the light that causes most of the variance, if one does and the method's own error estimate is unreliable.
+/// corrected for rare light that pixels lack, and methods that lack too much of it are not suggested. If the
+/// error estimate of the method is unreliable, names the light that causes most of the variance, if any.
 /// @throws DeviceError
 [[nodiscard]] Advice advise(scene::Scene scene, const render::Settings& settings, double seconds);
 

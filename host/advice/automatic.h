@@ -1,4 +1,4 @@
-// The method of a render that leaves it open: `integrator` auto.
+// The choice of a method for `integrator` auto.
 #pragma once
 
 #include <map>
@@ -14,13 +14,13 @@ struct MethodChoice {
   std::string words;                        ///< the method and why, in one line
 };
 
-/// Whether the integrator cannot find some of the scene's light at all, so that its error estimate lacks it:
-/// path, that of point, spot and directional emitters by way of delta events; light, what is seen by way of
-/// delta events.
+/// Whether the integrator cannot find some of the scene's light, which its error estimate then does not
+/// include: `path` cannot find light of point, spot and directional emitters after a delta event, `light`
+/// cannot find light that a delta event scatters to the camera.
 [[nodiscard]] bool misses_light(const scene::Scene& scene, const settings::IntegratorInfo& integrator);
 
 /// Chooses among path, light and bidir, and then among the variants of the best: the least variance x cost in
-/// trial renders, of those whose error estimates can be trusted. The trials take about 3% of the render's
+/// trial renders, of those with reliable error estimates. The trials take about 3% of the render's
 /// time; a render that is too short for them is by path. Costs are computed from the numbers of rays, not
 /// measured, so that a seed always leads to the same method. `choices` may fix other settings; `integrator`
 /// among them is ignored.

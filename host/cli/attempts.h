@@ -1,4 +1,4 @@
-// The steps at the end of a render, none of which the failure of another prevents.
+// The steps at the end of a render. The failure of one does not prevent the others.
 #pragma once
 
 #include <exception>

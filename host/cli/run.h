@@ -3,7 +3,7 @@
 
 namespace phlux::cli {
 
-/// Runs one command. Returns CONTRACT.md's exit code; a defect of phlux itself ends with 70 (EX_SOFTWARE).
+/// Runs one command. Returns the exit code (README.md); a defect of phlux itself ends with 70 (EX_SOFTWARE).
 [[nodiscard]] int run(int argc, char** argv);
 
 } // namespace phlux::cli

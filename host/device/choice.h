@@ -18,8 +18,8 @@ struct Choice {
 ///
 /// A specification is "P:D", "cpu", "gpu", "all", or a part of a name, case-insensitive. It is compared with
 /// platforms' names first, and with devices' names only if no platform matches, as a device's name may
-/// contain its vendor. CPUs of two platforms are the same cores under two drivers: "cpu" and a part of a name
-/// choose those of the first platform; "all" and several specifications choose all. Both add a note.
+/// contain its vendor. The CPUs of two platforms are the same cores with two drivers: "cpu" and a part of a
+/// name choose those of the first platform; "all" and several specifications choose all. Both add a note.
 /// @throws DeviceError when a specification matches nothing, with a list of all devices
 [[nodiscard]] Choice choose(const std::vector<std::string>& specifications,
                             const std::vector<DeviceInfo>& devices);

@@ -43,8 +43,8 @@ private:
   std::array<std::uint64_t, bins> counts_{};
 };
 
-/// Running means over tiles of tile_edge x tile_edge pixels, with which contributions to pixels of few
-/// samples are compared.
+/// Running means over tiles of tile_edge x tile_edge pixels, with which contributions are compared if their
+/// pixels have few samples.
 class TileMeans {
 public:
   static constexpr int tile_edge = 16;

@@ -64,12 +64,12 @@ struct alignas(64) Splats {
 };
 
 /// The relative rounding error of the sums is at most 2^-53 times the number of blocks, so that they do not
-/// stall (MATH.md 6). The float32 sums of blocks of B samples have a relative error of up to 2^-24 B
+/// stall. The float32 sums of blocks of B samples have a relative error of up to 2^-24 B
 /// (2^-24 sqrt(B) where samples differ); a variance of one sample below that part of mean^2 is rounding, not
 /// noise. Squares fit float32 for radiances between about 1e-18 and 1e18 units.
 class Film {
 public:
-  /// Black, without samples. Both sizes > 0.
+  /// A black film without samples. Both sizes > 0.
   Film(int width, int height);
   /// Bytes of memory of a film with these numbers of pixels, of sums of samples (0 or 1 per pixel), of splats
   /// (0 or 1), of blocks of dependent samples (0 or 1), and of techniques.

@@ -1,4 +1,4 @@
-// What the camera's rays hit first, for denoisers and compositing.
+// Properties of the first surface that camera rays hit, for denoisers and compositing.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@ namespace phlux::film {
 struct FirstHit {
   std::array<float, 3> albedo{}; ///< the fraction of light from the camera's direction that is scattered
   std::array<float, 3> normal{}; ///< shading normal in world space, on the side that is seen
-  float depth = 0.0F;            ///< distance along the camera's axis; of the samples that hit anything
+  float depth = 0.0F; ///< distance along the camera's axis; mean over the samples that hit anything
 };
 
 } // namespace phlux::film

@@ -1,6 +1,6 @@
-// The reliability of a film's error estimate. Where a few samples dominate a variance it is underestimated,
-// as rarer and larger contributions have not been sampled yet, and a pixel's 95% interval, mean +- 1.96
-// standard errors, holds the right value less often than in 95% of the cases.
+// The reliability of a film's error estimate. If a few samples dominate a variance, it is underestimated,
+// because rarer and larger contributions have not been sampled yet. Then the 95% interval of a pixel, mean
+// +- 1.96 standard errors, contains the true value in less than 95% of the cases.
 #pragma once
 
 #include <memory>
@@ -14,20 +14,20 @@ namespace phlux::film {
 
 /// Per pixel; with fewer, no error estimate is trusted.
 inline constexpr double least_samples = 8.0;
-/// The least coverage of a trusted image. Of the renders of tests/images/coverage_table.cpp it takes 2% of
-/// those whose intervals hold in 93% to 97% of the pixels for unreliable, and 96% of those below 85%.
+/// The least coverage of a trusted image. Of the renders of tests/images/coverage_table.cpp it rejects 2% of
+/// those with a true coverage of 93% to 97%, and 96% of those below 85%.
 inline constexpr double least_coverage = 0.86;
 
-/// Largest Reliability::variance_error of a trusted image: eleven samples bring all of the variance.
+/// Largest Reliability::variance_error of a trusted image: eleven samples cause the whole variance.
 inline constexpr double largest_variance_error = 0.3;
 
 struct Reliability {
   bool trusted = false;
   std::vector<std::string> reasons; ///< why it is not trusted
-  /// Share of the pixels whose 95% intervals hold the right value, as predicted from the film.
+  /// Coverage: share of the pixels whose 95% intervals contain the true value, as predicted from the film.
   double coverage = 0.0;
-  /// What Film::relative_standard_error() would be if all pixels of a tile had met as much rare, bright
-  /// light.
+  /// Estimate of Film::relative_standard_error() if every pixel of a tile had received the same amount of
+  /// rare, bright light.
   double relative_standard_error = 0.0;
   /// Variance of one sample per pixel, relative to the squared mean radiance of the pixel or of its tile of
   /// 16x16 pixels, whichever is larger; the mean over the image.
@@ -49,7 +49,7 @@ struct Reliability {
 
 [[nodiscard]] Reliability reliability_of(const Film& film);
 
-/// The values of reliability_map(), each computed when it is asked for. The film must stay as it is.
+/// The values of reliability_map(), each computed when it is requested. The film must not change.
 class ReliabilityMap {
 public:
   explicit ReliabilityMap(const Film& film);
@@ -60,7 +60,7 @@ private:
   std::unique_ptr<const class Tiles> tiles_;
 };
 
-/// Per pixel: the predicted probability that its 95% interval holds the right value; 0 in black pixels.
+/// Per pixel: the predicted probability that its 95% interval contains the true value; 0 in black pixels.
 [[nodiscard]] std::vector<float> reliability_map(const Film& film);
 
 } // namespace phlux::film

@@ -9,18 +9,18 @@ namespace phlux::lobes {
 /// index of refraction `index`.
 [[nodiscard]] double fresnel_reflectance(double cosine, double index);
 
-/// The part of diffuse light that a smooth surface reflects.
+/// The fraction of diffuse light that a smooth surface reflects.
 [[nodiscard]] double diffuse_reflectance(double index);
 
 enum class FacetDistribution { beckmann, ggx, phong };
 
-/// The part of the light that passes a rough surface after one refraction, at `intervals` + 1 cosines evenly
-/// spaced from 0 to 1; relative error about 1e-3.
+/// The fraction of the light that a rough surface transmits by one refraction, at `intervals` + 1 cosines
+/// evenly spaced from 0 to 1; relative error about 1e-3.
 [[nodiscard]] std::vector<double> rough_transmittances(FacetDistribution distribution, double alpha,
                                                        double index, int intervals);
 
-/// The part of diffuse light inside the surface that it sends back by one reflection; relative error about
-/// 1e-3. What neither this nor a refraction sends on is blocked by other facets.
+/// The fraction of diffuse light inside that the surface reflects back by one reflection; relative error
+/// about 1e-3. The rest that is not refracted either is blocked by other facets.
 [[nodiscard]] double rough_internal_reflectance(FacetDistribution distribution, double alpha, double index);
 
 } // namespace phlux::lobes

@@ -1,4 +1,4 @@
-// Renders what the camera sees first.
+// Renders properties of the first surface that camera rays hit.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// The user's choices for a render; the scene and the defaults supply the rest.
+// The settings that the user has chosen for a render; the scene and the defaults determine the others.
 #pragma once
 
 #include <array>

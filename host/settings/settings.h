@@ -21,8 +21,8 @@ enum class Connect { none, light, mis };        ///< direct light from hits, lig
 enum class Weights { balance, power, uniform }; ///< weights of bidirectional techniques (Veach 1997)
 enum class LightSelection { power, contribution };  ///< probabilities of lights for light samples
 enum class Sampler { independent, sobol, lattice }; ///< how the samples of a pixel are related
-/// Probability to survive Russian roulette: the sampling strategy's or model's own, the reflectivity of the
-/// vertex, kd + ks, in proportion to the throughput (survivors have throughput 1), or to more of it.
+/// Survival probability of Russian roulette: that of the sampling strategy or model, the reflectivity of the
+/// vertex, kd + ks, the throughput x reflectivity (survivors have throughput 1), or twice that.
 enum class Roulette { strategy, reflectivity, kd_ks, throughput, efficiency };
 enum class Traversal { automatic, brute_force, bvh };
 

@@ -1,4 +1,4 @@
-// The strategies of sampling directions (MATH.md 2.3).
+// The strategies that sample directions of the modified Phong model (kernels/phong/strategies).
 #pragma once
 
 #include <array>

@@ -11,7 +11,8 @@ struct AliasTable {
   std::vector<int> alias;
 };
 
-/// The table of probabilities whose sum is 1, by Vose's construction. What has no probability is never given.
+/// The table of probabilities whose sum is 1, by Vose's construction. An entry of probability 0 is never
+/// chosen.
 [[nodiscard]] AliasTable alias_table(std::vector<double> probabilities);
 
 } // namespace phlux::tables

@@ -32,7 +32,7 @@ std::vector<double> angles(bool quick) {
   return list;
 }
 
-// f_r with both directions along the normal, and rho_s / ks (MATH.md 2.1, by quadrature).
+// f_r with both directions along the normal, and rho_s / ks (by quadrature).
 struct KnownValue {
   double diffuse, specular, exponent, value;
 };

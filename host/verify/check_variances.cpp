@@ -12,7 +12,7 @@ namespace {
 constexpr double most_sigmas = 4;
 constexpr std::size_t batch = 1 << 18; // samples at once
 
-// Variances of one sample of the reflectivity, by quadrature (MATH.md 2.6); with roulette for strategies that
+// Variances of one sample of the reflectivity, by quadrature; with roulette for strategies that
 // choose between lobes.
 struct KnownVariance {
   double diffuse, specular, exponent, degrees;
@@ -33,7 +33,7 @@ constexpr KnownVariance known_variances[] = {
     {.4, .4, 10, 60, 0.324622, 0.221324, 0.165507, 0.290892, 0.275923},
     {.1, .8, 90, 30, 21.864599, 12.407981, 0.073705, 0.166876, 0.166749}};
 
-// Shares of the specular part that CW 197's printed estimate loses (MATH.md 2.4).
+// Shares of the specular part that CW 197's printed estimate loses.
 struct KnownLoss {
   double exponent, degrees, share, digits; // `digits`: half of the last printed one
 };

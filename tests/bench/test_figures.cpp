@@ -72,7 +72,7 @@ TEST_CASE("Figures 2 to 5: each integrand integrates to the reflectivity") {
   FigureSums sums;
   const TemporaryFolder& folder = figures(&sums);
   constexpr double pi = std::numbers::pi;
-  CHECK(sums.exact == Approx(.4 + .05 * std::cos(pi / 6)).epsilon(1e-6)); // MATH.md 2.1
+  CHECK(sums.exact == Approx(.4 + .05 * std::cos(pi / 6)).epsilon(1e-6));
   for (const auto& [figure, area] : std::map<int, double>{{2, pi * pi}, {3, 2 * pi}, {4, 1}})
     CHECK(integral(read(folder, figure)["integrand"], 49, 97, area) == Approx(sums.exact).epsilon(2e-3));
   const Table disk = read(folder, 5);

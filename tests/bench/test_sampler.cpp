@@ -19,7 +19,7 @@ constexpr double sigmas = 4;
 } // namespace
 
 TEST_CASE("Variances agree with quadrature") {
-  // MATH.md 2.6: the variance of one sample of the reflectivity.
+  // The variance of one sample of the reflectivity.
   struct Known {
     Case one;
     double uniform, cosine, lobe_ks, lobe_rho, mixture;
@@ -99,7 +99,7 @@ TEST_CASE("Samples of later launches continue the sequence; another seed is anot
 }
 
 TEST_CASE("The printed estimate is biased, the corrected one is not") {
-  const Case one{.4, .4, 10, 80}; // MATH.md 2.4: loses 28.5% of the specular part
+  const Case one{.4, .4, 10, 80}; // loses 28.5% of the specular part
   const double specular = exact_reflectivity(one) - one.diffuse;
   Sampler printed(test_device(), {}, "lobe-estimate-printed", 0),
       guarded(test_device(), {}, "lobe-estimate", 0);

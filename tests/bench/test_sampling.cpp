@@ -48,7 +48,7 @@ double number(CsvRow row, const std::string& column) {
 
 } // namespace
 
-TEST_CASE("The loss of the printed estimate agrees with MATH.md 2.4") {
+TEST_CASE("The loss of the printed estimate agrees with known values") {
   CHECK(printed_loss({0, 1, 50, 85}) == Approx(.27).margin(.005));
   CHECK(printed_loss({0, 1, 50, 80}) == Approx(.107).margin(.0005));
   CHECK(printed_loss({0, 1, 50, 75}) == Approx(.031).margin(.0005));

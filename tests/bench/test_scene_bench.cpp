@@ -96,7 +96,7 @@ TEST_CASE("Methods that alternate are ranked correctly, and biased and refused o
   REQUIRE(results.size() == 4);
   CHECK(results[0].verdict == Verdict::sound);
   CHECK(results[0].rounds.size() == 10);
-  // MATH.md 2.6: `exact` has the least variance of all.
+  // `exact` has the least variance of all.
   CHECK(results[1].variance.value - 4 * results[1].variance.standard_error > 2 * results[0].variance.value);
   CHECK(results[2].verdict == Verdict::biased);
   CHECK(results[2].mean_bias_sigma < -4); // the loss of light is also measured

@@ -89,7 +89,7 @@ TEST_CASE("With a tiny light, hitting it by chance is suspect and next-event est
   CHECK_FALSE(results[1].verdict == Verdict::biased);
 }
 
-// MATH.md 2.6: `exact` has the least variance of all strategies if lights are only hit by directions.
+// `exact` has the least variance of all strategies if lights are only hit by directions.
 TEST_CASE("A method with a worse strategy has more variance in a cell") {
   const Method plain{"path", "uniform", "none"};
   const auto results = measured(stability_scene(10, .3, 8), {none, plain}, 2);

@@ -130,7 +130,7 @@ TEST_CASE("Variance is never negative") {
 }
 
 TEST_CASE("A mean does not stall where float32 sums do", "[exactness]") {
-  // MATH.md 6: an average of 0.505. A float32 sum stops growing once half its spacing exceeds 0.505.
+  // An average of 0.505. A float32 sum stops growing once half its spacing exceeds 0.505.
   constexpr std::uint32_t block_length = 250;
   const float value = 0.505F;
   const auto samples = GENERATE(std::uint64_t{1'000'000}, std::uint64_t{100'000'000});

@@ -29,7 +29,7 @@ scene::Scene plane(const scene::Material& material) {
   return scene;
 }
 
-// Modified Phong at the plane, from the formula (MATH.md 2): f_r for directions to the light and to the eye.
+// Modified Phong at the plane, from the formula: f_r for directions to the light and to the eye.
 Rgb reflectance(const scene::Material& m, const Vec3& wi, const Vec3& wo) {
   const Vec3 mirrored(-wi.x, -wi.y, wi.z);
   const double cosine = std::max(0.0, glm::dot(mirrored, wo));

@@ -106,7 +106,7 @@ void check_sphere(double exponent, const std::string& strategy, Connect connect)
   with.connect = connect;
   const Estimate image = estimate_of(render_of(scene, with).film),
                  reference = sphere_reference(scene, material);
-  // The estimate as printed in CW 197 loses energy (MATH.md 2.4), most for the widest lobes.
+  // The estimate as printed in CW 197 loses energy, most for the widest lobes.
   if (strategy != "lobe-estimate-printed")
     check_agreement(image, reference);
   else if (exponent < 1)

@@ -1,4 +1,4 @@
-// Common mistakes in light tracing and bidirectional path tracing (MATH.md 6): borders of the film, corners,
+// Common mistakes in light tracing and bidirectional path tracing: borders of the film, corners,
 // sides of surfaces, visible lights, lights that cannot be hit, missing lights.
 #include <algorithm>
 #include <cmath>

@@ -102,7 +102,7 @@ TEST_CASE("a glossy floor at grazing angles is as bright as its reflectivity") {
   const film::Film by_light = film_by(light, scene, 64, 1);
   CHECK(relative_error(estimate_of(by_light), reference) > 0.3);
   check_verdict(by_light, false);
-  render::Settings printed = settings_with_seed(path_hits, 64, 1); // MATH.md 2.4
+  render::Settings printed = settings_with_seed(path_hits, 64, 1);
   printed.strategy = "lobe-estimate-printed";
   CHECK(mean_of(estimate_of(render_of(scene, printed).film)) < 0.8 * mean_of(reference));
 }

@@ -25,7 +25,7 @@ double fifth(double x) {
   return std::pow(x, 5);
 }
 
-// MATH.md 3, in float64.
+// The same formulas in float64.
 glm::dvec3 formula(const phlux::scene::Material& m, const glm::dvec3& k1, const glm::dvec3& k2) {
   if (k1.z <= 0 || k2.z <= 0) return glm::dvec3(0);
   const glm::dvec3 h = glm::normalize(k1 + k2);

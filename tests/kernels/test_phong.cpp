@@ -14,7 +14,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// MATH.md 2, in float64.
+// The same formulas in float64.
 glm::dvec3 phong_formula(const phlux::scene::Material& m, const glm::dvec3& a, const glm::dvec3& b) {
   if (a.z <= 0 || b.z <= 0) return glm::dvec3(0);
   const glm::dvec3 mirrored(-a.x, -a.y, a.z);

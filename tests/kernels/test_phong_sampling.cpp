@@ -18,7 +18,7 @@ enum Traits : unsigned {
   whole = 1,        // the weight is eval cos / density (else that of the sampled part)
   smooth = 2,       // the density ignores the lobe
   mean_density = 4, // the stated density is not that of the directions, but valid for MIS weights
-  loses_energy = 8, // biased as printed, MATH.md 2.4
+  loses_energy = 8, // biased as printed
   no_peaks = 16     // needs n times as many draws or samples: no large exponents
 };
 struct Strategy {
@@ -124,7 +124,7 @@ TEST_CASE("phong: each strategy draws by its density, carries the reflectivity, 
 }
 
 TEST_CASE("phong: the energy loss of the printed estimate is as derived") {
-  // MATH.md 2.4: a black diffuse part, n = 50 at 80 degrees: 10.7 percent.
+  // A black diffuse part, n = 50 at 80 degrees: 10.7 percent.
   const DeviceModel model =
       device_model({1}, {phong(glm::dvec3(0), glm::dvec3(1), 50)}, "lobe-estimate-printed");
   const glm::dvec3 fixed = as_float(polar(80 * std::numbers::pi / 180, 0.3));

@@ -95,7 +95,7 @@ private:
 
 std::vector<std::string> unbiased_strategies() {
   std::vector<std::string> names = render::strategy_names();
-  std::erase(names, "lobe-estimate-printed"); // MATH.md 2.4
+  std::erase(names, "lobe-estimate-printed");
   return names;
 }
 

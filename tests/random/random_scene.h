@@ -1,4 +1,4 @@
-// Small valid scenes with everything that a scene file may contain (CONTRACT.md), each from two numbers.
+// Small valid scenes with everything that a scene file may contain, each from two numbers.
 #pragma once
 
 #include <cstdint>

@@ -73,7 +73,7 @@ const std::vector<std::string>& result_columns() {
                                                    "variance_standard_error",
                                                    "top_share",
                                                    "seconds_per_sample",
-                                                   "variance_times_seconds", // last column of the contract
+                                                   "variance_times_seconds", // last fixed column
                                                    "verdict",
                                                    "reason",
                                                    "variance_measured",

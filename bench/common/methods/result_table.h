@@ -52,7 +52,7 @@ struct CommonValues {
   CostClock clock = CostClock::wall;
 };
 
-/// From `device` on, the columns of the contract, then those about the measurement. Values that the verdict
+/// From `device` on, the fixed columns, then those about the measurement. Values that the verdict
 /// does not allow are empty (bench/README.md).
 [[nodiscard]] const std::vector<std::string>& result_columns();
 [[nodiscard]] std::vector<std::string> result_values(const MethodResult& result, const RankedCost& cost,
