@@ -71,9 +71,10 @@ def map_charts(grid):
     drawings = [("stability-best", partial(draw_best, grid)), ("stability-cost", partial(draw_costs, grid))]
     charts = [
         {"svg": "stability-best.svg", "title": "The best method",
-         "caption": "Each cell names the best method. Upper number: time of the second best method, divided by that of the best. The "
-                    "cell is pale if they are tied, or if a suspect or undecided method may need less time. Lower number: the same "
-                    "for the best method of another integrator; ≥: its variance is suspect, and this is a lower bound."},
+         "caption": "The colour of a cell is that of its best method. Upper number: time of the second best method, divided by that of "
+                    "the best. The cell is pale if they are tied, or if a suspect or undecided method may need less time. Lower "
+                    "number: the same for the best method of another integrator; ≥: its variance is suspect, and this is a lower "
+                    "bound."},
         {"svg": "stability-cost.svg", "title": "Each method",
          "caption": "Microseconds to unit variance. Hatched: the variance is suspect and the number is a lower bound; ?: no "
                     "sample found light. Crossed: biased, the image differs from the reference by more than its variance "
