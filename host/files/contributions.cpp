@@ -7,8 +7,11 @@
 #include <fmt/format.h>
 
 #include "errors.h"
+#include "files/canvas.h"
 #include "files/exr.h"
+#include "files/output.h"
 #include "files/png.h"
+#include "files/tone_map.h"
 
 namespace phlux::files {
 namespace {
@@ -34,30 +37,51 @@ Image image_of(const Pixels& pixels, int width, int height, const RenderInfo& in
   return image;
 }
 
-// Images downsampled by a whole factor to about 128 pixels across: a row per number of edges, a column per s.
+// Images downsampled by a whole factor to about 128 pixels across, each below its (s,t): a row per number of
+// edges, a column per s.
 class Sheet {
 public:
-  Sheet(int width, int height, int most_edges, const RenderInfo& info)
+  Sheet(int width, int height, int most_edges)
       : width_(width), factor_((std::max(width, height) + largest_tile - 1) / largest_tile),
         tile_width_(std::max(width / factor_, 1)), tile_height_(std::max(height / factor_, 1)),
-        columns_(most_edges + 1), image_(blank(2 * columns_ * (tile_width_ + gap) + gap,
-                                               most_edges * (tile_height_ + gap) + gap, info)) {}
+        text_scale_(tile_width_ >= largest_tile / 2 ? 2 : 1), rows_(most_edges) {}
 
   void put(Technique technique, const Pixels& pixels, bool weighted) {
-    const int column = technique.light_vertices + (weighted ? 0 : columns_);
-    const int left = gap + column * (tile_width_ + gap),
-              top = gap + (technique.edges() - 1) * (tile_height_ + gap);
+    Tile tile{technique, weighted, blank(tile_width_, tile_height_, {})};
     for (std::size_t channel = 0; channel < 3; ++channel)
       for (int y = 0; y < tile_height_; ++y)
         for (int x = 0; x < tile_width_; ++x)
-          image_.channels[radiance_names[channel]][index(left + x, top + y, image_.width)] =
+          tile.image.channels[radiance_names[channel]][index(x, y, tile_width_)] =
               static_cast<float>(mean_of(pixels, x * factor_, y * factor_, channel));
+    tiles_.push_back(std::move(tile));
   }
 
-  [[nodiscard]] const Image& image() const { return image_; }
+  // All tiles have the same exposure.
+  [[nodiscard]] Canvas picture() const {
+    const int line = Canvas::text_height(text_scale_) + text_scale_;
+    const int column = std::max(tile_width_, Canvas::text_width("(0,0)", text_scale_)) + gap;
+    const int row = line + tile_height_ + gap, half = (rows_ + 1) * column + gap;
+    Canvas canvas(2 * half + gap, line + gap + rows_ * row + gap, paper);
+    canvas.text(gap, gap, "weighted", ink, text_scale_);
+    canvas.text(gap + half, gap, "unweighted", ink, text_scale_);
+    const float exposed = exposure(all_tiles());
+    for (const Tile& tile : tiles_) {
+      const int s = tile.technique.light_vertices, t = tile.technique.eye_vertices;
+      const int left = gap + s * column + (tile.weighted ? 0 : half),
+                top = line + 2 * gap + (tile.technique.edges() - 1) * row;
+      canvas.text(left, top, fmt::format("({},{})", s, t), ink, text_scale_);
+      draw_image(canvas, left, top + line, 1, tile.image, exposed);
+    }
+    return canvas;
+  }
 
 private:
-  static constexpr int largest_tile = 128, gap = 4;
+  struct Tile {
+    Technique technique;
+    bool weighted;
+    Image image;
+  };
+  static constexpr int largest_tile = 128, gap = 6;
 
   static std::size_t index(int x, int y, int width) {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
@@ -71,11 +95,35 @@ private:
     return sum / (factor_ * factor_);
   }
 
-  int width_, factor_, tile_width_, tile_height_, columns_;
-  Image image_;
+  // One below the other.
+  [[nodiscard]] Image all_tiles() const {
+    Image all = blank(tile_width_, 0, {});
+    for (const Tile& tile : tiles_) {
+      all.height += tile_height_;
+      for (const char* name : radiance_names) {
+        const std::vector<float>& values = tile.image.channels.at(name);
+        all.channels[name].insert(all.channels[name].end(), values.begin(), values.end());
+      }
+    }
+    return all;
+  }
+
+  int width_, factor_, tile_width_, tile_height_, text_scale_, rows_;
+  std::vector<Tile> tiles_;
 };
 
 } // namespace
+
+Canvas contact_sheet(film::Film& film) {
+  const auto& techniques = film.techniques()->sums();
+  int most_edges = 1;
+  for (const auto& [technique, sums] : techniques) most_edges = std::max(most_edges, technique.edges());
+  Sheet sheet(film.width(), film.height(), most_edges);
+  for (const auto& [technique, sums] : techniques)
+    for (const bool weighted : {true, false})
+      sheet.put(technique, film.technique_image(weighted ? sums.weighted : sums.unweighted), weighted);
+  return sheet.picture();
+}
 
 NonFinite write_contributions(const std::filesystem::path& folder, film::Film& film, const RenderInfo& info) {
   std::error_code failure;
@@ -83,23 +131,17 @@ NonFinite write_contributions(const std::filesystem::path& folder, film::Film& f
   if (failure)
     throw WriteError(
         fmt::format("{}: cannot be made: {}: name another folder", folder.string(), failure.message()));
-  const film::Techniques& techniques = *film.techniques();
-  int most_edges = 1;
-  for (const auto& [technique, sums] : techniques.sums())
-    most_edges = std::max(most_edges, technique.edges());
   NonFinite not_finite;
-  Sheet sheet(film.width(), film.height(), most_edges, info);
-  for (const auto& [technique, sums] : techniques.sums()) {
+  for (const auto& [technique, sums] : film.techniques()->sums()) {
     const std::string name = fmt::format("s{}-t{}", technique.light_vertices, technique.eye_vertices);
     for (const bool weighted : {true, false}) {
       const Pixels pixels = film.technique_image(weighted ? sums.weighted : sums.unweighted);
       for (const auto& [channel, count] : write_exr(folder / (name + (weighted ? ".exr" : "-unweighted.exr")),
                                                     image_of(pixels, film.width(), film.height(), info)))
         not_finite[channel] += count;
-      sheet.put(technique, pixels, weighted);
     }
   }
-  write_png(folder / "contributions.png", rows_of(sheet.image()));
+  write_file(folder / "contributions.png", encode_png(contact_sheet(film)));
   return not_finite;
 }
 

@@ -3,16 +3,20 @@
 
 #include <filesystem>
 
+#include "files/canvas.h"
 #include "files/exr.h"
 #include "film/film.h"
 
 namespace phlux::files {
 
-/// Writes, for s light and t eye vertices, sS-tT.exr (weighted: they add up to the image) and
-/// sS-tT-unweighted.exr (the technique's own estimate), and contributions.png, a contact sheet: a row for
-/// every number of edges, columns s = 0, 1, ... of the weighted images on the left, of the unweighted on the
-/// right. Creates the folder. Returns the numbers of values
-/// that are not finite in all of them. @throws WriteError
+/// The contributions of each technique, with (s,t) above each image for s light and t eye vertices: a row for
+/// every number of edges, columns s = 0, 1, ... of the weighted images on the left, of the unweighted ones on
+/// the right. All have one exposure; large images are reduced. The film records techniques.
+[[nodiscard]] Canvas contact_sheet(film::Film& film);
+
+/// Writes sS-tT.exr (weighted: they add up to the image), sS-tT-unweighted.exr (the technique's own estimate)
+/// and contributions.png, the contact_sheet(). Creates the folder. Returns the numbers of values that are not
+/// finite in all images. @throws WriteError
 NonFinite write_contributions(const std::filesystem::path& folder, film::Film& film, const RenderInfo& info);
 
 /// Whether write_contributions() may replace `file`: its name is that of a contribution in `folder`.
