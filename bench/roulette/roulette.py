@@ -71,7 +71,7 @@ def summary(folder, rows):
             line.append(math.exp(sum(math.log(ratio) for ratio in ratios) / len(ratios)))
         lines.append(line)
     return {"text": style.read_verdict(folder, "roulette"), "columns": ["roulette", *integrators], "rows": lines,
-            "note": "Variance x rays relative to `--roulette strategy --rr-depth 5`, geometric mean over the scenes."}
+            "note": "Variance x rays, relative to --roulette strategy --rr-depth 5: geometric mean over the scenes."}
 
 
 def main():

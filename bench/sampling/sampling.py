@@ -99,7 +99,7 @@ def main():
             chart(f"sampling-winners-{light}", partial(draw_winners, rows, grids, light),
                   f"Best strategy in {LIGHTS[light]}",
                   "The number is variance × cost of the second best strategy, divided by that of the best (≫: more than 1000). "
-                  "In pale cells without a number the best is tied with others.")
+                  "In faint cells without a number the best is tied with others.")
     for light in lights:
         chart(f"sampling-tradeoff-{light}", partial(draw_tradeoff, rows, cases, light),
               f"Variance against cost in {LIGHTS[light]}",

@@ -135,12 +135,12 @@ std::string on_all(const std::vector<Ranking>& rankings, const std::string& opti
   const auto& [answer, count] = order.front();
   std::string slowest;
   if (count.slowest > 1)
-    slowest = fmt::format(", and {} times the time of the best",
+    slowest = fmt::format("; takes {} times as long as the best",
                           count.slowest > largest_factor ? fmt::format("over {:.0f}", largest_factor)
                                                          : fmt::format("at most {:.3g}", count.slowest));
   return fmt::format("{}{} {}: best in {} and tied in {} of {} cases{}{}{}", option, answer, condition,
                      count.best, count.tied, rankings.size(), slowest,
-                     others.empty() ? "" : "; then (best, tied) ", fmt::join(others, ", "));
+                     others.empty() ? "" : "; next (best, tied): ", fmt::join(others, ", "));
 }
 
 } // namespace

@@ -72,7 +72,7 @@ def map_charts(grid):
     charts = [
         {"svg": "stability-best.svg", "title": "The best method",
          "caption": "The colour of a cell is that of its best method. Upper number: time of the second best method, divided by that of "
-                    "the best. The cell is pale if they are tied, or if a suspect or undecided method may need less time. Lower "
+                    "the best. The cell is faint if they are tied, or if a suspect or undecided method may need less time. Lower "
                     "number: the same for the best method of another integrator; ≥: its variance is suspect, and this is a lower "
                     "bound."},
         {"svg": "stability-cost.svg", "title": "Each method",

@@ -200,6 +200,6 @@ TEST_CASE("The sentence on a grid counts the cases in which each strategy is the
   CHECK_THAT(
       verdict_on_grid(all, {90, "the device, WIDTH 1"}),
       Catch::StartsWith("--strategy exact" + without +
-                        "best in 2 and tied in 1 of 4 cases, and at most 2 times the time of the best; then "
-                        "(best, tied) cosine (1, 1) (a case: a material, angle and light; cost: "));
+                        "best in 2 and tied in 1 of 4 cases; takes at most 2 times as long as the best; next "
+                        "(best, tied): cosine (1, 1) (a case: a material, angle and light; cost: "));
 }

@@ -32,6 +32,8 @@ nav { margin: .8rem 0; } nav a { margin-right: 1.2rem; white-space: nowrap; }
 figure { margin: 1.6rem 0; } figcaption { max-width: 46rem; }
 figcaption b { color: var(--ink); }
 .scroll { overflow-x: auto; }
+@media (max-width: 38rem) { figure .scroll::before { content: "scroll sideways \\2194"; position: sticky; left: 0;
+  color: var(--muted); font-size: .8rem; } }
 figure svg { display: block; width: 100%; min-width: 36rem; height: auto; }
 table { border-collapse: collapse; font-size: .86rem; font-variant-numeric: tabular-nums; margin: .5rem 0; }
 th, td { padding: .25rem .7rem .25rem 0; text-align: left; vertical-align: top; }
