@@ -176,11 +176,10 @@ void print(const Run& run, const SceneRun& scene, const SceneResults& measured) 
                r.reason.empty() ? "" : ": ", r.reason);
   }
   const int roulette = scene.scene.defaults.rr_depth;
-  fmt::print(
-      "{}: {}\n  ({} time, {}, {}x{}, {}; the intervals are right together in 95 of 100 measurements)\n",
-      scene.name, answer_of(measured.methods, measured.costs, run.seconds), word_of(run.clock()),
-      roulette < 0 ? "no roulette" : fmt::format("roulette from edge {}", roulette), camera.width,
-      camera.height, run.device.name);
+  fmt::print("{}: {}\n  ({} time, {}, {}x{}, {}; all intervals are right with probability 95%)\n", scene.name,
+             answer_of(measured.methods, measured.costs, run.seconds), word_of(run.clock()),
+             roulette < 0 ? "no roulette" : fmt::format("roulette from edge {}", roulette), camera.width,
+             camera.height, run.device.name);
   std::fflush(stdout);
 }
 

@@ -78,6 +78,12 @@ void set_ratio(RankedCost& cost, double best_cost, std::vector<double> costs,
   cost.low = costs[below], cost.high = costs[costs.size() - 1 - below];
 }
 
+// To two digits.
+double rounded(double value) {
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1);
+  return std::round(value / unit) * unit;
+}
+
 bool has_cost(const MethodResult& result) {
   return result.verdict != Verdict::refused && result.verdict != Verdict::biased;
 }
@@ -168,13 +174,13 @@ std::string answer_of(const std::vector<MethodResult>& results, const std::vecto
   }
   if (fastest.empty() && open.empty()) return "no method is sound";
   if (fastest.empty())
-    return fmt::format("too little time to tell which method is best: --seconds {:.2g} or more",
-                       seconds * soonest);
+    return fmt::format("too little time to tell which method is best: --seconds {:g} or more",
+                       rounded(seconds * soonest));
   std::string text;
   if (!open.empty())
     text = fmt::format(
-        "too little time to tell whether {} {} less time for the same error: --seconds {:.2g} or more",
-        enumeration(open), open.size() == 1 ? "needs" : "need", seconds * longest);
+        "too little time to tell whether {} {} less time for the same error: --seconds {:g} or more",
+        enumeration(open), open.size() == 1 ? "needs" : "need", rounded(seconds * longest));
   if (!open.empty()) text += "; of the others, ";
   const std::string what = open.empty() ? "the least time for the same error" : "the least time";
   text += fastest.size() == 1 ? fmt::format("{} needs {}", fastest[0], what)

@@ -57,7 +57,7 @@ def escape(value):
 
 def paragraph(text):
     """Options of the command line are set as code."""
-    return "<p>" + re.sub(r"(?<![\w-])--[a-z][a-z-]*", r"<code>\g<0></code>", escape(text)) + "</p>"
+    return "<p>" + re.sub(r"(?<![\w-])(--[a-z][a-z-]*|-i [a-z]+)", r"<code>\g<0></code>", escape(text)) + "</p>"
 
 
 def number_of(value):
