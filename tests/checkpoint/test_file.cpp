@@ -134,7 +134,7 @@ TEST_CASE("A checkpoint of another image is refused, naming what differs") {
   CHECK(refusal(now) == "nothing");
   CHECK(refusal(now, 5) == "c: is of 3x2 pixels, not 5x2: give `size` 3x2");
   now.scene_digest = "4321";
-  CHECK_THAT(refusal(now), Contains("c: is of another scene, box.xml as it was then: give that"));
+  CHECK_THAT(refusal(now), Contains("c: is of another scene: give box.xml as it was"));
 
   CHECK_THAT(
       refusal([](Settings& s) { s.integrator = "bidir"; }),

@@ -97,7 +97,8 @@ TEST_CASE("phlux bench sampling writes the contract's columns, a row for each st
   CHECK(again.exit_code == outcome.exit_code);
   CHECK_THAT(again.out,
              Catch::Contains("2 of 2 measurements are there") &&
-                 Catch::Contains("(--case 0.4,0.05,50,30; cost: the sampler and 100 ns for each ray"));
+                 Catch::Contains(
+                     "(--case 0.4,0.05,50,30; cost: time of the sampler plus 100 ns for each reflected ray"));
 }
 
 TEST_CASE("phlux bench sampling --quick draws maps in light and dark") {
@@ -227,7 +228,7 @@ TEST_CASE("phlux bench: bad input is one line and its exit code") {
       {{"sampling", "--ray-cost", "-1"}, 2, "--ray-cost -1: must be a number from 0 to"},
       {{"sampling", "--integrand", "moon"}, 2, "--integrand moon: must be one of constant"},
       {{"sampling", "--lobe", "none.cl"}, 3, "none.cl"},
-      {{"sampling", "--lobe", "exact.cl"}, 2, "is a strategy"},
+      {{"sampling", "--lobe", "exact.cl"}, 2, "a sampling strategy is called exact too"},
       {{"sampling", "--set", "exponent=2"}, 2, "--set: needs --lobe"},
       {{"sampling", "--lobe", retro, "--set", "exponent"}, 2, "--set exponent: must be NAME=VALUE"},
       {{"sampling", "--lobe", retro, "--set", "exponent=0"}, 2, "must be from 1 to"},

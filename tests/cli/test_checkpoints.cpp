@@ -82,7 +82,7 @@ TEST_CASE("A file that is not a checkpoint of this render is refused in one line
              Contains("c: is of a render with --integrator path"));
   CHECK_THAT(refusal({"--resume", "c", "--size", "8x8"}, 3), Contains("c: is of 16x12 pixels, not 8x8"));
   CHECK_THAT(refusal({"--resume", "c", "-D", "radiance=5"}, 3),
-             Contains("c: is of another scene, scene.xml"));
+             Contains("c: is of another scene: give scene.xml as it was"));
   CHECK_THAT(refusal({"--resume", "c", "-n", "1"}, 2), Contains("c: has 2 samples per pixel already"));
   CHECK_THAT(refusal({"--resume", "foreign"}, 3), Contains("foreign: is not a checkpoint of phlux"));
   CHECK_THAT(refusal({"--checkpoint-every", "5"}, 2),

@@ -116,7 +116,7 @@ TEST_CASE("A choice that is of no use to the integrator is refused, saying why")
   CHECK_THAT(refusal({{"connect", "none"}, {"light-selection", "power"}}),
              Contains("`light-selection` is for light samples"));
   CHECK(refusal({{"connect", "light"}, {"light-selection", "power"}}) == "nothing");
-  CHECK_THAT(refusal({{"integrator", "bidir"}, {"ambient", "1"}}), Contains("`ambient`: only paths"));
+  CHECK_THAT(refusal({{"integrator", "bidir"}, {"ambient", "1"}}), Contains("`ambient` is for path only"));
   CHECK_THAT(refusal({{"roulette", "kd-ks"}, {"rr-depth", "-1"}}),
              Contains("`rr-depth` -1 there is no roulette"));
 }
