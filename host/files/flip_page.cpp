@@ -77,6 +77,7 @@ std::string flip_page(const Image& a, const Image& b, const std::string& name_a,
 <style>
 :root {{ color-scheme: light dark; font: 16px/1.5 system-ui, sans-serif; }}
 body {{ margin: 1rem; }}
+p {{ max-width: 46rem; }}
 button {{ font: inherit; padding: .3rem .8rem; overflow-wrap: anywhere; }}
 button[aria-pressed=true] {{ font-weight: bold; outline: 2px solid; }}
 img {{ display: none; max-width: 100%; image-rendering: pixelated; cursor: pointer; }}
@@ -84,9 +85,9 @@ img.shown {{ display: block; }}
 </style>
 <p>
 {2}</p>
-{3}<p>Keys 1, 2 and 3 show A, B and their difference; a click flips between A and B. Both are exposed as B is.
-The difference is (A - B) / sqrt(B² + 1e-4), of the channel that differs most: red where A is brighter, blue where
-it is darker; the scale ends at {4:g}%.</p>
+{3}<p>The keys 1, 2 and 3 show A, B and their difference; a click on the image flips between A and B. Both have the
+exposure of B. The difference is (A - B) / sqrt(B² + 1e-4) in the channel that differs most: red where A is brighter,
+blue where A is darker. The colour scale ends at ±{4:g}%.</p>
 <script>
 const images = document.querySelectorAll("img"), buttons = document.querySelectorAll("button");
 let now = 0;
