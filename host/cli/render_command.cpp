@@ -155,8 +155,9 @@ std::filesystem::path write_image(const std::filesystem::path& wanted, const fil
 void write_techniques(const std::filesystem::path& folder, film::Film& film, const files::RenderInfo& info) {
   warn_of_nonfinite(folder, files::write_contributions(folder, film, info));
   if (const std::uint64_t left_out = film.techniques()->left_out(); left_out > 0)
-    spdlog::warn("--contributions: paths of more than {} edges are in the image alone ({} contributions)",
-                 film::most_technique_edges, left_out);
+    spdlog::warn(
+        "--contributions: paths of more than {} edges ({} contributions) are only in the image of the render",
+        film::most_technique_edges, left_out);
 }
 
 std::string summary(const std::filesystem::path& image, const std::filesystem::path& checkpoint,
