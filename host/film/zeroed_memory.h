@@ -4,12 +4,12 @@
 #include <cstddef>
 #include <new>
 
-#include <sys/mman.h>
+#include "large_pages.h"
 
 namespace phlux::film {
 
-/// Allocates memory that is 0, and takes no room before it is written. Elements must be 0 when they are new:
-/// they are not constructed.
+/// Allocates memory that is 0, and takes no room before it is written; in large pages, since splats are added
+/// at random pixels. Elements must be 0 when they are new: they are not constructed.
 template<class T>
 struct ZeroedMemory {
   using value_type = T;
@@ -18,13 +18,8 @@ struct ZeroedMemory {
   explicit ZeroedMemory(const ZeroedMemory<Other>&) {}
   bool operator==(const ZeroedMemory&) const = default;
 
-  [[nodiscard]] T* allocate(std::size_t count) {
-    void* memory = ::mmap(nullptr, count * sizeof(T), PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1,
-                          0); // by pages
-    if (memory == MAP_FAILED) throw std::bad_alloc();
-    return static_cast<T*>(memory);
-  }
-  void deallocate(T* memory, std::size_t count) { ::munmap(memory, count * sizeof(T)); }
+  [[nodiscard]] T* allocate(std::size_t count) { return static_cast<T*>(map_large_pages(count * sizeof(T))); }
+  void deallocate(T* memory, std::size_t count) { unmap_large_pages(memory, count * sizeof(T)); }
   void construct(T*) {}
   template<class... Arguments>
   void construct(T* at, const Arguments&... arguments) {

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "device/buffer.h"
 #include "errors.h"
 
 namespace phlux::render {
@@ -37,8 +38,7 @@ cl::Buffer upload(const device::Device& device, const std::vector<T>& table, con
   const std::size_t bytes = table.size() * sizeof(T);
   check_room(device, bytes, what, "a smaller mesh");
   try {
-    return cl::Buffer(device.context, CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR, bytes,
-                      const_cast<T*>(table.data()));
+    return device::make_buffer(device, CL_MEM_READ_ONLY, bytes, table.data());
   } catch (const cl::Error& error) {
     fail_for_room(device, bytes, what, error);
   }
@@ -50,7 +50,7 @@ cl::Buffer upload_texels(const device::Device& device, const tables::TextureTabl
   const std::size_t bytes = table.words * sizeof(float);
   check_room(device, bytes, "textures", "smaller images");
   try {
-    cl::Buffer buffer(device.context, CL_MEM_READ_ONLY, bytes);
+    const cl::Buffer buffer = device::make_buffer(device, CL_MEM_READ_ONLY, bytes);
     for (const auto& piece : table.pieces)
       device.queue.enqueueWriteBuffer(buffer, CL_TRUE, piece.first_word * sizeof(float), piece.bytes.size(),
                                       piece.bytes.data());

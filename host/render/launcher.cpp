@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "device/buffer.h"
 #include "errors.h"
 
 namespace phlux::render {
@@ -121,7 +122,7 @@ void Launcher::reserve(Buffer& buffer, std::size_t bytes, const char* what) cons
                     device_.info.name, what, bytes >> 20, device_.info.largest_buffer >> 20));
   buffer = {}; // released before the new one is allocated, as memory may be short
   try {
-    buffer.memory = cl::Buffer(device_.context, CL_MEM_READ_WRITE, bytes);
+    buffer.memory = device::make_buffer(device_, CL_MEM_READ_WRITE, bytes);
   } catch (const cl::Error& error) {
     throw MemoryShort(
         fmt::format("{}: no room for the {} of a launch ({} MB): {}: shorten the paths (`max-depth`, "
