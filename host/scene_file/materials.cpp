@@ -26,7 +26,7 @@ constexpr double kept_energy = 0.99;
 std::string supported_bsdfs(const lobes::Library& library) {
   std::string list;
   for (const auto& model : library.models()) list += model->name + ", ";
-  return "supported are " + list + "and twosided or mask around one of these";
+  return "supported are " + list + "null, and twosided or mask around one of these";
 }
 
 std::string text(const Rgb& color) {
@@ -223,13 +223,20 @@ Material read_mask(Properties& properties, const Document& document, MaterialRul
   return material;
 }
 
+/// A surface that is not there.
+Material null_material() {
+  Material material = lobes::diffuse(Rgb(0.0));
+  material.opacity = Rgb(0.0);
+  return material;
+}
+
 } // namespace
 
 scene::Material read_material(const Element& bsdf, const Document& document, MaterialRules rules) {
   Properties properties(bsdf, document);
   const std::string type = bsdf.type();
   const lobes::ModelPointer model = rough_model(properties, rules.library.find(type));
-  if (!model && type != "twosided" && type != "mask")
+  if (!model && type != "twosided" && type != "mask" && type != "null")
     fail(bsdf.where, bsdf.name() + " is not supported",
          supported_bsdfs(rules.library) + "; `lobe` NAME.cl adds a model of your own");
   if (properties.has("ensure_energy_conservation"))
@@ -237,6 +244,7 @@ scene::Material read_material(const Element& bsdf, const Document& document, Mat
         properties.boolean("ensure_energy_conservation", false) ? ExcessEnergy::scale : ExcessEnergy::error;
   const Material material = model            ? read_model(properties, model, rules)
                             : type == "mask" ? read_mask(properties, document, rules)
+                            : type == "null" ? null_material()
                                              : read_two_sided(properties, document, rules);
   properties.finish();
   return lobes::simplest(material);

@@ -230,6 +230,7 @@ TEST_CASE("Masks: opacities, twosided inside and outside, and what they cannot b
   CHECK(load_body("<shape type=\"disk\">" + mask(half + grey) + "</shape><shape type=\"disk\">" + grey +
                   "</shape>")
             .materials.size() == 2);
+  CHECK(material("<bsdf type=\"null\"/>").opacity == Rgb(0));
   CHECK_THAT(error_in(mask(half)), StartsWith("scene.xml:2: <bsdf type=\"mask\"> around nothing"));
   for (const char* wrong : {"-0.1", "1.1"})
     CHECK_THAT(error_in(mask("\n<float name=\"opacity\" value=\"" + std::string(wrong) + "\"/>" + grey)),
