@@ -14,6 +14,9 @@ struct MethodChoice {
   std::string words;                        ///< the method and why, in one line
 };
 
+/// Whether surfaces scatter by delta distributions: mirrors and smooth glass.
+[[nodiscard]] bool has_delta(const scene::Scene& scene);
+
 /// Whether the integrator cannot find some of the scene's light at all, so that its error estimate lacks it:
 /// path, that of point, spot and directional emitters by way of delta events; light, what is seen by way of
 /// delta events.
