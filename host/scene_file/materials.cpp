@@ -97,6 +97,14 @@ void check_range(Properties& properties, const Parameter& parameter, const std::
     properties.fail_at(name, text(too_low ? smallest : largest) + " is out of range", range_of(parameter));
 }
 
+/// Of a metal. Fresnel's reflectance depends on eta^2, so that Mitsuba renders fits to measurements that are
+/// negative in a channel.
+Rgb read_eta(Properties& properties, const Rgb& eta) {
+  if (glm::compMin(eta) >= 0.0) return eta;
+  warn(properties.where("eta"), "a negative eta counts as positive, as in Mitsuba");
+  return glm::abs(eta);
+}
+
 /// Appends the value of a parameter that the file calls `name`, and its texture.
 void read_parameter(Properties& properties, const Parameter& parameter, const std::string& name,
                     MaterialRules rules, Material& material) {
@@ -109,8 +117,9 @@ void read_parameter(Properties& properties, const Parameter& parameter, const st
     return;
   }
   const bool ships = material.model->text.empty();
-  const Rgb value = colour ? properties.color(name, Rgb(parameter.default_value))
-                           : Rgb(read_number(properties, parameter, name, ships));
+  Rgb value = colour ? properties.color(name, Rgb(parameter.default_value))
+                     : Rgb(read_number(properties, parameter, name, ships));
+  if (colour && ships && name == "eta") value = read_eta(properties, value);
   check_range(properties, parameter, name, value, value, rules.excess);
   material.values.push_back(value);
 }

@@ -209,6 +209,14 @@ TEST_CASE("Rough surfaces and plastic: Mitsuba's parameters and defaults") {
                StartsWith("scene.xml:3: "));
 }
 
+TEST_CASE("A metal's eta that is negative in a channel counts as positive, with a warning") {
+  const std::string metal = "<bsdf type=\"conductor\"><rgb name=\"eta\" value=\"-.25 4 5\"/><rgb name=\"k\" "
+                            "value=\"1 2 3\"/></bsdf>";
+  CHECK(material(metal).value("eta") == Rgb(.25, 4, 5) / 1.000277);
+  CHECK_THAT(log_of_files({{"scene.xml", with_sensor("<shape type=\"disk\">" + metal + "</shape>")}}),
+             Contains("a negative eta counts as positive"));
+}
+
 TEST_CASE("Masks: opacities, twosided inside and outside, and what they cannot be around") {
   const std::string half = "<float name=\"opacity\" value=\".5\"/>", grey = "<bsdf type=\"diffuse\"/>";
   const auto mask = [](const std::string& inside) { return "<bsdf type=\"mask\">" + inside + "</bsdf>"; };
