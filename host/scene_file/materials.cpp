@@ -187,6 +187,8 @@ Material read_model(Properties& properties, const lobes::ModelPointer& model, Ma
     read_parameter(properties, parameter, name, rules, material);
   }
   if (material.is_textured()) material.textures.resize(material.values.size());
+  if (properties.document().major_version == 0 && model->text.empty() && model->has_delta)
+    properties.pass_over({"alpha", "distribution"}); // left from a rough bsdf; Mitsuba 0.x takes no notice
   if (model->text.empty() && lobes::find_parameter(*model, "eta") && lobes::find_parameter(*model, "k"))
     read_conductor(properties, material);
   conserve_energy(properties, material, rules.excess);

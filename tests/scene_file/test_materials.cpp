@@ -209,6 +209,17 @@ TEST_CASE("Rough surfaces and plastic: Mitsuba's parameters and defaults") {
                StartsWith("scene.xml:3: "));
 }
 
+TEST_CASE(
+    "What only rough surfaces have is passed over of smooth ones in files of version 0, as in Mitsuba") {
+  const std::string rough =
+      "<float name=\"alpha\" value=\".1\"/><string name=\"distribution\" value=\"ggx\"/></bsdf>";
+  for (const char* type : {"conductor", "dielectric"}) {
+    const std::string bsdf = "<bsdf type=\"" + std::string(type) + "\">\n" + rough;
+    CHECK(material(bsdf).model->name == type);
+    CHECK_THAT(error_in(bsdf, "3.0.0"), StartsWith("scene.xml:3: 'alpha' is not a property"));
+  }
+}
+
 TEST_CASE("A metal's eta that is negative in a channel counts as positive, with a warning") {
   const std::string metal = "<bsdf type=\"conductor\"><rgb name=\"eta\" value=\"-.25 4 5\"/><rgb name=\"k\" "
                             "value=\"1 2 3\"/></bsdf>";
