@@ -51,11 +51,15 @@ std::string words_for(const std::vector<LightShare>& shares) {
   return {};
 }
 
-// Light that no sample of the method carries, which no trial shows.
+// Light that no sample of the method carries, or so few that short trials lack it.
 std::string unfound_light(const scene::Scene& scene, const render::Settings& settings) {
-  if (settings.integrator == "path" && misses_light(scene, settings::integrator_named("path")))
+  if (settings.integrator != "path" || !has_delta(scene)) return {};
+  if (misses_light(scene, settings::integrator_named("path")))
     return "; path misses the light that point, spot and directional emitters send through mirrors and "
            "smooth glass: bidir finds it";
+  if (!scene.area_emitters.empty())
+    return "; path finds caustics, the light of area emitters through mirrors and smooth glass, by chance "
+           "only: bidir finds them";
   return {};
 }
 

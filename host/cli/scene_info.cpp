@@ -72,9 +72,10 @@ void for_each_surface(const scene::Scene& scene, const Function& function) {
   for (const auto& shape : scene.meshes) function(shape.surface);
 }
 
-ordered_json texture_json(const scene::Texture& texture) {
-  if (!texture.image) return "checkerboard";
-  return fmt::format("bitmap {}x{}", texture.image->width, texture.image->height);
+ordered_json color_json(const scene::Rgb& color, const scene::TexturePointer& texture) {
+  if (!texture) return numbers(color);
+  if (!texture->image) return "checkerboard";
+  return fmt::format("bitmap {}x{}", texture->image->width, texture->image->height);
 }
 
 ordered_json materials_json(const scene::Scene& scene) {
@@ -87,14 +88,11 @@ ordered_json materials_json(const scene::Scene& scene) {
     ordered_json parameters = ordered_json::object();
     for (std::size_t p = 0; p < material.values.size(); ++p) {
       const scene::Parameter& parameter = material.model->parameters[p];
-      if (const scene::TexturePointer texture = material.texture(p)) {
-        parameters[parameter.name] = texture_json(*texture);
-        continue;
-      }
       parameters[parameter.name] = parameter.kind == scene::Parameter::Kind::colour
-                                       ? numbers(material.values[p])
+                                       ? color_json(material.values[p], material.texture(p))
                                        : ordered_json(material.values[p].x);
     }
+    if (material.is_masked()) parameters["opacity"] = color_json(material.opacity, material.opacity_texture);
     list.push_back({{"model", material.model->name},
                     {"parameters", parameters},
                     {"two_sided", material.two_sided},
@@ -146,12 +144,15 @@ std::size_t data_bytes(const scene::Scene& scene) {
     add(mesh.triangles);
   }
   std::set<const scene::TexelImage*> images;
-  for (const scene::Material& material : scene.materials)
-    for (const scene::TexturePointer& texture : material.textures)
-      if (texture && texture->image && images.insert(texture->image.get()).second) {
-        add(texture->image->bytes);
-        add(texture->image->floats);
-      }
+  const auto add_texture = [&](const scene::TexturePointer& texture) {
+    if (!texture || !texture->image || !images.insert(texture->image.get()).second) return;
+    add(texture->image->bytes);
+    add(texture->image->floats);
+  };
+  for (const scene::Material& material : scene.materials) {
+    std::ranges::for_each(material.textures, add_texture);
+    add_texture(material.opacity_texture);
+  }
   if (scene.environment) add(scene.environment->texels);
   return bytes;
 }

@@ -53,7 +53,7 @@ struct Sphere {
 /// loader has already reversed triangles and normals for flipNormals, and dropped triangles without area.
 struct Mesh {
   std::vector<Vec3> positions;
-  std::vector<glm::vec3> normals; ///< unit, one per position; empty: flat shading
+  std::vector<glm::vec3> normals; ///< one per position, unit but in transformed instances; empty: flat
   std::vector<std::array<std::uint32_t, 3>> triangles;
   Surface surface;
   /// One per position. Empty: the second and third barycentric coordinates of each triangle, as in Mitsuba;

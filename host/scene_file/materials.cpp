@@ -26,7 +26,7 @@ constexpr double kept_energy = 0.99;
 std::string supported_bsdfs(const lobes::Library& library) {
   std::string list;
   for (const auto& model : library.models()) list += model->name + ", ";
-  return "supported are " + list + "and twosided or mask around one of these";
+  return "supported are " + list + "null, and twosided or mask around one of these";
 }
 
 std::string text(const Rgb& color) {
@@ -97,6 +97,14 @@ void check_range(Properties& properties, const Parameter& parameter, const std::
     properties.fail_at(name, text(too_low ? smallest : largest) + " is out of range", range_of(parameter));
 }
 
+/// Of a metal. Fresnel's reflectance depends on eta^2, so that Mitsuba renders fits to measurements that are
+/// negative in a channel.
+Rgb read_eta(Properties& properties, const Rgb& eta) {
+  if (glm::compMin(eta) >= 0.0) return eta;
+  warn(properties.where("eta"), "a negative eta counts as positive, as in Mitsuba");
+  return glm::abs(eta);
+}
+
 /// Appends the value of a parameter that the file calls `name`, and its texture.
 void read_parameter(Properties& properties, const Parameter& parameter, const std::string& name,
                     MaterialRules rules, Material& material) {
@@ -109,8 +117,9 @@ void read_parameter(Properties& properties, const Parameter& parameter, const st
     return;
   }
   const bool ships = material.model->text.empty();
-  const Rgb value = colour ? properties.color(name, Rgb(parameter.default_value))
-                           : Rgb(read_number(properties, parameter, name, ships));
+  Rgb value = colour ? properties.color(name, Rgb(parameter.default_value))
+                     : Rgb(read_number(properties, parameter, name, ships));
+  if (colour && ships && name == "eta") value = read_eta(properties, value);
   check_range(properties, parameter, name, value, value, rules.excess);
   material.values.push_back(value);
 }
@@ -178,6 +187,8 @@ Material read_model(Properties& properties, const lobes::ModelPointer& model, Ma
     read_parameter(properties, parameter, name, rules, material);
   }
   if (material.is_textured()) material.textures.resize(material.values.size());
+  if (properties.document().major_version == 0 && model->text.empty() && model->has_delta)
+    properties.pass_over({"alpha", "distribution"}); // left from a rough bsdf; Mitsuba 0.x takes no notice
   if (model->text.empty() && lobes::find_parameter(*model, "eta") && lobes::find_parameter(*model, "k"))
     read_conductor(properties, material);
   conserve_energy(properties, material, rules.excess);
@@ -223,13 +234,20 @@ Material read_mask(Properties& properties, const Document& document, MaterialRul
   return material;
 }
 
+/// A surface that is not there.
+Material null_material() {
+  Material material = lobes::diffuse(Rgb(0.0));
+  material.opacity = Rgb(0.0);
+  return material;
+}
+
 } // namespace
 
 scene::Material read_material(const Element& bsdf, const Document& document, MaterialRules rules) {
   Properties properties(bsdf, document);
   const std::string type = bsdf.type();
   const lobes::ModelPointer model = rough_model(properties, rules.library.find(type));
-  if (!model && type != "twosided" && type != "mask")
+  if (!model && type != "twosided" && type != "mask" && type != "null")
     fail(bsdf.where, bsdf.name() + " is not supported",
          supported_bsdfs(rules.library) + "; `lobe` NAME.cl adds a model of your own");
   if (properties.has("ensure_energy_conservation"))
@@ -237,6 +255,7 @@ scene::Material read_material(const Element& bsdf, const Document& document, Mat
         properties.boolean("ensure_energy_conservation", false) ? ExcessEnergy::scale : ExcessEnergy::error;
   const Material material = model            ? read_model(properties, model, rules)
                             : type == "mask" ? read_mask(properties, document, rules)
+                            : type == "null" ? null_material()
                                              : read_two_sided(properties, document, rules);
   properties.finish();
   return lobes::simplest(material);

@@ -39,19 +39,42 @@ bool has_area(const Mesh& mesh, const Triangle& t) {
   return glm::length(glm::cross(u, v)) > least_sine * glm::length(u) * glm::length(v);
 }
 
-void transform(Mesh& mesh, const MeshRequest& request, const Location& file) {
+void transform_positions(Mesh& mesh, const glm::dmat4& to_world, const Location& file) {
   for (Vec3& p : mesh.positions) {
-    p = Vec3(request.to_world * glm::dvec4(p, 1.0));
+    p = Vec3(to_world * glm::dvec4(p, 1.0));
     if (!representable(p))
       fail(file, "a vertex is outside the range of single precision", "a smaller mesh or toWorld");
   }
-  const glm::dmat3 linear(request.to_world);
-  const glm::dmat3 normal_to_world = glm::transpose(glm::inverse(linear));
+}
+
+glm::dmat3 normal_matrix(const glm::dmat4& to_world) {
+  return glm::transpose(glm::inverse(glm::dmat3(to_world)));
+}
+
+void transform(Mesh& mesh, const glm::dmat4& to_world, const Location& file) {
+  transform_positions(mesh, to_world, file);
+  const glm::dmat3 normal_to_world = normal_matrix(to_world);
   for (glm::vec3& n : mesh.normals) {
     const Vec3 world = normal_to_world * Vec3(n);
     const double length = glm::length(world);
     n = length > 0.0 ? glm::vec3(world / length) : glm::vec3(0.0f);
   }
+}
+
+/// Mitsuba transforms the normal of a point of an instance, that of its triangle or the interpolated one.
+void transform_instance(Mesh& mesh, const glm::dmat4& to_world, const Location& file) {
+  transform_positions(mesh, to_world, file);
+  const glm::dmat3 normal_to_world = normal_matrix(to_world);
+  double longest = 0.0;
+  for (const glm::vec3& n : mesh.normals) longest = std::max(longest, glm::length(normal_to_world * Vec3(n)));
+  for (glm::vec3& n : mesh.normals) n = glm::vec3(normal_to_world * Vec3(n) / longest);
+  if (glm::determinant(normal_to_world) < 0.0)
+    for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+}
+
+/// Removes triangles without area and returns their number.
+std::size_t remove_flat(Mesh& mesh) {
+  return std::erase_if(mesh.triangles, [&mesh](const Triangle& t) { return !has_area(mesh, t); });
 }
 
 /// Reverses triangles whose front is not on the side of their vertices' normals.
@@ -118,14 +141,18 @@ scene::Mesh finish_mesh(MeshPart part, const MeshRequest& request) {
   if (mesh.triangles.empty() && part.incomplete == 0)
     fail(file, "the mesh has no triangles", "at least one face");
   if (no_normals) mesh.normals.clear();
-  transform(mesh, request, file);
-  const auto flat = std::erase_if(mesh.triangles, [&mesh](const Triangle& t) { return !has_area(mesh, t); });
+  transform(mesh, request.to_world, file);
+  auto flat = remove_flat(mesh);
   if (part.incomplete > 0)
     warn(file, std::to_string(part.incomplete) + " faces with fewer than three corners are dropped");
-  if (flat > 0) warn(file, std::to_string(flat) + " zero-area triangles are dropped");
   if (!mesh.normals.empty()) orient_by_normals(mesh);
   if (!no_normals) compute_missing_normals(mesh);
   if (request.flip_normals) flip(mesh);
+  if (request.instance) {
+    transform_instance(mesh, *request.instance, file);
+    flat += remove_flat(mesh);
+  }
+  if (flat > 0) warn(file, std::to_string(flat) + " zero-area triangles are dropped");
   return std::move(mesh);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,8 +25,10 @@ enum class ObjParts {
 struct MeshRequest {
   std::string format; ///< obj, ply or serialized
   std::filesystem::path file;
-  Location named_at; ///< of the file's name in the scene
-  glm::dmat4 to_world{1.0};
+  Location named_at;        ///< of the file's name in the scene
+  glm::dmat4 to_world{1.0}; ///< the shape's own
+  std::optional<glm::dmat4>
+      instance; ///< transform of the instance that the mesh belongs to, applied after it
   bool flip_normals = false;
   bool face_normals = false;        ///< flat shading; the file's normals are ignored
   bool texture_coordinates = false; ///< reads them
@@ -68,7 +71,9 @@ struct MeshFile {
 /// Transforms a part to a mesh as in scene.h. Triangles without area are dropped with a warning that counts
 /// them; another counts part.incomplete. As in Mitsuba, missing normals are computed (weighted by angle),
 /// unless face_normals is set; and a triangle's front side follows the file's normals or, without them, the
-/// order of its transformed vertices.
+/// order of its transformed vertices. An instance transforms the result: its front sides even if it mirrors,
+/// and its interpolated normals, which keep the lengths that the inverse transpose gives them (the longest is
+/// 1).
 /// @throws SceneError if a transformed vertex is outside single precision's range
 [[nodiscard]] scene::Mesh finish_mesh(MeshPart part, const MeshRequest& request);
 

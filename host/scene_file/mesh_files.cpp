@@ -104,7 +104,7 @@ private:
   }
 
   void add_part(const MeshShape& shape, const MeshPart& part) {
-    if (shape.is_copy) copied_ += part.mesh.triangles.size();
+    if (shape.request.instance) copied_ += part.mesh.triangles.size();
     if (copied_ > most_copied)
       fail(shape.request.named_at,
            fmt::format("instances are copies, here of more than {} triangles ({} GB)", most_copied,

@@ -18,7 +18,6 @@ struct MeshShape {
   scene::Surface surface;
   std::map<std::string, int> materials; ///< obj: of the parts with these names of material, by their index
   bool library_materials = false;       ///< obj: parts without a material take that of the file's .mtl
-  bool is_copy = false;                 ///< of a shapegroup
 };
 
 class MeshFiles {

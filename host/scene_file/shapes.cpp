@@ -83,6 +83,7 @@ scene::Sphere sphere(Properties& properties, const glm::dmat4& own, const glm::d
   for (int axis = 0; axis < 3; ++axis)
     result.axes[static_cast<std::size_t>(axis)] = glm::normalize(Vec3(to_world[axis]));
   result.front_is_inside = properties.boolean("flip_normals", false);
+  properties.pass_over({"face_normals"});
   return result;
 }
 
@@ -95,12 +96,11 @@ struct Attached {
 
 /// Index of the material of `bsdf`; a material that cannot be read becomes a problem and black.
 int material_of(const Element& bsdf, const Document& document, const ShapeTarget& target) {
-  const auto [known, inserted] = target.materials.emplace(&bsdf, 0);
-  if (inserted)
-    document.problems->attempt([&, &index = known->second] {
-      index = share(target.scene.materials, read_material(bsdf, document, target.rules));
-    });
-  return known->second;
+  const auto known = target.materials.find(&bsdf);
+  if (known != target.materials.end()) return known->second;
+  scene::Material material = lobes::diffuse(scene::Rgb(0.0));
+  document.problems->attempt([&] { material = read_material(bsdf, document, target.rules); });
+  return target.materials[&bsdf] = share(target.scene.materials, material);
 }
 
 int area_emitter_of(const Element& emitter, const Document& document, scene::Scene& scene) {
@@ -143,18 +143,19 @@ Attached attached(Properties& properties, const ShapeTarget& target) {
   return result;
 }
 
-void read_mesh_shape(Properties& properties, const glm::dmat4& to_world, const Attached& attached,
+void read_mesh_shape(Properties& properties, const glm::dmat4& own, const Attached& attached,
                      const ShapeTarget& target) {
   properties.pass_over({"srgb"});
   if (properties.string("filename", "").empty())
     fail(properties.element().where, properties.element().name() + " without a filename",
          "<string name=\"filename\" .../>");
-  MeshShape shape{{}, attached.surface, attached.materials, false, target.in_instance};
+  MeshShape shape{{}, attached.surface, attached.materials};
   MeshRequest& request = shape.request;
   request.format = properties.element().type();
   request.file = properties.document().find(properties.string("filename", ""));
   request.named_at = properties.where("filename");
-  request.to_world = to_world;
+  request.to_world = own;
+  request.instance = target.instance;
   request.flip_normals = properties.boolean("flip_normals", false);
   request.face_normals = properties.boolean("face_normals", false);
   request.flip_tex_coords = properties.boolean("flip_tex_coords", request.format == "obj");
@@ -193,8 +194,8 @@ void read_patches(Properties& properties, const glm::dmat4& to_world, const scen
   properties.pass_over({"face_normals"});
 }
 
-void read_cylinder(Properties& properties, const glm::dmat4& to_world, const scene::Surface& surface,
-                   scene::Scene& scene) {
+void read_cylinder(Properties& properties, const glm::dmat4& own, const scene::Surface& surface,
+                   const ShapeTarget& target) {
   const Vec3 p0 = properties.vector("p0").value_or(Vec3(0.0));
   const Vec3 p1 = properties.vector("p1").value_or(Vec3(0, 0, 1));
   const double radius = properties.real("radius", 1.0);
@@ -203,25 +204,26 @@ void read_cylinder(Properties& properties, const glm::dmat4& to_world, const sce
   if (p0 == p1) properties.fail_at("p1", "it is the same point as p0", "another point");
   MeshRequest request;
   request.file = properties.element().where.text();
-  request.to_world = to_world;
+  request.to_world = own;
+  request.instance = target.instance;
   request.flip_normals = properties.boolean("flip_normals", false);
+  properties.pass_over({"face_normals"});
   properties.document().note_once(properties.element().where, cylinder_note);
-  scene.meshes.push_back(finish_mesh(cylinder(p0, p1, radius), request));
-  scene.meshes.back().surface = surface;
+  target.scene.meshes.push_back(finish_mesh(cylinder(p0, p1, radius), request));
+  target.scene.meshes.back().surface = surface;
 }
 
 /// Reads the shapes of the group once more, transformed by `to_world`.
 void read_instance(Properties& properties, const glm::dmat4& to_world, const ShapeTarget& target) {
   const Element* group = properties.object("shape");
-  if (target.in_instance || !group || group->type() != "shapegroup")
+  if (target.instance || !group || group->type() != "shapegroup")
     fail(properties.element().where,
          properties.element().name() +
-             (target.in_instance ? " inside a shapegroup" : " without a reference to a shapegroup"),
+             (target.instance ? " inside a shapegroup" : " without a reference to a shapegroup"),
          "<ref id=\"...\"/> to a <shape type=\"shapegroup\">, which contains no instances");
   Properties of_group(*group, properties.document());
   ShapeTarget inside = target;
-  inside.to_world = to_world;
-  inside.in_instance = true;
+  inside.instance = to_world;
   for (const Element* shape : of_group.objects("shape"))
     properties.document().problems->attempt([&] { read_shape(*shape, properties.document(), inside); });
   of_group.finish();
@@ -240,16 +242,16 @@ void read_shape(const Element& shape, const Document& document, const ShapeTarge
   Properties properties(shape, document);
   const Attached found = type == "instance" ? Attached() : attached(properties, target);
   const glm::dmat4 own = properties.transform("to_world");
-  const glm::dmat4 to_world = target.in_instance ? target.to_world * own : own;
+  const glm::dmat4 to_world = target.instance ? *target.instance * own : own;
   if (type == "instance")
     read_instance(properties, to_world, target);
   else if (type == "obj" || type == "ply" || type == "serialized") {
-    read_mesh_shape(properties, to_world, found, target);
+    read_mesh_shape(properties, own, found, target);
   } else if (type == "sphere") {
     target.scene.spheres.push_back(sphere(properties, own, to_world));
     target.scene.spheres.back().surface = found.surface;
   } else if (type == "cylinder") {
-    read_cylinder(properties, to_world, found.surface, target.scene);
+    read_cylinder(properties, own, found.surface, target);
   } else {
     read_patches(properties, to_world, found.surface, target.scene);
   }

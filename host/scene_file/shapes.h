@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 
 #include <glm/mat4x4.hpp>
 
@@ -19,8 +20,7 @@ struct ShapeTarget {
   scene::Scene& scene;
   MeshFiles& meshes;
   std::map<const Element*, int>& materials; ///< by <bsdf>: indices into scene.materials of those read before
-  glm::dmat4 to_world{1.0};                 ///< of the instance whose group is read
-  bool in_instance = false;
+  std::optional<glm::dmat4> instance = {};  ///< transform of the instance whose group is read
 };
 
 /// Adds the shape, its material and its emitter to the scene, in world space; shapes whose geometry is in a

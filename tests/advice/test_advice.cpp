@@ -32,6 +32,15 @@ TEST_CASE("the advice says so if no method is better, or if too few samples tell
   CHECK(words("caustic", 1e-4) == "trials of 0.0001 s are too noisy to tell which integrator is better");
 }
 
+TEST_CASE("where path finds a caustic by chance only, the advice says so and names what finds it") {
+  const auto words = [](const char* scene) {
+    return advice::advise(shipped(scene, 16, 16), settings_for(1), 0.01).words;
+  };
+  const auto caustics = Catch::Contains("by chance only: bidir finds them");
+  CHECK_THAT(words("glass-caustic"), caustics);
+  CHECK_THAT(words("cornell-box"), !caustics);
+}
+
 TEST_CASE("the light that causes the variance is named") {
   scene::Scene scene = shipped("caustic", 32, 24);
   const scene::PointLight lamp{{0, 1, 1}, scene::Rgb(1)};

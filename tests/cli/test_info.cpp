@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -39,6 +41,20 @@ TEST_CASE("info says what is in a scene and how it would be rendered") {
        {"shapes    1 parallelogram, 2 spheres\n", "light     area: radiance 3 3 3, shapes 1\n",
         "material  diffuse: reflectance 0.5, on 2 shapes\n"})
     CHECK_THAT(text, Catch::Contains(line));
+}
+
+TEST_CASE("info shows what is masked, and counts the memory of its texture") {
+  const Workplace place;
+  const std::string scene = PHLUX_SOURCE_DIR "/scenes/leaves.xml";
+  const auto json = nlohmann::json::parse(out_of({"info", scene, "--json"}, place));
+  std::vector<std::string> opacities;
+  for (const auto& material : json["materials"])
+    opacities.push_back(material["parameters"].value("opacity", ""));
+  CHECK(std::ranges::count(opacities, "bitmap 96x96") == 1);
+  CHECK(std::ranges::count(opacities, "checkerboard") == 1);
+  CHECK(json["memory"]["scene"] == 2 * 96 * 96 * 4); // its colours and its opacity
+  CHECK_THAT(out_of({"info", scene}, place),
+             Catch::Contains("opacity bitmap 96x96, two-sided, on 10 shapes"));
 }
 
 TEST_CASE("Without a device info still says what is in a scene") {

@@ -160,3 +160,17 @@ TEST_CASE("glass: surfaces between equal media vanish, alone and inside glass") 
   cube.patches.back().origin = away; // without the cut
   check_methods(repeated(cube, path, other), prisms, 2);
 }
+
+TEST_CASE("glass: the cut of prism.xml vanishes, and bidir agrees with path") {
+  scene::Scene scene = shipped("prism", 16, 16);
+  const Repeated cut = repeated(scene, path, settings_for(64));
+  render::Settings other = settings_for(64);
+  other.seed = 1000;
+  check_methods(repeated(scene, bidir, other), cut, 2);
+  std::erase_if(scene.patches, [&](const scene::Patch& patch) {
+    const auto& model = scene.materials[static_cast<std::size_t>(patch.surface.material)];
+    return model.model->name == "dielectric" && model.value("int_ior") == model.value("ext_ior");
+  });
+  other.seed = 2000;
+  check_methods(repeated(scene, path, other), cut, 2);
+}

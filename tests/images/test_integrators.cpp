@@ -17,7 +17,7 @@ const std::vector<Method> weighted = {light, bidir};
 
 // Scenes of mirrors and glass, which light tracing shows black, and whose caustics path tracing finds rarely.
 bool has_delta_in_view(const std::string& name) {
-  return name == "mirror-ball" || name == "mirror-and-glass" || name == "glass-caustic";
+  return name.starts_with("mirror") || name == "glass-caustic" || name == "prism";
 }
 
 // Side of the tiles in pixels: light tracing has enough hits in a tile for a normal mean, but maybe only ten

@@ -209,6 +209,25 @@ TEST_CASE("Rough surfaces and plastic: Mitsuba's parameters and defaults") {
                StartsWith("scene.xml:3: "));
 }
 
+TEST_CASE(
+    "What only rough surfaces have is passed over of smooth ones in files of version 0, as in Mitsuba") {
+  const std::string rough =
+      "<float name=\"alpha\" value=\".1\"/><string name=\"distribution\" value=\"ggx\"/></bsdf>";
+  for (const char* type : {"conductor", "dielectric"}) {
+    const std::string bsdf = "<bsdf type=\"" + std::string(type) + "\">\n" + rough;
+    CHECK(material(bsdf).model->name == type);
+    CHECK_THAT(error_in(bsdf, "3.0.0"), StartsWith("scene.xml:3: 'alpha' is not a property"));
+  }
+}
+
+TEST_CASE("A metal's eta that is negative in a channel counts as positive, with a warning") {
+  const std::string metal = "<bsdf type=\"conductor\"><rgb name=\"eta\" value=\"-.25 4 5\"/><rgb name=\"k\" "
+                            "value=\"1 2 3\"/></bsdf>";
+  CHECK(material(metal).value("eta") == Rgb(.25, 4, 5) / 1.000277);
+  CHECK_THAT(log_of_files({{"scene.xml", with_sensor("<shape type=\"disk\">" + metal + "</shape>")}}),
+             Contains("a negative eta counts as positive"));
+}
+
 TEST_CASE("Masks: opacities, twosided inside and outside, and what they cannot be around") {
   const std::string half = "<float name=\"opacity\" value=\".5\"/>", grey = "<bsdf type=\"diffuse\"/>";
   const auto mask = [](const std::string& inside) { return "<bsdf type=\"mask\">" + inside + "</bsdf>"; };
@@ -230,6 +249,7 @@ TEST_CASE("Masks: opacities, twosided inside and outside, and what they cannot b
   CHECK(load_body("<shape type=\"disk\">" + mask(half + grey) + "</shape><shape type=\"disk\">" + grey +
                   "</shape>")
             .materials.size() == 2);
+  CHECK(material("<bsdf type=\"null\"/>").opacity == Rgb(0));
   CHECK_THAT(error_in(mask(half)), StartsWith("scene.xml:2: <bsdf type=\"mask\"> around nothing"));
   for (const char* wrong : {"-0.1", "1.1"})
     CHECK_THAT(error_in(mask("\n<float name=\"opacity\" value=\"" + std::string(wrong) + "\"/>" + grey)),

@@ -67,3 +67,9 @@ TEST_CASE("A file of many errors is refused at once") {
   for (int i = 0; i < 20000; ++i) worlds += "<world" + std::to_string(i) + "/>";
   CHECK_THAT(error_in(worlds), StartsWith("scene.xml:2: element <world0> is not supported"));
 }
+
+TEST_CASE("A mesh whose bsdf is wrong is an error, even if nothing else has one") {
+  CHECK_THAT(error_in("<shape type=\"obj\"><string name=\"filename\" value=\"m.obj\"/>\n"
+                      "<bsdf type=\"unknown\"/></shape>"),
+             Catch::StartsWith("scene.xml:3: <bsdf type=\"unknown\"> is not supported"));
+}
