@@ -101,6 +101,12 @@ void add_files(CLI::App& app, RenderOptions& options) {
       "continues from a checkpoint, with its options where this command gives none; -n, --time and --error "
       "include what was rendered before",
       options.resume);
+  add_value(app, "--memory", "GB",
+            "the most memory that the film may take; default: what is free. What is beyond it is kept in a "
+            "temporary file, in $TMPDIR or /var/tmp",
+            [&](const std::string& text) {
+              options.memory = 1e9 * settings::number_within("--memory", text, 0.0, 1e9);
+            });
   add_value(app, "--aov", "NAME,...",
             "adds channels of what the camera's rays hit first, for denoisers and compositing: albedo, "
             "normal, depth",
