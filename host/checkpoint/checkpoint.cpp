@@ -197,13 +197,13 @@ void read_session(std::istream& stream, std::uint64_t bytes, Session& session) {
   }
 }
 
-film::Film read_film(std::istream& stream, std::uint64_t bytes) {
+film::Film read_film(std::istream& stream, std::uint64_t bytes, film::Storage storage) {
   InputArchive archive(stream, bytes);
   std::int32_t width = 0, height = 0;
   archive(width, height);
   if (width < 1 || height < 1 || static_cast<std::uint64_t>(width) > bytes / sizeof(film::Pixel) / height)
     throw cereal::Exception("a film that is larger than the file");
-  film::Film film(width, height);
+  film::Film film(width, height, storage);
   archive(film);
   return film;
 }
@@ -246,7 +246,7 @@ std::string encode(const Session& session, const film::Film& film) {
   return std::move(stream).str();
 }
 
-Checkpoint read(const std::filesystem::path& file) {
+Checkpoint read(const std::filesystem::path& file, film::Storage storage) {
   std::ifstream stream;
   std::uint64_t left = open_checked(file, stream);
   try {
@@ -258,7 +258,7 @@ Checkpoint read(const std::filesystem::path& file) {
     read_session(stream, std::min(session_length, left), session);
     stream.seekg(static_cast<std::streamoff>(Digest().first_line().size() + line.size() + session_length));
     left -= std::min(left, line.size() + session_length);
-    return {std::move(session), read_film(stream, left)};
+    return {std::move(session), read_film(stream, left, storage)};
   } catch (const UsageError& error) {
     fail(file, fmt::format("is not of this version of phlux: {}: use the phlux that wrote it", error.what()));
   } catch (const cereal::Exception&) { // the digest matches, but phlux did not write the file

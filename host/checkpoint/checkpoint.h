@@ -34,10 +34,11 @@ void write(const Session& session, const film::Film& film, std::ostream& to);
 [[nodiscard]] std::string encode(const Session& session, const film::Film& film);
 
 /// Memory and time are in proportion to the file's size: 4/3 of it for the film, and 40 MB. Whether the state
-/// is one of the render at hand is up to check_same().
+/// is one of the render at hand is up to check_same(). `storage` is the film's.
 /// @throws FileError when the file is missing, no checkpoint, of another version of the format, truncated or
 /// damaged
-[[nodiscard]] Checkpoint read(const std::filesystem::path& file);
+[[nodiscard]] Checkpoint read(const std::filesystem::path& file,
+                              film::Storage storage = film::Storage::memory);
 
 /// Whether a checkpoint may replace `file`: nothing is there, or an earlier checkpoint, of any format.
 [[nodiscard]] bool is_replaceable(const std::filesystem::path& file);

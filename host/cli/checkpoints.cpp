@@ -7,6 +7,7 @@
 #include <spdlog/spdlog.h>
 
 #include "checkpoint/sameness.h"
+#include "cli/memory.h"
 #include "errors.h"
 #include "files/output.h"
 
@@ -68,7 +69,8 @@ void warn_if_it_fails(const std::filesystem::path& file, const Step& step) {
 
 std::optional<checkpoint::Checkpoint> resumed(RenderOptions& options) {
   if (options.resume.empty()) return std::nullopt;
-  checkpoint::Checkpoint earlier = with_remedy([&] { return checkpoint::read(options.resume); });
+  checkpoint::Checkpoint earlier = with_remedy(
+      [&] { return checkpoint::read(options.resume, storage_for(options.resume, options.memory)); });
   require_own_strategy(options, earlier.session.choices);
   options.complete(earlier.session.choices);
   return earlier;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -45,13 +46,16 @@ double free_address_space() {
 
 } // namespace
 
-double memory_needed(double pixels, const settings::Settings& settings, const Outputs& outputs) {
+MemoryNeed memory_needed(double pixels, const settings::Settings& settings, const Outputs& outputs) {
   constexpr double preview = 6, contribution = 36; // bytes per pixel while one is written
   const settings::IntegratorInfo& integrator = settings::integrator_named(settings.integrator);
-  const double film = film::Film::bytes(pixels, integrator.eye_paths ? 1 : 0, integrator.light_paths ? 1 : 0,
-                                        settings::samples_point_sets(settings) ? 1 : 0, techniques(settings));
-  return film + pixels * (outputs.aov.empty() ? 0.0 : double{sizeof(film::FirstHit)}) +
-         pixels * std::max(outputs.preview.empty() ? 0 : preview, settings.techniques ? contribution : 0);
+  const int point_sets = settings::samples_point_sets(settings) ? 1 : 0;
+  const double samples = film::Film::bytes(pixels, integrator.eye_paths ? 1 : 0, 0, point_sets, 0);
+  const double splats = film::Film::bytes(pixels, 0, integrator.light_paths ? 1 : 0, 0, techniques(settings));
+  const double outputs_of_film =
+      pixels * (outputs.aov.empty() ? 0.0 : double{sizeof(film::FirstHit)}) +
+      pixels * std::max(outputs.preview.empty() ? 0 : preview, settings.techniques ? contribution : 0);
+  return {samples + splats + outputs_of_film, samples};
 }
 
 std::optional<double> memory_available() {
@@ -64,21 +68,39 @@ std::optional<double> memory_available() {
   return most < std::numeric_limits<double>::infinity() ? std::optional(most) : std::nullopt;
 }
 
-void require_memory(const scene::Camera& camera, const settings::Settings& settings, const Outputs& outputs) {
-  constexpr double gigabyte = 1e9;
+film::Storage storage_for(const scene::Camera& camera, const settings::Settings& settings,
+                          const Outputs& outputs, std::optional<double> most) {
+  const auto gigabytes = [](double bytes) { return fmt::format("{:.3g} GB", 1e-9 * bytes); };
   const double pixels = static_cast<double>(camera.width) * camera.height;
-  const double needed = memory_needed(pixels, settings, outputs);
-  const std::optional<double> available = memory_available();
-  if (!available || needed <= *available) return;
-  std::string remedy = "a smaller `size`";
+  const auto [memory, in_file] = memory_needed(pixels, settings, outputs);
+  const std::optional<double> limit = most ? most : memory_available();
+  if (!limit || memory <= *limit) return film::Storage::memory;
+  const std::string need =
+      fmt::format("{}x{} pixels need {} of memory, and {} are {}", camera.width, camera.height,
+                  gigabytes(memory), gigabytes(*limit), most ? "allowed by --memory" : "free");
+  if (in_file > 0.0 && memory - in_file <= *limit && in_file <= film::ScratchFile::room()) {
+    spdlog::warn("{}: {} of them are in a file in {}", need, gigabytes(in_file), film::ScratchFile::folder());
+    return film::Storage::file;
+  }
+  std::string remedy;
+  if (in_file > 0.0 && memory - in_file <= *limit)
+    remedy =
+        fmt::format(", or {} on a disk, in a folder named by the variable TMPDIR (in {} there are {})",
+                    gigabytes(in_file), film::ScratchFile::folder(), gigabytes(film::ScratchFile::room()));
   settings::Settings path = settings;
   path.integrator = "path";
   path.techniques = false;
-  if (const double less = memory_needed(pixels, path, outputs); less < needed)
-    remedy += fmt::format(", or `integrator` path (or light), which needs {:.2g} GB", less / gigabyte);
-  throw UsageError(fmt::format("{}x{} pixels need {:.3g} GB of memory, and {:.3g} GB are free: {}",
-                               camera.width, camera.height, needed / gigabyte, *available / gigabyte,
-                               remedy));
+  if (const double less = memory_needed(pixels, path, outputs).memory; less < memory)
+    remedy += fmt::format(", or `integrator` path (or light), which needs {}", gigabytes(less));
+  throw UsageError(fmt::format("{}: a smaller `size`{}", need, remedy));
+}
+
+film::Storage storage_for(const std::filesystem::path& checkpoint, std::optional<double> most) {
+  constexpr double bytes_of_film = 4.0 / 3.0; // per byte of the file, see checkpoint::read
+  std::error_code unknown;
+  const auto size = static_cast<double>(std::filesystem::file_size(checkpoint, unknown));
+  const std::optional<double> limit = most ? most : memory_available();
+  return !unknown && limit && bytes_of_film * size > *limit ? film::Storage::file : film::Storage::memory;
 }
 
 } // namespace phlux::cli

@@ -26,6 +26,7 @@ struct RenderOptions : settings::Choices {
   std::filesystem::path resume;        ///< empty: from the beginning
   std::filesystem::path checkpoint;    ///< empty: that of `resume`, if any
   std::optional<double> checkpoint_seconds;
+  std::optional<double> memory;   ///< bytes that the film may take; absent: those available
   std::optional<double> exposure; ///< of the preview, in stops; absent: automatic
   std::vector<std::string> aov;   ///< names of files::aov_names
   bool moments = false, advise = false, quiet = false, verbose = false;

@@ -255,8 +255,9 @@ int render(const RenderOptions& given) {
       .state = {}};
   crop(scene.camera, session.settings);
   if (earlier) check_same(*earlier, session, camera, options.resume);
-  if (!earlier) require_memory(camera, session.settings, outputs);
-  film::Film film = earlier ? std::move(earlier->film) : film::Film(camera.width, camera.height);
+  film::Film film = earlier ? std::move(earlier->film)
+                            : film::Film(camera.width, camera.height,
+                                         storage_for(camera, session.settings, outputs, options.memory));
   Checkpoints checkpoints(outputs.checkpoint, options, session);
   const InterruptGuard interrupt; // until everything is written
   team.start(options, session.scene_digest, [&] { return interrupt.requested(); });

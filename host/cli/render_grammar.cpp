@@ -104,6 +104,12 @@ void add_files(CLI::App& app, RenderOptions& options) {
       "continues from a checkpoint; options that are not given keep their values; -n, --time and --error "
       "count from the beginning of the first render",
       options.resume);
+  add_value(app, "--memory", "GB",
+            "the most memory that the film may take; default: what is free. What is beyond it is kept in a "
+            "temporary file, in $TMPDIR or /var/tmp",
+            [&](const std::string& text) {
+              options.memory = 1e9 * settings::number_within("--memory", text, 0.0, 1e9);
+            });
   add_value(app, "--aov", "NAME,...",
             "adds channels with properties of the surface that camera rays hit first, and their variances, for "
             "denoisers and compositing: albedo, normal, depth",

@@ -234,7 +234,8 @@ ordered_json scene_json(const std::string& file, const scene::Scene& scene,
       {"memory",
        {{"scene", data_bytes(scene)},
         {"image",
-         memory_needed(static_cast<double>(scene.camera.width) * scene.camera.height, settings, outputs)}}},
+         memory_needed(static_cast<double>(scene.camera.width) * scene.camera.height, settings, outputs)
+             .memory}}},
       {"device", nullptr},
       {"kernel", nullptr}};
   try {

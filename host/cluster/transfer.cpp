@@ -54,6 +54,7 @@ void add(const render::LaunchResult& result, Packer& to) {
   to.add_array(result.sums.data(), result.sums.size());
   to.add(std::uint64_t{result.batch_jobs});
   to.add(std::uint64_t{result.record_words});
+  to.add(std::uint64_t{result.merged});
   to.add(std::uint64_t{result.batches.size()});
   for (const film::SplatRecords& batch : result.batches) to.add(Counts{batch.count, batch.paths});
   for (const film::SplatRecords& batch : result.batches)
@@ -70,6 +71,7 @@ render::LaunchResult take_result(const Message& message, Unpacker& from) {
   if (const auto* const values = from.take_array<film::BlockSum>(sums)) result.sums = {values, values + sums};
   result.batch_jobs = from.take<std::uint64_t>();
   result.record_words = from.take<std::uint64_t>();
+  result.merged = from.take<std::uint64_t>() != 0;
   const auto batches = from.take<std::uint64_t>();
   const Counts* const counts = from.take_array<Counts>(batches);
   for (std::size_t batch = 0; batch < batches && counts != nullptr; ++batch) {

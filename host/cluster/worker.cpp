@@ -53,12 +53,19 @@ private:
 
   void finish_launch() {
     device_.settle();
+    if (!settings_.techniques) merge(device_.result());
     group_.send(0, packed(Kind::result, [&](Packer& to) {
                   to.add(generation_);
                   to.add(device_.pace());
                   add(device_.result(), to);
                 }));
     device_.release();
+  }
+
+  // Process 0, which alone adds results to the film, has less to do then.
+  void merge(render::LaunchResult& result) {
+    for (const film::SplatRecords& batch : result.batches) splats_.merge(batch);
+    result.merged = true;
   }
 
   template<class Step>
@@ -84,6 +91,7 @@ private:
   render::Processor& device_;
   const settings::Settings& settings_;
   std::uint64_t generation_ = 0;
+  film::SplatFolder splats_;
 };
 
 } // namespace

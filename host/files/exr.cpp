@@ -24,6 +24,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <unistd.h>
+#include <xxhash.h>
 
 #include "errors.h"
 #include "exr_header.h"
@@ -140,6 +141,40 @@ void find_attribute(const Imf::Header& header, const char* name, double& value) 
     value = attribute->value();
 }
 
+constexpr const char* digest_name = "digest";
+
+// Of what the header says that is used: a changed bit would be another number of samples, or the name of
+// another channel. OpenEXR checks the pixels itself.
+std::string digest_of(const Imf::Header& header) {
+  std::vector<std::string> names = {"version",      "scene",  "sceneDigest", "choice",  "samples",     "seed",
+                                    "sampleRanges", "device", "driver",      "seconds", "clampedShare"};
+  for (const settings::Setting& setting : settings::all())
+    if (is_stored(setting)) names.push_back(attribute_of(setting.name));
+  std::string texts;
+  for (const std::string& name : names)
+    if (const auto* text = header.findTypedAttribute<Imf::StringAttribute>(name))
+      texts += fmt::format("{} {}\n", name, text->value());
+    else if (const auto* whole = header.findTypedAttribute<Imf::IntAttribute>(name))
+      texts += fmt::format("{} {}\n", name, whole->value());
+    else if (const auto* number = header.findTypedAttribute<Imf::DoubleAttribute>(name))
+      texts += fmt::format("{} {}\n", name, number->value());
+  for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel)
+    texts += fmt::format("{} {}\n", channel.name(), static_cast<int>(channel.channel().type));
+  for (const Imath::Box2i& window : {header.dataWindow(), header.displayWindow()})
+    texts += fmt::format("{} {} {} {}\n", window.min.x, window.min.y, window.max.x, window.max.y);
+  return fmt::format("{} {:016x}", PHLUX_VERSION, XXH3_64bits(texts.data(), texts.size()));
+}
+
+// Other versions may have other attributes.
+void check_digest(const Imf::Header& header) {
+  std::string digest;
+  find_attribute(header, digest_name, digest);
+  if (digest.starts_with(PHLUX_VERSION " ") && digest != digest_of(header))
+    throw std::runtime_error(
+        "its header is not the one that phlux wrote: another program that changes an image "
+        "must remove the attribute digest");
+}
+
 RenderInfo find_attributes(const Imf::Header& header) {
   RenderInfo info;
   find_attribute(header, "version", info.version);
@@ -223,6 +258,7 @@ Image read_pixels(Imf::MultiPartInputFile& file, double file_bytes) {
     names.push_back(name);
   }
   check_size(header, static_cast<double>(width), static_cast<double>(height), names.size(), file_bytes);
+  check_digest(header);
 
   Image image{.width = static_cast<int>(width),
               .height = static_cast<int>(height),
@@ -252,6 +288,7 @@ NonFinite encode_exr(const Rows& rows, const RenderInfo& info, std::ostream& to)
   header.compression() = Imf::ZIP_COMPRESSION;
   insert_attributes(header, info);
   for (const std::string& name : rows.channels) header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+  header.insert(digest_name, Imf::StringAttribute(digest_of(header)));
 
   NonFinite not_finite;
   Stream stream(to);

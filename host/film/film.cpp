@@ -31,9 +31,10 @@ void BlockMoments::add(const BlockSum& block, std::uint32_t samples) {
   squared_samples += static_cast<double>(samples) * samples;
 }
 
-Film::Film(int width, int height) : width_(width), height_(height), evidence_(width, height) {
+Film::Film(int width, int height, Storage storage)
+    : width_(width), height_(height), storage_(storage), evidence_(width, height) {
   assert(width > 0 && height > 0);
-  pixels_.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  pixels_.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), storage);
 }
 
 void Film::add(std::size_t pixel, const BlockSum& block, std::uint32_t samples) {
@@ -89,7 +90,7 @@ void Film::clamp(std::array<double, 3>& value) {
 
 double Film::clamped_share() const {
   double left = 0.0;
-  for (const Pixel& pixel : pixels_) left += std::accumulate(pixel.sum.begin(), pixel.sum.end(), 0.0);
+  for (const Pixel& pixel : pixels()) left += std::accumulate(pixel.sum.begin(), pixel.sum.end(), 0.0);
   for (const Splats& splats : splats_) left += std::accumulate(splats.sum.begin(), splats.sum.end(), 0.0);
   const double clamped = clamped_ + clamped_of_splats_;
   return clamped > 0.0 ? clamped / (clamped + left) : 0.0;
@@ -258,7 +259,7 @@ bool Film::has_variance() const {
   while (known < pixels_.size() && has_variance(known)) ++known;
   if (known == pixels_.size()) return true;
   const bool only_splats =
-      std::ranges::all_of(pixels_, [](const Pixel& pixel) { return pixel.samples == 0; });
+      std::ranges::all_of(pixels(), [](const Pixel& pixel) { return pixel.samples == 0; });
   return only_splats && splatting_paths_per_pixel() >= 2.0;
 }
 
@@ -295,7 +296,7 @@ double Film::relative_standard_error() const {
 
 double Film::samples_per_pixel() const {
   std::uint64_t samples = 0;
-  for (const Pixel& pixel : pixels_) samples += pixel.samples;
+  for (const Pixel& pixel : pixels()) samples += pixel.samples;
   if (samples == 0) return splatting_paths_per_pixel();
   return static_cast<double>(samples) / static_cast<double>(pixels_.size());
 }

@@ -7,11 +7,11 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "film/evidence.h"
+#include "film/paged_array.h"
 #include "film/techniques.h"
 #include "film/zeroed_memory.h"
 
@@ -69,8 +69,10 @@ struct alignas(64) Splats {
 /// noise. Squares fit float32 for radiances between about 1e-18 and 1e18 units.
 class Film {
 public:
-  /// A black film without samples. Both sizes > 0.
-  Film(int width, int height);
+  /// A black film without samples. Both sizes > 0. `storage` is that of the sums of samples; the sums of
+  /// splats, which arrive in no order, are always in memory. With a file, whatever reads or adds sums may
+  /// throw WriteError.
+  Film(int width, int height, Storage storage = Storage::memory);
   /// Bytes of memory of a film with these numbers of pixels, of sums of samples (0 or 1 per pixel), of splats
   /// (0 or 1), of blocks of dependent samples (0 or 1), and of techniques.
   [[nodiscard]] static double bytes(double pixels, int samples, int splats, int blocks, int techniques) {
@@ -80,8 +82,8 @@ public:
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
   /// Row by row from the top; sums are in units, see set_unit().
-  [[nodiscard]] std::span<const Pixel> pixels() const { return pixels_; }
-  [[nodiscard]] std::span<Pixel> pixels() { return pixels_; }
+  [[nodiscard]] auto pixels() const { return elements(pixels_); }
+  [[nodiscard]] auto pixels() { return elements(pixels_); }
 
   /// The radiance that is 1 in the devices' sums; 1 by default. mean() and variance_of_mean() are in
   /// radiance.
@@ -125,7 +127,7 @@ public:
 
   /// Samples of a block are not independent of each other, but blocks are: variances are estimated from the
   /// sums of blocks. To be called before the first add().
-  void use_dependent_samples() { blocks_of_pixels_.resize(pixels_.size()); }
+  void use_dependent_samples() { blocks_of_pixels_.resize(pixels_.size(), storage_); }
   [[nodiscard]] bool dependent_samples() const { return !blocks_of_pixels_.empty(); }
 
   /// Also records the contributions of each technique from here on.
@@ -179,14 +181,14 @@ public:
   template<class Archive>
   void serialize(Archive& archive) {
     archive(unit_);
-    for (Pixel& pixel : pixels_) archive(pixel);
+    for (Pixel& pixel : pixels()) archive(pixel);
     bool with_splats = splats(), with_techniques = techniques_.has_value(), dependent = dependent_samples();
     archive(with_splats);
     if (with_splats && !splats()) use_splats();
     for (Splats& splats : splats_) archive(splats);
     archive(dependent);
     if (dependent && !dependent_samples()) use_dependent_samples();
-    for (BlockMoments& blocks : blocks_of_pixels_) archive(blocks);
+    for (BlockMoments& blocks : elements(blocks_of_pixels_)) archive(blocks);
     archive(splatting_paths_, own_samples_, blocks_, squared_block_samples_, evidence_, clamp_, clamped_,
             clamped_of_splats_, with_techniques);
     if (!with_techniques) return;
@@ -216,10 +218,10 @@ private:
 
   int width_, height_;
   double unit_ = 1.0;
-  std::vector<Pixel, ZeroedMemory<Pixel>> pixels_;
+  Storage storage_; ///< of `pixels_` and `blocks_of_pixels_`
+  PagedArray<Pixel> pixels_;
   std::vector<Splats, ZeroedMemory<Splats>> splats_; ///< empty where nothing splats
-  std::vector<BlockMoments, ZeroedMemory<BlockMoments>>
-      blocks_of_pixels_; ///< empty where samples are independent
+  PagedArray<BlockMoments> blocks_of_pixels_;        ///< empty where samples are independent
   std::uint64_t splatting_paths_ = 0, own_samples_ = 0, blocks_ = 0;
   double squared_block_samples_ = 0.0; ///< sum over blocks of samples^2
   Evidence evidence_;

@@ -9,7 +9,7 @@
 namespace phlux::film {
 namespace {
 
-constexpr std::int32_t merged = -1; // replaces the pixel of a record that was added to another one
+constexpr std::int32_t none = -1; // replaces the pixel of a record that was added to another one
 
 // The records, written about 50 ms ago, are no longer in the caches, and their arrays are too short for the
 // hardware's prefetching.
@@ -41,7 +41,7 @@ void SplatFolder::merge(const SplatRecords& records) {
   earlier_.resize(std::max(earlier_.size(), records.count));
   for (std::size_t i = 0; i < records.count; ++i) {
     if (i % words_per_line == 0) fetch(records, i + 10 * words_per_line);
-    if (pixels[i] == merged) continue;
+    if (pixels[i] == none) continue;
     PathSoFar& path = paths_[static_cast<std::size_t>(paths[i])];
     const std::uint64_t bit = bit_of(pixels[i]);
     std::int32_t same = (path.pixels & bit) != 0 ? path.last : -1;
@@ -56,12 +56,12 @@ void SplatFolder::merge(const SplatRecords& records) {
       float* const values = records.words + (RECORD_VALUE + channel) * records.capacity;
       values[same] += values[i];
     }
-    pixels[i] = merged;
+    pixels[i] = none;
   }
 }
 
-std::vector<std::size_t> SplatFolder::fold(const SplatRecords& records, Film& film) {
-  merge(records);
+std::vector<std::size_t> SplatFolder::fold(const SplatRecords& records, Film& film, bool merged) {
+  if (!merged) merge(records);
   std::vector<std::size_t> not_finite;
   const auto* const pixels =
       reinterpret_cast<const std::int32_t*>(records.words + RECORD_PIXEL * records.capacity);
@@ -69,9 +69,9 @@ std::vector<std::size_t> SplatFolder::fold(const SplatRecords& records, Film& fi
   const float *const green = red + records.capacity, *const blue = green + records.capacity;
   constexpr std::size_t ahead = 16; // about the latency of memory
   for (std::size_t i = 0; i < records.count; ++i) {
-    if (i + ahead < records.count && pixels[i + ahead] != merged)
+    if (i + ahead < records.count && pixels[i + ahead] != none)
       film.expect_splat(static_cast<std::size_t>(pixels[i + ahead]));
-    if (pixels[i] == merged) continue;
+    if (pixels[i] == none) continue;
     if (std::isfinite(red[i] + green[i] + blue[i]))
       film.add_splat(static_cast<std::size_t>(pixels[i]), {red[i], green[i], blue[i]},
                      i % Film::sized_one_in == 0);
@@ -101,7 +101,7 @@ void SplatFolder::fold_techniques(const SplatRecords& records, Film& film) {
     if (!std::isfinite(value[0] + value[1] + value[2])) continue;
     film.techniques()->add({technique >> 16, technique & 0xffff}, static_cast<std::size_t>(pixels[i]), value,
                            weight);
-    if (own || value == std::array<double, 3>{}) pixels[i] = merged;
+    if (own || value == std::array<double, 3>{}) pixels[i] = none;
   }
 }
 

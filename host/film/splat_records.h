@@ -20,9 +20,13 @@ struct SplatRecords {
 /// Sums the splats of each path to each pixel and adds the sums to the film, which needs their squares.
 class SplatFolder {
 public:
-  /// Changes the records. The film must use splats. Sums that are not finite are left out; returns their
-  /// paths.
-  std::vector<std::size_t> fold(const SplatRecords& records, Film& film);
+  /// The sums, in the first record of each path and pixel, which fold() then needs not compute. Not before
+  /// fold_techniques().
+  void merge(const SplatRecords& records);
+
+  /// Changes the records, which are merged by merge() unless they are `merged`. The film must use splats.
+  /// Sums that are not finite are left out; returns their paths.
+  std::vector<std::size_t> fold(const SplatRecords& records, Film& film, bool merged = false);
 
   /// For records with techniques, before fold(): adds each to the film's techniques, multiplies it by its
   /// weight, and removes those of the paths' own pixels, which the film already has. Values that are not
@@ -30,8 +34,6 @@ public:
   static void fold_techniques(const SplatRecords& records, Film& film);
 
 private:
-  void merge(const SplatRecords& records);
-
   struct PathSoFar {
     std::uint64_t pixels = 0; ///< bit_of() its records' pixels
     std::int32_t last = -1;   ///< its latest record, -1: none

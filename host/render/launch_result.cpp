@@ -9,8 +9,8 @@ namespace phlux::render {
 void own_batches(LaunchResult& result) {
   std::size_t records = 0;
   for (const film::SplatRecords& batch : result.batches) records += batch.count;
-  auto words = std::make_shared<std::vector<float>>(records * result.record_words);
-  float* to = words->data();
+  auto words = std::make_shared_for_overwrite<float[]>(records * result.record_words);
+  float* to = words.get();
   for (film::SplatRecords& batch : result.batches) {
     float* const begin = to;
     for (std::size_t array = 0; array < result.record_words; ++array)
@@ -54,7 +54,7 @@ void ResultFolder::fold_batch(LaunchResult& result, std::size_t batch, film::Fil
   const film::SplatRecords& records = result.batches[batch];
   film.add_splatting_paths(jobs * samples);
   if (techniques_) film::SplatFolder::fold_techniques(records, film);
-  for (const std::size_t path : splats_.fold(records, film))
+  for (const std::size_t path : splats_.fold(records, film, result.merged))
     count_nonfinite(result.launch, first_job + path / samples, 1, static_cast<int>(path % samples), 1);
 }
 

@@ -20,6 +20,7 @@ struct LaunchResult {
   std::size_t batch_jobs = 0;              ///< jobs of each batch but the last
   std::size_t record_words = 0;            ///< words of a record of a splat
   std::vector<film::SplatRecords> batches; ///< none for path tracing
+  bool merged = false;                     ///< SplatFolder::merge() was applied to the batches
   std::shared_ptr<void> memory;            ///< of the batches; none while these are in a device's memory
   std::uint64_t rays = 0, shadow_rays = 0;
 

@@ -33,5 +33,5 @@ inline void go_on(Broken& broken, int launches = -1) {
   const render::Statistics statistics =
       render::render(small_box(), broken.session.settings, broken.film, events, broken.session.state);
   broken.session.state = statistics;
-  if (then) broken = *then;
+  if (then) broken = std::move(*then);
 }

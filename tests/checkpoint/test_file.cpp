@@ -1,5 +1,6 @@
 // The checkpoint file, and the errors of damaged ones.
 #include <cmath>
+#include <random>
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
@@ -106,6 +107,22 @@ TEST_CASE("A file that is not a complete checkpoint of this version is refused w
   CHECK_THAT(saved.refusal(later), Contains("is a checkpoint of format 9") && Contains("reads format 4"));
   CHECK_THROWS_WITH(checkpoint::read(saved / "missing"), Contains("missing: cannot be read: No such file"));
   CHECK_THROWS_WITH(checkpoint::read(saved.path()), Contains("is no file"));
+}
+
+TEST_CASE("A file with a bit flipped, or cut off, is refused") {
+  const Saved saved;
+  std::mt19937 random(1);
+  for (int i = 0; i < 1000; ++i) {
+    const std::size_t place = random() % saved.bytes.size();
+    const unsigned bit = random() % 16; // eight of them cut the file off
+    std::string damaged = saved.bytes;
+    if (bit < 8)
+      damaged[place] = static_cast<char>(damaged[place] ^ (1 << bit));
+    else
+      damaged.resize(place);
+    CAPTURE(i, place, bit);
+    CHECK(saved.refusal(damaged) != "nothing");
+  }
 }
 
 namespace {

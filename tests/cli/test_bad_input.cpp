@@ -5,6 +5,8 @@
 
 #include "cli/program.h"
 #include "cli/scenes.h"
+#include "device/environment.h"
+#include "film/paged_array.h"
 
 namespace {
 
@@ -137,12 +139,47 @@ TEST_CASE("A render that needs more memory than there is says so before it begin
                                {},
                                {},
                                {},
-                               std::size_t{6} << 30});
+                               std::size_t{4} << 30});
   CAPTURE(outcome.err);
   CHECK(outcome.exit_code == 2);
   CHECK(outcome.is_one_line_error());
   CHECK_THAT(outcome.err, Catch::Contains("8192x8192 pixels need 8.99 GB of memory, and ") &&
                               Catch::Contains("or --integrator path (or light), which needs 4.7 GB"));
+}
+
+TEST_CASE("Where memory is short, sums of samples are kept in a file, and the image is the same") {
+  const std::string disk = std::filesystem::current_path();
+  {
+    const Environment variable("TMPDIR", disk);
+    if (phlux::film::ScratchFile::room() == 0.0) return; // the build is in memory
+  }
+  const TemporaryFolder folder;
+  folder.write("scene.xml", good_scene);
+  const auto render = [&](std::vector<std::string> options, const std::string& folder_of_file) {
+    options.insert(options.begin(), {"render", "scene.xml", "--size", "64x48", "-i", "bidir", "-n", "40",
+                                     "--moments", "--png", "none", "-q"});
+    Invocation how;
+    how.arguments = options;
+    how.folder = folder.path();
+    how.environment = {{"TMPDIR", folder_of_file}};
+    return run(how);
+  };
+  REQUIRE(render({"-o", "memory.exr"}, disk).exit_code == 0);
+  const Outcome outcome = render({"-o", "file.exr", "--memory", "3e-4", "--checkpoint", "c"}, disk);
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  CHECK_THAT(outcome.err,
+             Catch::Contains("64x48 pixels need 0.000393 GB of memory, and 0.0003 GB are allowed "
+                             "by --memory: 0.000197 GB of them are in a file in "));
+  const auto whole = phlux::files::read_exr(folder / "memory.exr").channels;
+  CHECK(phlux::files::read_exr(folder / "file.exr").channels == whole);
+  REQUIRE(render({"-o", "on.exr", "--resume", "c", "--memory", "3e-4"}, disk).exit_code == 0);
+  CHECK(phlux::files::read_exr(folder / "on.exr").channels == whole);
+
+  const Outcome refused = render({"--memory", "3e-4"}, "/proc");
+  CHECK(refused.exit_code == 2);
+  CHECK_THAT(refused.err, Catch::Contains("or 0.000197 GB on a disk, in a folder named by the variable "
+                                          "TMPDIR (in /proc there are 0 GB)"));
 }
 
 TEST_CASE("Radiances that single precision cannot hold beside the lights are wrong usage") {

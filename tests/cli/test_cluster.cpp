@@ -1,5 +1,6 @@
 // Renders by several processes.
 #include <filesystem>
+#include <random>
 #include <utility>
 
 #include <catch2/catch.hpp>
@@ -7,6 +8,7 @@
 #include "cli/workplace.h"
 #include "cluster/group.h"
 #include "cluster/message.h"
+#include "repetitions.h"
 
 using namespace phlux::cluster;
 using Catch::Contains;
@@ -107,14 +109,25 @@ TEST_CASE("A signal to mpirun leaves a checkpoint, from which any number of proc
   const Cluster place;
   REQUIRE(place.render({"-n", samples, "-o", "whole.exr"}).exit_code == 0);
   Invocation how;
-  how.interrupt_after = std::chrono::milliseconds(0);
   how.signal = SIGTERM;
   how.after_write = place / "c";
   const Texts to_checkpoint = {"-n", samples, "--checkpoint", "c", "--checkpoint-every", "0.02"};
-  const Outcome broken = place.render(to_checkpoint, {"-n", "2"}, how);
-  CAPTURE(broken.out, broken.err);
-  CHECK(broken.exit_code != 0);
-  CHECK_THAT(broken.out, Contains("interrupted: --resume c goes on"));
+  std::mt19937 random(1);
+  const auto interrupt = [&] {
+    std::filesystem::remove(place / "c");
+    const Outcome broken = place.render(to_checkpoint, {"-n", "2"}, how);
+    CAPTURE(broken.out, broken.err);
+    CHECK(broken.exit_code != 0);
+    CHECK_THAT(broken.out, Contains("interrupted: --resume c goes on"));
+  };
+  for (int others = repetitions("PHLUX_SIGNALS", 1) - 1; others > 0; --others) {
+    how.interrupt_after = std::chrono::milliseconds(random() % 1000);
+    interrupt();
+    REQUIRE(place.render({"--resume", "c", "-o", "on.exr"}, {"-n", "2"}).exit_code == 0);
+    CHECK(place.same("on.exr", "whole.exr"));
+  }
+  how.interrupt_after = std::chrono::milliseconds(0);
+  interrupt();
   std::filesystem::copy_file(place / "c", place / "d");
   for (const auto& [checkpoint, mpirun] : {std::pair("c", Texts{}), std::pair("d", Texts{"-n", "2"})}) {
     const Outcome resumed = place.render({"--resume", checkpoint, "-o", "on.exr"}, mpirun);

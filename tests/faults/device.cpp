@@ -144,11 +144,51 @@ RETURNS_ERROR(clGetEventProfilingInfo, nullptr,
               (event, what, bytes, to, needed))
 RETURNS_ERROR(clSetKernelArg, nullptr, (cl_kernel kernel, cl_uint index, size_t bytes, const void* value),
               (kernel, index, bytes, value))
+RETURNS_ERROR(clEnqueueWriteBuffer, queue,
+              (cl_command_queue queue, cl_mem buffer, cl_bool blocking, size_t offset, size_t bytes,
+               const void* from, cl_uint count, const cl_event* events, cl_event* event),
+              (queue, buffer, blocking, offset, bytes, from, count, events, event))
+RETURNS_ERROR(clBuildProgram, nullptr,
+              (cl_program program, cl_uint count, const cl_device_id* devices, const char* options,
+               void(CL_CALLBACK* notify)(cl_program, void*), void* data),
+              (program, count, devices, options, notify, data))
+RETURNS_ERROR(clCreateKernelsInProgram, nullptr,
+              (cl_program program, cl_uint count, cl_kernel* kernels, cl_uint* created),
+              (program, count, kernels, created))
+RETURNS_ERROR(clGetDeviceInfo, nullptr,
+              (cl_device_id device, cl_device_info what, size_t bytes, void* to, size_t* needed),
+              (device, what, bytes, to, needed))
+RETURNS_ERROR(clGetProgramInfo, nullptr,
+              (cl_program program, cl_program_info what, size_t bytes, void* to, size_t* needed),
+              (program, what, bytes, to, needed))
+RETURNS_ERROR(clGetProgramBuildInfo, nullptr,
+              (cl_program program, cl_device_id device, cl_program_build_info what, size_t bytes, void* to,
+               size_t* needed),
+              (program, device, what, bytes, to, needed))
+RETURNS_ERROR(clGetKernelInfo, nullptr,
+              (cl_kernel kernel, cl_kernel_info what, size_t bytes, void* to, size_t* needed),
+              (kernel, what, bytes, to, needed))
+RETURNS_ERROR(clGetKernelArgInfo, nullptr,
+              (cl_kernel kernel, cl_uint index, cl_kernel_arg_info what, size_t bytes, void* to,
+               size_t* needed),
+              (kernel, index, what, bytes, to, needed))
 RETURNS_ERROR(clFlush, queue, (cl_command_queue queue), (queue))
 RETURNS_ERROR(clFinish, queue, (cl_command_queue queue), (queue))
 RETURNS_OBJECT(cl_mem, clCreateBuffer,
                (cl_context context, cl_mem_flags flags, size_t bytes, void* host, cl_int* error),
                (context, flags, bytes, host, error))
+RETURNS_OBJECT(cl_context, clCreateContext,
+               (const cl_context_properties* properties, cl_uint count, const cl_device_id* devices,
+                void(CL_CALLBACK* notify)(const char*, const void*, size_t, void*), void* data,
+                cl_int* error),
+               (properties, count, devices, notify, data, error))
+RETURNS_OBJECT(cl_command_queue, clCreateCommandQueue,
+               (cl_context context, cl_device_id device, cl_command_queue_properties properties,
+                cl_int* error),
+               (context, device, properties, error))
+RETURNS_OBJECT(cl_program, clCreateProgramWithSource,
+               (cl_context context, cl_uint count, const char** texts, const size_t* lengths, cl_int* error),
+               (context, count, texts, lengths, error))
 RETURNS_OBJECT(cl_kernel, clCreateKernel, (cl_program program, const char* name, cl_int* error),
                (program, name, error))
 

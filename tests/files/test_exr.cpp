@@ -1,6 +1,7 @@
 #include "files/exr.h"
 
 #include <limits>
+#include <random>
 
 #include <ImfChannelList.h>
 #include <ImfDoubleAttribute.h>
@@ -31,7 +32,8 @@ const RenderInfo render_info{.version = "0.1.0",
                                           {"strategy", "mixture"},
                                           {"max-depth", std::int64_t{9}},
                                           {"clamp", 4.0}},
-                             .choice = "--integrator path: in trials 2 times as efficient as --integrator bidir",
+                             .choice =
+                                 "--integrator path: in trials 2 times as efficient as --integrator bidir",
                              .samples = 64.0,
                              .seed = std::numeric_limits<std::uint64_t>::max(),
                              .ranges = {{std::numeric_limits<std::uint64_t>::max(), 0, 64}, {7, 64, 128}},
@@ -225,4 +227,37 @@ TEST_CASE("A film is written row by row as its image is") {
   CHECK(write_exr(folder / "a.exr", rows_of(film, true), render_info).empty());
   CHECK(TemporaryFolder::read(folder / "a.exr") == encode_exr(image_of(film, render_info, true)));
   CHECK(read_exr(folder / "a.exr").channels == image_of(film, render_info, true).channels);
+}
+
+TEST_CASE("An image with a bit flipped, or cut off, is refused or read right") {
+  const TemporaryFolder folder;
+  RenderInfo info = render_info;
+  info.version = PHLUX_VERSION;
+  const std::string bytes = encode_exr(image_of(numbered_film(), info, true));
+  write_file(folder / "right.exr", bytes);
+  const Image right = read_exr(folder / "right.exr");
+  std::mt19937 random(1);
+  int refused = 0;
+  constexpr int files = 1000;
+  for (int i = 0; i < files; ++i) {
+    const std::size_t place = random() % bytes.size();
+    const unsigned bit = random() % 16; // eight of them cut the file off
+    std::string damaged = bytes;
+    if (bit < 8)
+      damaged[place] = static_cast<char>(damaged[place] ^ (1 << bit));
+    else
+      damaged.resize(place);
+    folder.write("damaged.exr", damaged);
+    CAPTURE(i, place, bit);
+    try {
+      const Image image = read_exr(folder / "damaged.exr");
+      const bool is_right = image.channels == right.channels && image.width == right.width &&
+                            image.info.samples == info.samples && image.info.ranges == info.ranges &&
+                            image.info.settings == info.settings;
+      CHECK(is_right);
+    } catch (const FileError&) {
+      ++refused;
+    }
+  }
+  CHECK(refused > files / 2);
 }

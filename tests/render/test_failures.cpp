@@ -2,9 +2,11 @@
 #include <cstdlib>
 #include <new>
 #include <optional>
+#include <set>
 
 #include <catch2/catch.hpp>
 
+#include "device/device.h"
 #include "device/opencl.h"
 #include "faults/device.h"
 #include "images/scenes.h"
@@ -92,7 +94,7 @@ void no_faults() {
 }
 
 TEST_CASE("whichever call fails, first, in the middle or last, the film is the same") {
-  const std::string integrator = GENERATE("path", "bidir");
+  const std::string integrator = GENERATE("path", "light", "bidir");
   const render::Settings settings = settings_of(integrator);
   render::Renderer renderer(box(), settings, {});
   no_faults();
@@ -103,7 +105,7 @@ TEST_CASE("whichever call fails, first, in the middle or last, the film is the s
   std::vector<std::string> calls = {
       "clEnqueueNDRangeKernel", "clEnqueueReadBuffer", "clWaitForEvents", "clGetEventProfilingInfo",
       "clGetEventInfo",         "clSetKernelArg",      "clFlush"};
-  if (integrator == "bidir") calls.insert(calls.end(), {"clEnqueueMapBuffer", "clEnqueueUnmapMemObject"});
+  if (integrator != "path") calls.insert(calls.end(), {"clEnqueueMapBuffer", "clEnqueueUnmapMemObject"});
   for (const std::string& call : calls) {
     no_faults();
     static_cast<void>(render_by(renderer, settings));
@@ -180,6 +182,47 @@ TEST_CASE("a failure while a render is set up is not its end") {
   film::Film film(width, height);
   CHECK_THROWS_AS(render::render(box(), settings, film, {}), DeviceError);
   no_faults();
+}
+
+// Before a device has rendered anything there is nothing to lose.
+TEST_CASE(
+    "whichever call fails while a device is opened, the film is right or the error is one of the device") {
+  const render::Settings settings = settings_of("path");
+  device::reopen_devices();
+  no_faults();
+  Outcome whole;
+  whole.statistics = render::render(box(), settings, whole.film, {});
+  int renders = 0, errors = 0;
+  for (const std::string call :
+       {"clCreateContext", "clCreateCommandQueue", "clCreateProgramWithSource", "clBuildProgram",
+        "clCreateKernelsInProgram", "clCreateKernel", "clGetDeviceInfo", "clGetProgramInfo",
+        "clGetProgramBuildInfo", "clGetKernelInfo", "clGetKernelArgInfo", "clCreateBuffer",
+        "clEnqueueWriteBuffer"}) {
+    device::reopen_devices();
+    no_faults();
+    Outcome without;
+    without.statistics = render::render(box(), settings, without.film, {});
+    const long count = faults::device_calls(call);
+    for (const long first : std::set<long>{0, count / 2, count - 1}) {
+      if (first < 0 || first >= count) continue;
+      CAPTURE(call, count, first);
+      device::reopen_devices();
+      faults::plan_device_fault(call, first, 1, CL_OUT_OF_RESOURCES);
+      Outcome outcome;
+      try {
+        outcome.statistics = render::render(box(), settings, outcome.film, {});
+        ++renders;
+        CHECK(same(outcome, whole));
+      } catch (const DeviceError& error) {
+        ++errors;
+        CHECK_THAT(error.what(), !Catch::Contains("\n"));
+      }
+      CHECK(faults::device_faults() == 1);
+    }
+  }
+  no_faults();
+  CHECK(renders > 0);
+  CHECK(errors > 0);
 }
 
 TEST_CASE("where memory is short, launches get smaller until there is enough") {
