@@ -97,12 +97,12 @@ void check_range(Properties& properties, const Parameter& parameter, const std::
     properties.fail_at(name, text(too_low ? smallest : largest) + " is out of range", range_of(parameter));
 }
 
-/// Of a metal. Fresnel's reflectance depends on eta^2, so that Mitsuba renders fits to measurements that are
-/// negative in a channel.
-Rgb read_eta(Properties& properties, const Rgb& eta) {
-  if (glm::compMin(eta) >= 0.0) return eta;
-  warn(properties.where("eta"), "a negative eta counts as positive, as in Mitsuba");
-  return glm::abs(eta);
+/// eta or k of a metal. Fresnel's reflectance depends on their squares, so that Mitsuba renders fits to
+/// measurements that are negative in a channel.
+Rgb read_index(Properties& properties, const std::string& name, const Rgb& index) {
+  if (glm::compMin(index) >= 0.0) return index;
+  warn(properties.where(name), "a negative " + name + " counts as positive, as in Mitsuba");
+  return glm::abs(index);
 }
 
 /// Appends the value of a parameter that the file calls `name`, and its texture.
@@ -119,7 +119,7 @@ void read_parameter(Properties& properties, const Parameter& parameter, const st
   const bool ships = material.model->text.empty();
   Rgb value = colour ? properties.color(name, Rgb(parameter.default_value))
                      : Rgb(read_number(properties, parameter, name, ships));
-  if (colour && ships && name == "eta") value = read_eta(properties, value);
+  if (colour && ships && (name == "eta" || name == "k")) value = read_index(properties, name, value);
   check_range(properties, parameter, name, value, value, rules.excess);
   material.values.push_back(value);
 }

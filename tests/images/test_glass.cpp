@@ -167,10 +167,11 @@ TEST_CASE("glass: the cut of prism.xml vanishes, and bidir agrees with path") {
   render::Settings other = settings_for(64);
   other.seed = 1000;
   check_methods(repeated(scene, bidir, other), cut, 2);
-  std::erase_if(scene.patches, [&](const scene::Patch& patch) {
-    const auto& model = scene.materials[static_cast<std::size_t>(patch.surface.material)];
-    return model.model->name == "dielectric" && model.value("int_ior") == model.value("ext_ior");
+  const auto erased = std::erase_if(scene.patches, [&](const scene::Patch& patch) {
+    const auto& material = scene.materials[static_cast<std::size_t>(patch.surface.material)];
+    return material.model->name == "dielectric" && material.value("int_ior") == material.value("ext_ior");
   });
+  REQUIRE(erased == 1);
   other.seed = 2000;
   check_methods(repeated(scene, path, other), cut, 2);
 }

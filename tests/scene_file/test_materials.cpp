@@ -220,12 +220,13 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("A metal's eta that is negative in a channel counts as positive, with a warning") {
+TEST_CASE("Channels of a metal's eta and k that are negative count as positive, with a warning") {
   const std::string metal = "<bsdf type=\"conductor\"><rgb name=\"eta\" value=\"-.25 4 5\"/><rgb name=\"k\" "
-                            "value=\"1 2 3\"/></bsdf>";
+                            "value=\"1 -2 3\"/></bsdf>";
   CHECK(material(metal).value("eta") == Rgb(.25, 4, 5) / 1.000277);
+  CHECK(material(metal).value("k") == Rgb(1, 2, 3) / 1.000277);
   CHECK_THAT(log_of_files({{"scene.xml", with_sensor("<shape type=\"disk\">" + metal + "</shape>")}}),
-             Contains("a negative eta counts as positive"));
+             Contains("a negative eta counts as positive") && Contains("a negative k"));
 }
 
 TEST_CASE("Masks: opacities, twosided inside and outside, and what they cannot be around") {
