@@ -65,15 +65,17 @@ void RandomShapes::object(bool lamp, int index) {
       {"rectangle", "cube", "disk", "sphere", "obj", "ply", "obj", "ply", "obj", "ply"});
   double size = lamp ? values.log_uniform(0.03, 0.4) : values.uniform(0.25, draft_.closed ? 0.6 : 0.9);
   if (lamp && draft_.twin) size = std::max(size, draft_.twin->least_lamp);
+  const bool grouped = draft_.further.chance(0.2) && !lamp;
+  if (grouped) text.open("shape", fmt::format("type=\"shapegroup\" id=\"group{}\"", index));
   open(type);
   if (type == "obj" || type == "ply") mesh(type, index);
   if (values.chance(0.2)) text.boolean("flip_normals", true);
-  if (type == "sphere" && values.chance(0.5)) {
+  if (type == "sphere" && values.chance(0.5) && !grouped) {
     ball(size);
   } else {
     draft_.open_to_world();
     steps_to_place(type, size);
-    draft_.close_to_world();
+    grouped ? text.close("transform") : draft_.close_to_world();
   }
   if (!lamp || draft_.structure.chance(0.5)) materials_.refer_to_one(lamp);
   if (lamp) {
@@ -82,6 +84,20 @@ void RandomShapes::object(bool lamp, int index) {
     text.close("emitter");
   }
   text.close("shape");
+  if (!grouped) return;
+  text.close("shape");
+  instance(type, index, false);
+  if (values.chance(0.5)) instance(type, index, true);
+}
+
+// The group as it is, or somewhere else.
+void RandomShapes::instance(const std::string& type, int group, bool elsewhere) {
+  open("instance");
+  draft_.text.line(fmt::format("<ref id=\"group{}\"/>", group));
+  draft_.open_to_world();
+  if (elsewhere) steps_to_place(type, draft_.values.uniform(0.4, 0.8));
+  draft_.close_to_world();
+  draft_.text.close("shape");
 }
 
 void RandomShapes::ball(double size) {

@@ -22,6 +22,7 @@ private:
   void walls();
   void wall(const scene::Vec3& center, double half);
   void object(bool lamp, int index);
+  void instance(const std::string& type, int group, bool elsewhere);
   void open(const std::string& type);
   void ball(double size);
   void steps_to_place(const std::string& type, double size);

@@ -92,6 +92,8 @@ TEST_CASE("random scenes can be loaded, and together cover everything that a sce
                            "type=\"sphere\"",
                            "type=\"obj\"",
                            "type=\"ply\"",
+                           "type=\"shapegroup\"",
+                           "type=\"instance\"",
                            "\"center\"",
                            "\"radius\"",
                            "\"flipNormals\"",
