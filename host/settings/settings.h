@@ -193,7 +193,7 @@ struct Settings {
           "width", A::execution, &Settings::lanes, OneOf{{"1", "4", "8", "16"}}, "N",
           "number of paths that a work-item traces together: 1, 4, 8 or 16; default: what suits the device"),
       Setting("precision", A::estimate, &Settings::double_precision, OneOf{{"single", "double"}}, "NAME",
-              "arithmetic of the kernels: single; or double, which is slower, has --width 1, and needs a "
+              "arithmetic of the kernels: single; or double, which is slower, has `width` 1, and needs a "
               "device with "
               "doubles"),
       Setting("traversal", A::execution, &Settings::traversal, OneOf{{"auto", "brute", "bvh"}}, "NAME",

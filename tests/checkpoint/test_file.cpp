@@ -106,7 +106,7 @@ TEST_CASE("A file that is not a complete checkpoint of this version is refused w
   later[17] = '9';
   CHECK_THAT(saved.refusal(later), Contains("is a checkpoint of format 9") && Contains("reads format 4"));
   CHECK_THROWS_WITH(checkpoint::read(saved / "missing"), Contains("missing: cannot be read: No such file"));
-  CHECK_THROWS_WITH(checkpoint::read(saved.path()), Contains("is no file"));
+  CHECK_THROWS_WITH(checkpoint::read(saved.path()), Contains("is not a file"));
 }
 
 TEST_CASE("A file with a bit flipped, or cut off, is refused") {
