@@ -105,8 +105,8 @@ void add_files(CLI::App& app, RenderOptions& options) {
       "count from the beginning of the first render",
       options.resume);
   add_value(app, "--aov", "NAME,...",
-            "adds channels with properties of the surface that camera rays hit first, for denoisers and "
-            "compositing: albedo, normal, depth",
+            "adds channels with properties of the surface that camera rays hit first, and their variances, for "
+            "denoisers and compositing: albedo, normal, depth",
             [&](const std::string& text) { options.aov = aov_of(text); });
   add_flag(
       app, "--moments",

@@ -163,9 +163,14 @@ RenderInfo find_attributes(const Imf::Header& header) {
 
 constexpr int largest_side = 1 << 28; // of a whole image
 
-constexpr std::array<const char*, 14> known_channels = {
-    "R",        "G",        "B",        "variance.R", "variance.G", "variance.B", "reliability",
-    "albedo.R", "albedo.G", "albedo.B", "normal.X",   "normal.Y",   "normal.Z",   "depth.Z"};
+std::vector<const char*> known_channels() {
+  std::vector<const char*> names = {"reliability"};
+  for (const ChannelNames& three : {radiance_names, variance_names})
+    names.insert(names.end(), three.begin(), three.end());
+  for (const auto& seven : {first_hit_channels, first_hit_variance_channels})
+    names.insert(names.end(), seven.begin(), seven.end());
+  return names;
+}
 
 Imath::Box2i box(int left, int top, int width, int height) {
   return {Imath::V2i(left, top), Imath::V2i(left + width - 1, top + height - 1)};
@@ -210,7 +215,7 @@ Image read_pixels(Imf::MultiPartInputFile& file, double file_bytes) {
   const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
   const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
   std::vector<const char*> names;
-  for (const char* name : known_channels) {
+  for (const char* name : known_channels()) {
     const Imf::Channel* channel = header.channels().findChannel(name);
     if (channel == nullptr) continue;
     if (channel->xSampling != 1 || channel->ySampling != 1)

@@ -77,22 +77,23 @@ Rows rows_of(const film::Film& film, bool moments) {
 
 void add_first_hits(Rows& rows, const std::vector<film::FirstHit>& hits,
                     const std::vector<std::string>& aov) {
-  std::vector<std::size_t> added; // indices into first_hit_channels
-  const std::size_t before = rows.channels.size();
-  for (std::size_t i = 0; i < first_hit_channels.size(); ++i) {
-    const std::string channel = first_hit_channels[i];
+  std::vector<std::size_t> added; // indices into first_hit_channels, those of variances after the others
+  const std::size_t before = rows.channels.size(), count = first_hit_channels.size();
+  for (std::size_t i = 0; i < 2 * count; ++i) {
+    const std::string channel = first_hit_channels[i % count];
     if (std::ranges::find(aov, channel.substr(0, channel.find('.'))) == aov.end()) continue;
-    rows.channels.push_back(channel);
+    rows.channels.emplace_back(i < count ? channel : first_hit_variance_channels[i - count]);
     added.push_back(i);
   }
-  rows.fill = [&hits, before, added, width = static_cast<std::size_t>(rows.width),
+  rows.fill = [&hits, before, added, count, width = static_cast<std::size_t>(rows.width),
                others = std::move(rows.fill)](int row, std::size_t channel, float* to) {
     if (channel < before) return others(row, channel, to);
-    const std::size_t value = added[channel - before], first = static_cast<std::size_t>(row) * width;
-    for (std::size_t pixel = first; pixel < first + width; ++pixel)
-      *to++ = value < 3   ? hits[pixel].albedo[value]
-              : value < 6 ? hits[pixel].normal[value - 3]
-                          : hits[pixel].depth;
+    const bool variance = added[channel - before] >= count;
+    const std::size_t value = added[channel - before] % count, first = static_cast<std::size_t>(row) * width;
+    for (std::size_t pixel = first; pixel < first + width; ++pixel) {
+      const film::FirstHitValues& values = variance ? hits[pixel].variance : hits[pixel].mean;
+      *to++ = value < 3 ? values.albedo[value] : value < 6 ? values.normal[value - 3] : values.depth;
+    }
   };
 }
 

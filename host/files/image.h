@@ -92,7 +92,11 @@ private:
 inline const std::vector<std::string> aov_names = {"albedo", "normal", "depth"};
 inline constexpr std::array<const char*, 7> first_hit_channels = {
     "albedo.R", "albedo.G", "albedo.B", "normal.X", "normal.Y", "normal.Z", "depth.Z"};
-/// Adds the channels of the names `aov`, one value per pixel each. `hits` must live as long as the rows.
+inline constexpr std::array<const char*, 7> first_hit_variance_channels = {
+    "variance.albedo.R", "variance.albedo.G", "variance.albedo.B", "variance.normal.X",
+    "variance.normal.Y", "variance.normal.Z", "variance.depth.Z"};
+/// Adds the channels of the names `aov` and their variances, one value per pixel each. `hits` must live as
+/// long as the rows.
 void add_first_hits(Rows& rows, const std::vector<film::FirstHit>& hits, const std::vector<std::string>& aov);
 
 /// Channels R, G, B: mean radiance, linear, neither exposed nor clamped. With `moments` also variance.R, .G

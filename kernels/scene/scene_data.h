@@ -146,8 +146,8 @@ typedef struct {
 // that were not finite, and of the radiance that clamping removed.
 enum SumWords { SUM_RADIANCE = 0, SUM_SQUARES = 3, SUM_NONFINITE = 6, SUM_CLAMPED = 7, SUM_WORDS = 8 };
 
-// The result of the first hits of a pixel (film::FirstHit).
-enum FeatureWords { FEATURE_ALBEDO = 0, FEATURE_NORMAL = 3, FEATURE_DEPTH = 6, FEATURE_WORDS = 7 };
+// The result of the first hits of a pixel (film::FirstHit): means, then the variances of these means.
+enum FeatureWords { FEATURE_ALBEDO = 0, FEATURE_NORMAL = 3, FEATURE_DEPTH = 6, FEATURE_VARIANCES = 7, FEATURE_WORDS = 14 };
 
 // A record of a splat, with one array for each word. The last two words exist only if techniques are recorded
 // separately: the technique s << 16 | t, or its complement if the path adds to its own pixel, and the weight, which the

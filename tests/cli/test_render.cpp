@@ -97,10 +97,12 @@ TEST_CASE("--aov adds the channels that it names") {
   place.render({"-n", "2"});
   place.render({"-n", "2", "--aov", "depth,albedo", "-o", "more.exr"});
   const Image plain = place.image(), more = place.image("more.exr");
-  CHECK(more.channels.size() == 7);
+  CHECK(more.channels.size() == 11);
   for (const char* channel : {"R", "G", "B"}) CHECK(more.channels.at(channel) == plain.channels.at(channel));
   CHECK(mean(more.channels.at("albedo.G")) > 0.1);
   CHECK(mean(more.channels.at("depth.Z")) > 1.0);
+  CHECK(mean(more.channels.at("variance.albedo.G")) > 0.0);
+  CHECK(mean(more.channels.at("variance.depth.Z")) > 0.0);
 }
 
 TEST_CASE("Exposure and threads do not change the image") {
