@@ -2,6 +2,8 @@
 # where dependencies come from the archive, as for a user. Sourced by .ci/nightly.
 # shellcheck shell=bash disable=SC2154 # variables that nightly sets
 
+# Lintian's two exceptions: CHANGELOG.md is there, but not in Debian's form; and nobody maintains the package by mail.
+
 # In a root with the clone, where ./phlux installs what building needs. Also builds a package of an older version, to upgrade.
 # shellcheck disable=SC2016 # for the inner sh
 build_package() { # ROOT
@@ -12,7 +14,7 @@ build_package() { # ROOT
     mkdir -p /srv/package/older
     cpack --config build/CPackConfig.cmake -B /srv/package
     cpack --config build/CPackConfig.cmake -B /srv/package/older -D CPACK_PACKAGE_VERSION=0.0.1
-    lintian --allow-root --fail-on error,warning --suppress-tags no-changelog,initial-upload-closes-no-bugs /srv/package/*.deb'
+    lintian --allow-root --fail-on error,warning --suppress-tags no-changelog,bogus-mail-host /srv/package/*.deb'
 }
 
 # shellcheck disable=SC2016 # for the inner sh

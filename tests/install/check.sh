@@ -11,7 +11,7 @@ prefix=$folder/prefix
 
 cd "$folder"
 "$prefix/bin/phlux" --version
-zcat -f "$prefix"/share/man/man1/phlux.1* | grep -q '^\.TH PHLUX 1'
+zcat "$prefix/share/man/man1/phlux.1.gz" | grep -q '^\.TH PHLUX 1'
 grep -q '^complete .*phlux$' "$prefix/share/bash-completion/completions/phlux"
 head -n 1 "$prefix/share/zsh/vendor-completions/_phlux" | grep -qx '#compdef phlux'
 [[ -z $(find "$prefix" -name '*.cmake' -path '*kernels*') ]]
