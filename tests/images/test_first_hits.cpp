@@ -69,7 +69,7 @@ TEST_CASE("Variances of first hits have closed forms at an edge, and are 0 insid
   scene::Scene scene = three_squares();
   scene.patches[0].origin.y += 0.125; // its edge divides the pixels of row 17 into halves
   double albedo = 0.0, normal = 0.0;
-  constexpr int seeds = 8, columns = 10;
+  constexpr int seeds = 10, columns = 8;
   render::Settings settings = settings_for(1);
   for (settings.seed = 0; settings.seed < seeds; ++settings.seed) {
     const std::vector<film::FirstHit> hits = render::first_hits(scene, settings);
