@@ -37,7 +37,6 @@ use_package() { # ROOT
                test \"\${COMPREPLY[*]}\" = render"
     test -s /usr/share/zsh/vendor-completions/_phlux
     apt-get remove -y phlux
-    ! command -v phlux
     left=$(while read -r file; do test ! -e "$file" || dpkg-query -S "$file" >/dev/null 2>&1 || echo "$file"; done </srv/files)
     test -z "$left"'
 }
