@@ -53,11 +53,16 @@ enter_bare() { # enter() before the clone exists
   enter "$1" root sh -c 'apt-get update -q && exec "$@"' _ "${@:2}" && rmdir "$1$clone"
 }
 
-# fresh_root RELEASE USER: a root in which the program has never run; sets `root`.
+update_clone() { # ROOT USER
+  git -c safe.directory='*' -C "$1$clone" fetch --quiet "$repository" HEAD &&
+    git -c safe.directory='*' -C "$1$clone" reset --quiet --hard FETCH_HEAD && chroot "$1" chown -R "$2:$2" "$clone"
+}
+
+# fresh_root RELEASE USER: a root in which the program has never run, or that of an earlier call; sets `root`.
 fresh_root() {
   bare_root "$1" || return
   root=$folder/debian$1-$2
-  [[ -d $root ]] && return
+  if [[ -d $root ]]; then update_clone "$root" "$2"; return; fi
   rm -rf --one-file-system "$root.new" # from an interrupted call
   cp -a "$bare" "$root.new"
   timed "Debian $1, $2: user and clone" "debian$1-$2-furnish" furnish "$root.new" "$2" || return

@@ -11,12 +11,12 @@ import pyopencl as cl
 
 INTERVALS = 1024  # of a row of the table
 LANES, SAMPLES = 4096, 1024
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(64)
 
 
 def reflectivity(n, cosine):
     """rho_s / ks by (3) of sampling.md, with its incomplete beta function as an integral of (1 - y^2)^(n / 2)."""
-    nodes, weights = np.polynomial.legendre.leggauss(64)
-    partial = cosine / 2 * weights @ np.exp(n / 2 * np.log1p(-((cosine / 2 * (1 + nodes)) ** 2)))
+    partial = cosine / 2 * WEIGHTS @ np.exp(n / 2 * np.log1p(-((cosine / 2 * (1 + NODES)) ** 2)))
     whole = math.sqrt(math.pi) * math.exp(math.lgamma(n / 2 + 1) - math.lgamma((n + 3) / 2))
     grazing = math.exp(math.lgamma((n + 1) / 2) - math.lgamma(n / 2 + 1)) / (2 * math.sqrt(math.pi))
     return cosine * (0.5 + partial / whole) + grazing * (1 - cosine**2) ** (n / 2 + 1)
