@@ -104,10 +104,11 @@ void add_files(CLI::App& app, RenderOptions& options) {
       "continues from a checkpoint; options that are not given keep their values; -n, --time and --error "
       "count from the beginning of the first render",
       options.resume);
-  add_value(app, "--aov", "NAME,...",
-            "adds channels with properties of the surface that camera rays hit first, and their variances, for "
-            "denoisers and compositing: albedo, normal, depth",
-            [&](const std::string& text) { options.aov = aov_of(text); });
+  add_value(
+      app, "--aov", "NAME,...",
+      "adds channels with properties of the surface that camera rays hit first, and their variances, for "
+      "denoisers and compositing: albedo, normal, depth",
+      [&](const std::string& text) { options.aov = aov_of(text); });
   add_flag(
       app, "--moments",
       "adds the channels variance.R, .G and .B (variance of the mean) and reliability (predicted probability "
