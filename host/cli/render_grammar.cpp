@@ -110,10 +110,11 @@ void add_files(CLI::App& app, RenderOptions& options) {
             [&](const std::string& text) {
               options.memory = 1e9 * settings::number_within("--memory", text, 0.0, 1e9);
             });
-  add_value(app, "--aov", "NAME,...",
-            "adds channels with properties of the surface that camera rays hit first, and their variances, for "
-            "denoisers and compositing: albedo, normal, depth",
-            [&](const std::string& text) { options.aov = aov_of(text); });
+  add_value(
+      app, "--aov", "NAME,...",
+      "adds channels with properties of the surface that camera rays hit first, and their variances, for "
+      "denoisers and compositing: albedo, normal, depth",
+      [&](const std::string& text) { options.aov = aov_of(text); });
   add_flag(
       app, "--moments",
       "adds the channels variance.R, .G and .B (variance of the mean) and reliability (predicted probability "
