@@ -89,6 +89,8 @@ int compare(const CompareOptions& options) {
   const std::string a = options.a.string(), b = options.b.string();
   check_outputs(options);
   const files::Image image_a = files::read_exr(options.a), image_b = files::read_exr(options.b);
+  warn_if_changed(image_a, a);
+  warn_if_changed(image_b, b);
   const files::Comparison comparison = files::compare(image_a, image_b, a, b);
   const nlohmann::ordered_json json = files::to_json(comparison);
   require_metrics(options, json);

@@ -76,8 +76,8 @@ film::Storage storage_for(const scene::Camera& camera, const settings::Settings&
   const std::optional<double> limit = most ? most : memory_available();
   if (!limit || memory <= *limit) return film::Storage::memory;
   const std::string need =
-      fmt::format("{}x{} pixels need {} of memory, and {} are {}", camera.width, camera.height,
-                  gigabytes(memory), gigabytes(*limit), most ? "allowed by --memory" : "free");
+      fmt::format("{}x{} pixels need {} of memory, and {} {}", camera.width, camera.height, gigabytes(memory),
+                  gigabytes(*limit), most ? "are allowed by --memory" : "are free");
   if (in_file > 0.0 && memory - in_file <= *limit && in_file <= film::ScratchFile::room()) {
     spdlog::warn("{}: {} of them are in a file in {}", need, gigabytes(in_file), film::ScratchFile::folder());
     return film::Storage::file;

@@ -70,6 +70,11 @@ void warn_of_nonfinite(const fs::path& file, const files::NonFinite& values) {
                  file.string(), count, channel);
 }
 
+void warn_if_changed(const files::Image& image, const std::string& name) {
+  if (image.info.is_changed)
+    spdlog::warn("{}: is damaged, or another program has changed it and copied its attributes", name);
+}
+
 bool is_of_another_format(const fs::path& file, const std::string& own) {
   const std::vector<std::string> formats = {".exr", ".png",  ".jpg", ".jpeg", ".hdr",  ".pfm", ".ppm",
                                             ".tif", ".tiff", ".bmp", ".gif",  ".webp", ".json"};

@@ -23,6 +23,9 @@ struct Outputs {
 /// Warns of values that are NaN or infinite.
 void warn_of_nonfinite(const std::filesystem::path& file, const files::NonFinite& values);
 
+/// Warns of an image that is not as phlux wrote it (files::RenderInfo).
+void warn_if_changed(const files::Image& image, const std::string& name);
+
 /// Whether the file's name says that it is an image of another format than `own`, such as ".png".
 [[nodiscard]] bool is_of_another_format(const std::filesystem::path& file, const std::string& own);
 

@@ -32,6 +32,7 @@ void write_picture(const ViewOptions& options, const files::Image& image) {
 int view(const ViewOptions& options) {
   const files::Image image = files::read_exr(options.image);
   const std::string name = options.image.string();
+  warn_if_changed(image, name);
   if (!options.picture.empty()) {
     write_picture(options, image);
     return 0;

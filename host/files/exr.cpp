@@ -166,13 +166,10 @@ std::string digest_of(const Imf::Header& header) {
 }
 
 // Other versions may have other attributes.
-void check_digest(const Imf::Header& header) {
+bool is_changed(const Imf::Header& header) {
   std::string digest;
   find_attribute(header, digest_name, digest);
-  if (digest.starts_with(PHLUX_VERSION " ") && digest != digest_of(header))
-    throw std::runtime_error(
-        "its header is not the one that phlux wrote: another program that changes an image "
-        "must remove the attribute digest");
+  return digest.starts_with(PHLUX_VERSION " ") && digest != digest_of(header);
 }
 
 RenderInfo find_attributes(const Imf::Header& header) {
@@ -258,13 +255,13 @@ Image read_pixels(Imf::MultiPartInputFile& file, double file_bytes) {
     names.push_back(name);
   }
   check_size(header, static_cast<double>(width), static_cast<double>(height), names.size(), file_bytes);
-  check_digest(header);
 
   Image image{.width = static_cast<int>(width),
               .height = static_cast<int>(height),
               .channels = {},
               .info = find_attributes(header)};
   find_place(header, image.info);
+  image.info.is_changed = is_changed(header);
   Imf::FrameBuffer frame;
   for (const char* name : names) {
     const auto [entry, _] = image.channels.emplace(name, static_cast<std::size_t>(width * height));

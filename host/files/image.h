@@ -42,6 +42,10 @@ struct RenderInfo {
   /// 0: it is whole.
   std::array<int, 2> origin{}, whole{};
 
+  /// The attributes, channels or sizes in the file are not those that phlux wrote: it is damaged, or another
+  /// program has changed the image and copied its attributes.
+  bool is_changed = false;
+
   /// A setting as text; empty if it is absent.
   [[nodiscard]] std::string text(const std::string& setting) const;
 };

@@ -104,6 +104,11 @@ void Merger::check(const Source& source, const Image& image) const {
   if (!(info.samples > 0.0) || !std::isfinite(info.samples) || info.ranges.empty())
     throw FileError(fmt::format(
         "{}: does not say which samples it has: only images rendered by phlux can be merged", name));
+  if (info.is_changed)
+    throw FileError(
+        fmt::format("{}: is damaged, or another program has changed it: only images as phlux wrote "
+                    "them can be merged",
+                    name));
   if (sources_.empty()) return;
   const std::string& first = sources_.front().name;
   const RenderInfo& other = sources_.front().info;

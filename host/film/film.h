@@ -127,7 +127,9 @@ public:
 
   /// Samples of a block are not independent of each other, but blocks are: variances are estimated from the
   /// sums of blocks. To be called before the first add().
-  void use_dependent_samples() { blocks_of_pixels_.resize(pixels_.size(), storage_); }
+  void use_dependent_samples() {
+    if (!dependent_samples()) blocks_of_pixels_.resize(pixels_.size(), storage_);
+  }
   [[nodiscard]] bool dependent_samples() const { return !blocks_of_pixels_.empty(); }
 
   /// Also records the contributions of each technique from here on.

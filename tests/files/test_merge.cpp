@@ -104,6 +104,8 @@ TEST_CASE("What cannot be merged is refused, saying why") {
   CHECK_THAT(refusal([](Image& i) { i.info.scene_digest = "13"; }), Contains("b.exr: is of another scene"));
   CHECK_THAT(refusal([](Image& i) { i.info.settings["max-depth"] = std::int64_t{-1}; }),
              Contains("b.exr: was rendered with `max-depth` -1, but a.exr with `max-depth` 8"));
+  CHECK_THAT(refusal([](Image& i) { i.info.is_changed = true; }),
+             Contains("b.exr: is damaged, or another program"));
   CHECK_THAT(refusal([](Image& i) { i.info.samples = 0; }), Contains("does not say which samples it has"));
   CHECK_THAT(refusal([](Image& i) { i.info.ranges.clear(); }), Contains("does not say which samples it has"));
   CHECK_THAT(refusal([](Image& i) { i.channels.erase("G"); }), Contains("lacks a channel of R, G and B"));

@@ -35,13 +35,14 @@ TEST_CASE("a film in a file has the means and variances of one in memory") {
   const int width = 1024, height = 520; // of two windows
   Film memory(width, height), file(width, height, Storage::file);
   for (Film* const film : {&memory, &file}) {
-    film->use_dependent_samples();
     film->use_splats();
-    for (int block = 0; block < 2; ++block)
+    for (int block = 0; block < 2; ++block) {
+      film->use_dependent_samples(); // a render that resumes says so again
       for (std::size_t pixel = 0; pixel < film->pixels().size(); ++pixel) {
         const auto x = static_cast<float>(pixel % 100 + 7 * static_cast<std::size_t>(block));
         film->add(pixel, {{x, 2 * x, 3}, {x * x, 4 * x * x, 9}}, 16);
       }
+    }
     film->add_splatting_paths(16 * film->pixels().size());
     film->add_splat(1000, {1, 2, 3});
   }
