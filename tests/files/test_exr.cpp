@@ -251,11 +251,10 @@ TEST_CASE("An image with a bit flipped, or cut off, is refused, called changed, 
     CAPTURE(i, place, bit);
     try {
       const Image image = read_exr(folder / "damaged.exr");
-      const bool is_right = image.info.is_changed ||
-                            image.channels == right.channels && image.width == right.width &&
-                                image.info.samples == info.samples && image.info.ranges == info.ranges &&
-                                image.info.settings == info.settings;
-      CHECK(is_right);
+      const bool is_right = image.channels == right.channels && image.width == right.width &&
+                            image.info.samples == info.samples && image.info.ranges == info.ranges &&
+                            image.info.settings == info.settings;
+      CHECK((is_right || image.info.is_changed));
     } catch (const FileError&) {
       ++refused;
     }

@@ -17,13 +17,13 @@ using scene::Vec3;
 
 namespace {
 
-constexpr double index = 1.5;
+constexpr double glass_index = 1.5;
 const Rgb radiance(1.0, 0.5, 2.0);
 
 scene::Material thin_glass() {
   scene::Material material;
   material.model = lobes::shipped("thindielectric");
-  material.values = {Rgb(index), Rgb(1.0), Rgb(1.0), Rgb(1.0)};
+  material.values = {Rgb(glass_index), Rgb(1.0), Rgb(1.0), Rgb(1.0)};
   return material;
 }
 
@@ -83,8 +83,8 @@ enum RoomMaterials { floor_material, glass, dense, of_cube, of_cut };
 scene::Scene glass_room(const scene::Material& cube, const scene::Material& cut, const Vec3& center) {
   scene::Scene scene;
   scene.materials = {lobes::phong(Rgb(0.4), Rgb(0.3), 10),
-                     lobes::dielectric(index, Rgb(0.9, 0.8, 0.7), Rgb(0.7, 0.8, 0.9)), lobes::dielectric(1.8),
-                     cube, cut};
+                     lobes::dielectric(glass_index, Rgb(0.9, 0.8, 0.7), Rgb(0.7, 0.8, 0.9)),
+                     lobes::dielectric(1.8), cube, cut};
   scene.patches = {square({0, 0, 0}, {0, 0, 1}, {1, 0, 0}, 2, {floor_material, -1})};
   scene.spheres = {{{0.9, 1.9, 0}, 0.35, false, {floor_material, 0}},
                    {{0.9, 1.9, 0}, 0.55, false, {glass, -1}},
@@ -126,20 +126,22 @@ TEST_CASE("glass: lossless glass cannot be told from the walls of a furnace, wit
 }
 
 TEST_CASE("glass: reflectance, transmittance and the radiance beyond are Fresnel's, at every angle") {
-  const scene::Material reflecting = lobes::dielectric(index, Rgb(1), Rgb(0)),
-                        transmitting = lobes::dielectric(index, Rgb(0), Rgb(1));
-  check_shares(plane_in_view(reflecting, false), [](double c) { return fresnel(c, index); });
+  const scene::Material reflecting = lobes::dielectric(glass_index, Rgb(1), Rgb(0)),
+                        transmitting = lobes::dielectric(glass_index, Rgb(0), Rgb(1));
+  check_shares(plane_in_view(reflecting, false), [](double c) { return fresnel(c, glass_index); });
   check_shares(plane_in_view(transmitting, true),
-               [](double c) { return (1 - fresnel(c, index)) / (index * index); });
+               [](double c) { return (1 - fresnel(c, glass_index)) / (glass_index * glass_index); });
   // The camera is in the glass, where radiance is larger.
   check_shares(plane_in_view(transmitting, true, false),
-               [](double c) { return (1 - fresnel(c, 1 / index)) * index * index; });
+               [](double c) { return (1 - fresnel(c, 1 / glass_index)) * glass_index * glass_index; });
 }
 
 TEST_CASE("glass: a slab transmits (1 - r) / (1 + r), and so does a thin plate") {
-  const auto transmitted = [](double c) { return (1 - fresnel(c, index)) / (1 + fresnel(c, index)); };
+  const auto transmitted = [](double c) {
+    return (1 - fresnel(c, glass_index)) / (1 + fresnel(c, glass_index));
+  };
   check_shares(plane_in_view(thin_glass(), true), transmitted);
-  scene::Scene slab = plane_in_view(lobes::dielectric(index), true);
+  scene::Scene slab = plane_in_view(lobes::dielectric(glass_index), true);
   slab.patches.push_back(square({0, 0, -0.01}, {0, 1, 0}, {1, 0, 0}, 1e3, {seen_material, -1}));
   check_shares(slab, transmitted);
 }
