@@ -119,10 +119,6 @@ std::string words_for(const std::vector<Candidate>& sorted) {
 
 } // namespace
 
-bool has_delta(const scene::Scene& scene) {
-  return std::ranges::any_of(scene.materials, [](const auto& m) { return m.model->has_delta; });
-}
-
 bool misses_light(const scene::Scene& scene, const settings::IntegratorInfo& integrator) {
   const bool points =
       !scene.point_lights.empty() || !scene.spot_lights.empty() || !scene.directional_lights.empty();

@@ -14,9 +14,6 @@ struct MethodChoice {
   std::string words;                        ///< the method and why, in one line
 };
 
-/// Whether surfaces scatter by delta distributions: mirrors and smooth glass.
-[[nodiscard]] bool has_delta(const scene::Scene& scene);
-
 /// Whether the integrator cannot find some of the scene's light, which its error estimate then does not
 /// include: `path` cannot find light of point, spot and directional emitters after a delta event, `light`
 /// cannot find light that a delta event scatters to the camera.

@@ -143,8 +143,9 @@ void find_attribute(const Imf::Header& header, const char* name, double& value) 
 
 constexpr const char* digest_name = "digest";
 
-// Of what the header says that is used: a changed bit would be another number of samples, or the name of
-// another channel. OpenEXR checks the pixels itself.
+// A checksum of the attributes, channels and windows that read_exr() uses: a flipped bit in one of them would
+// be read as another number of samples, or as the name of another channel. OpenEXR has a checksum of the
+// pixels.
 std::string digest_of(const Imf::Header& header) {
   std::vector<std::string> names = {"version",      "scene",  "sceneDigest", "choice",  "samples",     "seed",
                                     "sampleRanges", "device", "driver",      "seconds", "clampedShare"};

@@ -30,8 +30,7 @@ NonFinite write_exr(const std::filesystem::path& file, const Image& image);
 /// channels are converted). Missing attributes, and numbers that are not finite, keep RenderInfo's defaults.
 /// Memory is bounded by 256 MiB and 2064 times the file's size; time is linear in that.
 /// @throws FileError when the file is missing, not regular, no EXR image, damaged, or has subsampled
-/// channels, if its header claims more than such a file can hold, or if this version of phlux wrote it and
-/// its attributes are not those that it wrote
+/// channels, or if its header claims more than such a file can hold
 [[nodiscard]] Image read_exr(const std::filesystem::path& file);
 
 } // namespace phlux::files

@@ -23,6 +23,19 @@ namespace {
                   ScratchFile::folder(), what, std::strerror(error)));
 }
 
+// Reads or writes, by ::pread or ::pwrite, `bytes` bytes at `offset`, by as many calls as that takes.
+template<class Call, class Byte>
+void transfer(Call call, int file, Byte* at, std::size_t bytes, std::uint64_t offset, const char* failure) {
+  while (bytes > 0) {
+    const ssize_t count = call(file, at, bytes, static_cast<off_t>(offset));
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) fail(failure, count < 0 ? errno : EIO);
+    at += count;
+    bytes -= static_cast<std::size_t>(count);
+    offset += static_cast<std::uint64_t>(count);
+  }
+}
+
 } // namespace
 
 const char* ScratchFile::folder() {
@@ -53,25 +66,11 @@ ScratchFile::~ScratchFile() {
 }
 
 void ScratchFile::read(void* to, std::size_t bytes, std::uint64_t offset) const {
-  for (auto* at = static_cast<char*>(to); bytes > 0;) {
-    const ssize_t count = ::pread(descriptor_, at, bytes, static_cast<off_t>(offset));
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) fail("cannot be read", count < 0 ? errno : EIO);
-    at += count;
-    bytes -= static_cast<std::size_t>(count);
-    offset += static_cast<std::uint64_t>(count);
-  }
+  transfer(::pread, descriptor_, static_cast<char*>(to), bytes, offset, "cannot be read");
 }
 
 void ScratchFile::write(const void* from, std::size_t bytes, std::uint64_t offset) {
-  for (const auto* at = static_cast<const char*>(from); bytes > 0;) {
-    const ssize_t count = ::pwrite(descriptor_, at, bytes, static_cast<off_t>(offset));
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) fail("cannot be written", count < 0 ? errno : EIO);
-    at += count;
-    bytes -= static_cast<std::size_t>(count);
-    offset += static_cast<std::uint64_t>(count);
-  }
+  transfer(::pwrite, descriptor_, static_cast<const char*>(from), bytes, offset, "cannot be written");
 }
 
 } // namespace phlux::film

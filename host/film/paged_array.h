@@ -52,7 +52,7 @@ public:
   }
   PagedArray& operator=(const PagedArray&) = delete;
 
-  /// Of an empty array.
+  /// The array must be empty.
   void resize(std::size_t size, Storage storage) {
     assert(size_ == 0);
     size_ = size;

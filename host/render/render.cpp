@@ -67,8 +67,7 @@ void warn(const scene::Scene& scene, const Settings& settings, const Events& eve
         fmt::format("`connect` none: no path can hit a point, spot or directional light: {} of the "
                     "scene's lights are dark",
                     lost));
-  const auto is_delta = [](const scene::Material& m) { return m.model->has_delta; };
-  if (settings.integrator == "light" && std::any_of(scene.materials.begin(), scene.materials.end(), is_delta))
+  if (settings.integrator == "light" && scene::has_delta(scene))
     events.warning(
         "light tracing shows mirrors and smooth glass black, because they cannot be connected to the camera: "
         "use `integrator` path or bidir if one is in view");

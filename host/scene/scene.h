@@ -164,4 +164,10 @@ struct Scene {
                      [](const Material& m) { return needs_uv(m); });
 }
 
+/// Whether some surfaces scatter by delta distributions: mirrors and smooth glass.
+[[nodiscard]] inline bool has_delta(const Scene& scene) {
+  return std::any_of(scene.materials.begin(), scene.materials.end(),
+                     [](const Material& m) { return m.model->has_delta; });
+}
+
 } // namespace phlux::scene

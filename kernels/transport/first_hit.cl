@@ -15,7 +15,7 @@ static inline void add_value(Deviations* all, Vec3 value, Real count, Mask m) {
   all->squares = vec_select(m, squares, all->squares);
 }
 
-// Of the mean of `count` values; 0 for fewer than two.
+// The variance of the mean of `count` values, estimated from these; 0 for fewer than two values.
 static inline Vec3 variance_of_mean(Deviations all, Real count) {
   return vec_scale(1.0f / (count * larger(count - 1.0f, (Real)(1.0f))), all.squares);
 }

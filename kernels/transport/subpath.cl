@@ -27,7 +27,7 @@ typedef struct {
   Int edges;       // number of edges so far
   Int path;        // number in the batch
   RandomSequence sequence;
-  // Of the vertex where the ray starts, for the weights of light that it finds:
+  // Quantities at the origin of the ray, from which the weights of the light that it finds are computed:
   Vec3 normal;         // lit_normal, on which the choice of a light depends
   Real density;        // of the ray's direction, per solid angle
   Real cosine_density; // density of the same direction as a light sample of a constant sky
@@ -63,7 +63,7 @@ static inline Subpath no_subpath(uint2 seed, PointSets sets) {
   return s;
 }
 
-// What the rays of the subpaths have found.
+// The intersections of the subpaths' rays with surfaces.
 typedef struct {
   Real distance;
   Mask hits;      // a surface
