@@ -113,22 +113,38 @@ void find_settings(const Imf::Header& header, RenderInfo& info) {
   }
 }
 
+// Calls use(name, value) for each attribute that is a member of RenderInfo.
+template<class Info, class Use>
+void for_each_attribute(Info&& info, const Use& use) {
+  use("version", info.version);
+  use("scene", info.scene);
+  use("sceneDigest", info.scene_digest);
+  use("choice", info.choice);
+  use("samples", info.samples);
+  use("device", info.device);
+  use("driver", info.driver);
+  use("seconds", info.seconds);
+  use("clampedShare", info.clamped_share);
+}
+constexpr const char *seed_name = "seed", *ranges_name = "sampleRanges", *digest_name = "digest";
+
+void insert_attribute(Imf::Header& header, const char* name, const std::string& value) {
+  if (!value.empty()) header.insert(name, Imf::StringAttribute(value));
+}
+void insert_attribute(Imf::Header& header, const char* name, double value) {
+  header.insert(name, Imf::DoubleAttribute(value));
+}
+
 void insert_attributes(Imf::Header& header, const RenderInfo& info) {
-  header.insert("version", Imf::StringAttribute(info.version));
-  header.insert("scene", Imf::StringAttribute(info.scene));
-  header.insert("sceneDigest", Imf::StringAttribute(info.scene_digest));
-  header.insert("samples", Imf::DoubleAttribute(info.samples));
-  header.insert("seed", Imf::StringAttribute(seeds_text(info)));
-  header.insert("sampleRanges", Imf::StringAttribute(ranges_text(info.ranges)));
-  header.insert("device", Imf::StringAttribute(info.device));
-  header.insert("driver", Imf::StringAttribute(info.driver));
-  header.insert("seconds", Imf::DoubleAttribute(info.seconds));
+  for_each_attribute(info,
+                     [&](const char* name, const auto& value) { insert_attribute(header, name, value); });
+  insert_attribute(header, seed_name, seeds_text(info));
+  insert_attribute(header, ranges_name, ranges_text(info.ranges));
   insert_settings(header, info);
-  if (!info.choice.empty()) header.insert("choice", Imf::StringAttribute(info.choice));
-  if (!info.text("clamp").empty()) {
-    header.insert("clampedShare", Imf::DoubleAttribute(info.clamped_share));
+  if (info.text("clamp").empty())
+    header.erase("clampedShare");
+  else
     header.insert("bias", Imf::StringAttribute("clamped"));
-  }
 }
 
 void find_attribute(const Imf::Header& header, const char* name, std::string& value) {
@@ -141,14 +157,12 @@ void find_attribute(const Imf::Header& header, const char* name, double& value) 
     value = attribute->value();
 }
 
-constexpr const char* digest_name = "digest";
-
 // A checksum of the attributes, channels and windows that read_exr() uses: a flipped bit in one of them would
 // be read as another number of samples, or as the name of another channel. OpenEXR has a checksum of the
 // pixels.
 std::string digest_of(const Imf::Header& header) {
-  std::vector<std::string> names = {"version",      "scene",  "sceneDigest", "choice",  "samples",     "seed",
-                                    "sampleRanges", "device", "driver",      "seconds", "clampedShare"};
+  std::vector<std::string> names = {seed_name, ranges_name};
+  for_each_attribute(RenderInfo(), [&](const char* name, const auto&) { names.emplace_back(name); });
   for (const settings::Setting& setting : settings::all())
     if (is_stored(setting)) names.push_back(attribute_of(setting.name));
   std::string texts;
@@ -175,21 +189,12 @@ bool is_changed(const Imf::Header& header) {
 
 RenderInfo find_attributes(const Imf::Header& header) {
   RenderInfo info;
-  find_attribute(header, "version", info.version);
-  find_attribute(header, "scene", info.scene);
-  find_attribute(header, "sceneDigest", info.scene_digest);
-  find_attribute(header, "choice", info.choice);
-  find_attribute(header, "samples", info.samples);
-  std::string seed;
-  find_attribute(header, "seed", seed);
+  for_each_attribute(info, [&](const char* name, auto& value) { find_attribute(header, name, value); });
+  std::string seed, ranges;
+  find_attribute(header, seed_name, seed);
   std::from_chars(seed.data(), seed.data() + seed.size(), info.seed);
-  std::string ranges;
-  find_attribute(header, "sampleRanges", ranges);
+  find_attribute(header, ranges_name, ranges);
   info.ranges = ranges_in(ranges);
-  find_attribute(header, "device", info.device);
-  find_attribute(header, "driver", info.driver);
-  find_attribute(header, "seconds", info.seconds);
-  find_attribute(header, "clampedShare", info.clamped_share);
   find_settings(header, info);
   return info;
 }
