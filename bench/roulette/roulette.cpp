@@ -24,8 +24,6 @@ namespace phlux::bench {
 namespace {
 
 constexpr int rounds = 10, quick_rounds = 5;
-constexpr int round_samples = 64, quick_round_samples = 16;
-constexpr int side = 64, quick_side = 32;
 constexpr int longest = 64; // edges of a path: without roulette nothing else ends it
 constexpr double false_alarm_rate = 0.05;
 
@@ -39,10 +37,6 @@ std::string name_of(render::Roulette roulette) {
 
 int rounds_of(const RouletteOptions& options) {
   return options.quick ? quick_rounds : rounds;
-}
-
-int samples_of(const RouletteOptions& options) {
-  return options.samples > 0 ? options.samples : options.quick ? quick_round_samples : round_samples;
 }
 
 // In a furnace roulette is nearly all of the noise, which no room has.
@@ -77,7 +71,7 @@ Renders render(const scene::Scene& scene, const render::Settings& settings, cons
   Renders renders;
   for (int round = 0; round < rounds_of(options); ++round) {
     const CountedRender one = renderer.render_samples(options.seed + static_cast<std::uint64_t>(round),
-                                                      samples_of(options), options.interrupted);
+                                                      options.round_samples(), options.interrupted);
     renders.images.push_back(estimate_of(one.film));
     renders.rays.push_back(one.rays_per_sample());
   }
@@ -89,16 +83,24 @@ std::vector<double> product(std::vector<double> a, const std::vector<double>& b)
   return a;
 }
 
-// All variants by one integrator. Their renders have the same seeds, so that rounds are paired.
+// All variants by one integrator, without those that the renderer refuses. Their renders have the same seeds,
+// so that rounds are paired.
 std::vector<RouletteCost> measure(const scene::Scene& scene, const std::string& name,
                                   const std::string& integrator, const Reference& reference,
                                   const RouletteOptions& options,
-                                  const std::function<void(const RouletteVariant&)>& report) {
+                                  const std::function<void(const RouletteVariant&)>& report,
+                                  const std::function<void(const std::string&)>& notice) {
   std::vector<RouletteCost> costs;
   std::vector<double> first; // costs of the first variant
   for (const RouletteVariant& variant : roulette_variants(options)) {
     report(variant);
-    const Renders renders = render(scene, settings_of(variant, integrator, scene, options), options);
+    Renders renders;
+    try {
+      renders = render(scene, settings_of(variant, integrator, scene, options), options);
+    } catch (const UsageError& error) {
+      notice(fmt::format("{} {}: refused: {}", integrator, variant.options(), error.what()));
+      continue;
+    }
     const std::vector<double> variances = variances_per_sample(renders.images, reference);
     const std::vector<double> products = product(variances, renders.rays);
     if (first.empty()) first = products;
@@ -123,7 +125,7 @@ std::string row_of(const RouletteCost& c, const scene::Camera& camera, const Rou
   for (const double value : {c.variance.value, c.variance.standard_error, c.rays_per_sample, c.cost.value,
                              c.ratio.value, c.ratio.standard_error})
     row.push_back(number_text(value));
-  row.push_back(fmt::format("{},{},{}x{},{}", rounds_of(options), samples_of(options), camera.width,
+  row.push_back(fmt::format("{},{},{}x{},{}", rounds_of(options), options.round_samples(), camera.width,
                             camera.height, options.seed));
   row.push_back(csv_value(device));
   return fmt::format("{}", fmt::join(row, ","));
@@ -131,41 +133,28 @@ std::string row_of(const RouletteCost& c, const scene::Camera& camera, const Rou
 
 std::string command_of(const RouletteOptions& options) {
   const RouletteOptions defaults;
-  std::string command = "phlux bench roulette";
-  const auto add = [&](const char* option, const std::vector<std::string>& values,
-                       const std::vector<std::string>& otherwise) {
-    if (values != otherwise)
-      for (const std::string& value : values) command += fmt::format(" {} {}", option, value);
-  };
-  if (options.quick) command += " --quick";
-  for (const auto& scene : options.scenes) command += " --scene " + scene.string();
-  add("--integrator", options.integrators, defaults.integrators);
-  add("--strategy", options.strategies, defaults.strategies);
-  add("--roulette", options.roulettes, defaults.roulettes);
-  if (options.samples > 0) command += fmt::format(" --samples {}", options.samples);
-  return fmt::format("{} --seed {}", command, options.seed);
+  return options.command("roulette",
+                         text_of_values("--integrator", options.integrators, defaults.integrators) +
+                             text_of_values("--strategy", options.strategies, defaults.strategies) +
+                             text_of_values("--roulette", options.roulettes, defaults.roulettes));
 }
 
-// The mean over the scenes of log(ratio).
-Estimate mean_log(const std::vector<RouletteCost>& costs, const std::string& integrator,
-                  const RouletteVariant& variant) {
-  Estimate sum;
-  double scenes = 0, variance = 0;
-  for (const RouletteCost& cost : costs) {
-    if (cost.integrator != integrator || cost.variant != variant) continue;
-    sum.value += std::log(cost.ratio.value);
-    variance += std::pow(cost.ratio.standard_error / cost.ratio.value, 2);
-    sum.degrees = cost.ratio.degrees; // of each scene: few, which is on the safe side
-    ++scenes;
-  }
-  return {sum.value / scenes, std::sqrt(variance) / scenes, sum.degrees};
+// The ratios of a variant on all scenes.
+std::vector<Estimate> ratios_of(const std::vector<RouletteCost>& costs, const std::string& integrator,
+                                const RouletteVariant& variant) {
+  std::vector<Estimate> ratios;
+  for (const RouletteCost& cost : costs)
+    if (cost.integrator == integrator && cost.variant == variant) ratios.push_back(cost.ratio);
+  return ratios;
 }
 
 std::string answer_for(const std::string& integrator, const std::vector<RouletteCost>& costs) {
+  const std::size_t scenes = ratios_of(costs, integrator, {}).size();
   std::vector<std::pair<RouletteVariant, Estimate>> means;
   for (const RouletteCost& cost : costs)
     if (cost.integrator == integrator && cost.scene == costs.front().scene)
-      means.emplace_back(cost.variant, mean_log(costs, integrator, cost.variant));
+      if (const auto ratios = ratios_of(costs, integrator, cost.variant); ratios.size() == scenes)
+        means.emplace_back(cost.variant, mean_log_of(ratios));
   std::ranges::sort(means, {}, [](const auto& mean) { return mean.second.value; });
   const Estimate& best = means.front().second;
   const double level = measure::sidak_limit(false_alarm_rate, means.size() - 1);
@@ -173,12 +162,9 @@ std::string answer_for(const std::string& integrator, const std::vector<Roulette
   for (std::size_t i = 1; i < means.size(); ++i)
     if (p_value(difference_of(means[i].second, best), 0) > level)
       tied.push_back(fmt::format("{} ({:.3f})", means[i].first.options(), std::exp(means[i].second.value)));
-  const double reach = measure::student_t(false_alarm_rate, best.degrees) * best.standard_error;
-  return fmt::format(
-      "{}: {} needs {:.3f} (95%: {:.3f} to {:.3f}) times the rays of {} for the same error{}{}", integrator,
-      means.front().first.options(), std::exp(best.value), std::exp(best.value - reach),
-      std::exp(best.value + reach), RouletteVariant().options(), tied.empty() ? "" : "; tied with ",
-      enumeration(tied));
+  return fmt::format("{}: {} needs {} times the rays of {} for the same error{}{}", integrator,
+                     means.front().first.options(), text_of_mean_log(best), RouletteVariant().options(),
+                     tied.empty() ? "" : "; tied with ", enumeration(tied));
 }
 
 void print(const RouletteCost& c) {
@@ -234,13 +220,17 @@ bool measure_roulette(const RouletteOptions& options) try {
   std::vector<RouletteCost> all;
   for (const auto& file : files) {
     const std::string name = file.stem().string();
-    const scene::Scene scene = load_at_size(file, options.quick ? quick_side : side);
+    const scene::Scene scene = load_at_size(file, options.side());
     const Reference reference = reference_of(scene, options);
     for (const std::string& integrator : options.integrators) {
       const auto report = [&](const RouletteVariant& variant) {
         status.show(fmt::format("{}, {} {}", name, integrator, variant.options()));
       };
-      for (const RouletteCost& cost : measure(scene, name, integrator, reference, options, report)) {
+      const auto notice = [&](const std::string& text) {
+        status.clear();
+        fmt::print("{}: {}\n", name, text);
+      };
+      for (const RouletteCost& cost : measure(scene, name, integrator, reference, options, report, notice)) {
         status.clear();
         table.line(row_of(cost, scene.camera, options, device.name));
         print(cost);
@@ -250,9 +240,7 @@ bool measure_roulette(const RouletteOptions& options) try {
   }
   write_provenance(options.folder, "roulette",
                    {command_of(options), device, options.lanes_on(device),
-                    "nothing is timed: rays are counted",
-                    fmt::format("{} to {}", options.seed,
-                                options.seed + static_cast<std::uint64_t>(rounds_of(options) - 1))});
+                    "nothing is timed: rays are counted", options.seeds(rounds_of(options))});
   fmt::print("{}\n", table.path().string());
   const std::string answers = fmt::format("{}\n", fmt::join(roulette_answers(all), "\n"));
   files::write_file(options.folder / "roulette.verdict.txt", answers);

@@ -2,27 +2,20 @@
 // of sampling strategies with it, and of the edge where it begins.
 #pragma once
 
-#include <cstdint>
-#include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "bench/common/methods/image_estimates.h"
-#include "bench/common/options.h"
+#include "bench/common/round_options.h"
 #include "render/render.h"
 
 namespace phlux::bench {
 
-struct RouletteOptions : CommonOptions {
-  std::vector<std::filesystem::path> scenes;                           ///< empty: shipped_scenes() with lamps
+/// Without scenes: shipped_scenes() with lamps.
+struct RouletteOptions : RoundOptions {
   std::vector<std::string> integrators = settings::integrator_names(); ///< path, light, bidir
   std::vector<std::string> strategies = {"exact"};
   std::vector<std::string> roulettes = {"reflectivity", "kd-ks", "throughput", "efficiency"};
-  bool quick = false;                ///< smaller images, fewer samples and rounds
-  int samples = 0;                   ///< per pixel and round; 0: 64, or 16 if quick
-  std::uint64_t seed = 1;            ///< of the first round
-  std::function<bool()> interrupted; ///< may be empty
 };
 
 /// One way to render: a strategy with a roulette that begins at an edge, or none (-1).
@@ -49,8 +42,8 @@ struct RouletteCost {
 };
 
 /// For each integrator the variant with the least geometric mean of the ratios over the scenes, as a sentence
-/// with its 95% interval, and those that are not significantly worse. `costs` must have every variant on
-/// every scene.
+/// with its 95% interval, and those that are not significantly worse. A variant that is not measured on every
+/// scene is left out. `costs` must have the first variant on every scene.
 [[nodiscard]] std::vector<std::string> roulette_answers(const std::vector<RouletteCost>& costs);
 
 /// Writes roulette.csv (bench/README.md), then its chart and its section of the report. Returns false if

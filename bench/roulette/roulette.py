@@ -10,12 +10,19 @@ from functools import partial
 import chart_style as style
 import matplotlib.pyplot as plt
 
-TICKS = (0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1, 1.2, 1.5, 2, 3, 5, 10)
-DEPTHS = {1: "from edge 1", 5: "from edge 5", -1: ""}  # filled from 5 on, open from 1 on
+TICKS = (0.1, 0.3, 1, 3, 10, 30, 100)
+FINE_TICKS = (0.3, 0.4, 0.6, 0.8, 1, 1.2, 1.5, 2, 3, 4)
+DEPTHS = {1: "from edge 1", 5: "from edge 5", -1: ""}
+COLUMNS = {1: "from edge 1", 5: "from edge 5", -1: "no roulette"}
 
 
 def series_of(row):
-    return row.roulette if row.strategy == "exact" else f"{row.strategy}, {row.roulette}"
+    return row.roulette if row.strategy == "exact" else row.strategy if row.rr_depth < 0 else f"{row.strategy}, {row.roulette}"
+
+
+def name_of(row, one_roulette):
+    """The label of a row in the chart: its strategy if the others have the same roulette."""
+    return row.strategy if one_roulette else series_of(row)
 
 
 def variant_of(row):
@@ -23,38 +30,50 @@ def variant_of(row):
 
 
 def draw(rows, theme):
+    """A line of panels for each integrator, a column for each edge at which roulette begins."""
+    rows = [row for row in rows if row.roulette != "strategy" or row.strategy != "exact"]  # with which they are compared
+    one_roulette = len({row.roulette for row in rows if row.rr_depth > 0}) == 1
     integrators = list(dict.fromkeys(row.integrator for row in rows))
     scenes = list(dict.fromkeys(row.scene for row in rows))
-    series = list(dict.fromkeys(series_of(row) for row in rows))
-    high = len(scenes) * (0.42 + 0.05 * max(0, len(series) - 5))
-    figure, panels = plt.subplots(len(integrators), 1, figsize=(9, 1.2 + (high + 0.55) * len(integrators)), squeeze=False)
-    for integrator, axes in zip(integrators, panels[:, 0]):
-        for row in (row for row in rows if row.integrator == integrator):
-            i = series.index(series_of(row))
-            y = scenes.index(row.scene) + 0.7 * ((i + 0.5) / len(series) - 0.5)
-            color = theme.color(i % len(style.SERIES))
-            axes.errorbar(row.ratio, y, xerr=2 * row.ratio_standard_error, color=color, ls="none", lw=0.8, ms=5,
-                          marker=style.MARKERS[i % len(style.MARKERS)], mfc="none" if row.rr_depth == 1 else color,
-                          label=variant_of(row))
-        axes.axvline(1, color=theme.ink, lw=0.8)
-        axes.set_xscale("log")
-        low, most = axes.get_xlim()
-        axes.set_xlim(min(0.8, low), max(1.25, most))
-        ticks = [tick for tick in TICKS if min(0.8, low) <= tick <= max(1.25, most)]
-        axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
-        axes.set_xticks([], minor=True)
-        axes.set_yticks(range(len(scenes)), scenes)
-        axes.set_ylim(len(scenes) - 0.5, -0.5)
-        axes.grid(True, axis="x")
-        axes.set_title(integrator, loc="left")
-    panels[-1, 0].set_xlabel("variance x rays, relative to --roulette strategy --rr-depth 5")
+    depths = [depth for depth in COLUMNS if any(row.rr_depth == depth for row in rows)]
+    series = list(dict.fromkeys(name_of(row, one_roulette) for row in rows if row.rr_depth > 0))
+    high = len(scenes) * (0.3 + 0.05 * len(series))
+    figure, panels = plt.subplots(len(integrators), len(depths), figsize=(9, 1.2 + (high + 0.6) * len(integrators)),
+                                  sharex=True, sharey=True, squeeze=False)
+    for integrator, line in zip(integrators, panels):
+        for depth, axes in zip(depths, line):
+            own = [row for row in rows if (row.integrator, row.rr_depth) == (integrator, depth)]
+            for row in own:
+                name = name_of(row, one_roulette)
+                i = series.index(name) if name in series else 0
+                color = theme.ink if name not in series else theme.color(i % len(style.SERIES))
+                y = scenes.index(row.scene) + 0.8 * ((i + 0.5) / len(series) - 0.5) * (name in series)
+                axes.errorbar(row.ratio, y, xerr=2 * row.ratio_standard_error, color=color, ls="none", lw=0.8, ms=4.5,
+                              marker=style.MARKERS[i % len(style.MARKERS)], label=name,
+                              mfc=color if i < len(style.SERIES) else "none")
+            axes.axvline(1, color=theme.ink, lw=0.8)
+            axes.grid(True, axis="x")
+            axes.set_title(f"{integrator}, {COLUMNS[depth]}", loc="left", fontsize="medium")
+    axes = panels[0, 0]
+    least = min(row.ratio for row in rows)
+    most = max(row.ratio for row in rows)
+    axes.set_xscale("log")
+    axes.set_xlim(min(0.8, least / 1.2), max(1.25, most * 1.2))
+    ticks = [tick for tick in (TICKS if most > 8 * least else FINE_TICKS) if axes.get_xlim()[0] <= tick <= axes.get_xlim()[1]]
+    axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
+    axes.set_xticks([], minor=True)
+    axes.set_yticks(range(len(scenes)), scenes)
+    axes.set_ylim(len(scenes) - 0.5, -0.5)
     known = {}
-    for axes in panels[:, 0]:
+    for axes in panels.flat:
         for handle, label in zip(*axes.get_legend_handles_labels()):
-            known.setdefault(label, handle)
-    height, lines = figure.get_figheight(), -(-len(known) // 4)
-    figure.subplots_adjust(0.2, (0.65 + 0.22 * lines) / height, 0.98, 1 - 0.3 / height, hspace=0.3)
-    figure.legend(known.values(), known.keys(), loc="lower center", ncol=4)
+            if label in series:
+                known.setdefault(label, handle)
+    height, lines = figure.get_figheight(), -(-len(known) // 5)
+    figure.supxlabel("variance x rays, relative to --roulette strategy --rr-depth 5", fontsize="medium",
+                     y=(0.2 + 0.22 * lines) / height)
+    figure.subplots_adjust(0.17, (0.7 + 0.22 * lines) / height, 0.98, 1 - 0.3 / height, hspace=0.25, wspace=0.08)
+    figure.legend(known.values(), known.keys(), loc="lower center", ncol=5)
     return figure
 
 
@@ -62,16 +81,19 @@ def summary(folder, rows):
     """The geometric mean over the scenes of each variant's ratio, by integrator."""
     integrators = list(dict.fromkeys(row.integrator for row in rows))
     variants = list(dict.fromkeys(variant_of(row) for row in rows))
+    scenes = len({row.scene for row in rows})
     lines = []
     for variant in variants:
         line = [variant]
         for integrator in integrators:
             ratios = [row.ratio for row in rows if row.integrator == integrator
                       and variant_of(row) == variant]
-            line.append(math.exp(sum(math.log(ratio) for ratio in ratios) / len(ratios)))
+            complete = len(ratios) == scenes
+            line.append(math.exp(sum(math.log(ratio) for ratio in ratios) / len(ratios)) if complete else "-")
         lines.append(line)
     return {"text": style.read_verdict(folder, "roulette"), "columns": ["roulette", *integrators], "rows": lines,
-            "note": "Variance x rays, relative to --roulette strategy --rr-depth 5: geometric mean over the scenes."}
+            "note": "Variance x rays, relative to --roulette strategy --rr-depth 5: geometric mean over the scenes; - if the "
+                    "renderer refuses the variant on one of them."}
 
 
 def main():
@@ -85,8 +107,7 @@ def main():
               "come from the jackknife over the rounds."],
         summary=summary(folder, rows),
         charts=[{"svg": "roulette.svg", "title": "Variance x rays of each roulette",
-                 "caption": "Left of 1, fewer rays are needed for the same error. Open marks: roulette from edge 1 on. "
-                            "Error bars are two standard errors."}],
+                 "caption": "Left of 1, fewer rays are needed for the same error. Error bars are two standard errors."}],
         tables=[{"csv": "roulette.csv", "title": "All results"}])
 
 

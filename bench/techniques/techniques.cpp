@@ -22,8 +22,6 @@ namespace phlux::bench {
 namespace {
 
 constexpr int round_count = 10, quick_round_count = 6;
-constexpr int round_samples = 64, quick_round_samples = 16;
-constexpr int side = 64, quick_side = 32;
 constexpr double false_alarm_rate = 0.05;
 
 const std::string columns =
@@ -33,10 +31,6 @@ const std::string columns =
 
 int rounds_of(const TechniquesOptions& options) {
   return options.quick ? quick_round_count : round_count;
-}
-
-int samples_of(const TechniquesOptions& options) {
-  return options.samples > 0 ? options.samples : options.quick ? quick_round_samples : round_samples;
 }
 
 Method method_of(const TechniquesOptions& options) {
@@ -98,7 +92,7 @@ TechniqueRounds render_rounds(const scene::Scene& scene, const TechniquesOptions
   for (int round = 0; round < count; ++round) {
     report(round);
     add_round(rounds, renderer.render_samples(options.seed + static_cast<std::uint64_t>(round),
-                                              samples_of(options), options.interrupted));
+                                              options.round_samples(), options.interrupted));
   }
   for (auto& [technique, mine] : rounds.techniques) mine.rays /= count;
   rounds.rays /= count;
@@ -150,13 +144,10 @@ void print(const std::string& scene, const std::vector<TechniqueShare>& shares) 
 }
 
 std::string command_of(const TechniquesOptions& options) {
-  std::string command = "phlux bench techniques";
-  if (options.quick) command += " --quick";
-  for (const auto& scene : options.scenes) command += " --scene " + scene.string();
-  if (options.integrator != TechniquesOptions().integrator) command += " --integrator " + options.integrator;
-  if (options.weights != TechniquesOptions().weights) command += " --weights " + options.weights;
-  if (options.samples > 0) command += fmt::format(" --samples {}", options.samples);
-  return fmt::format("{} --seed {}", command, options.seed);
+  const TechniquesOptions defaults;
+  return options.command("techniques",
+                         text_of_values("--integrator", {options.integrator}, {defaults.integrator}) +
+                             text_of_values("--weights", {options.weights}, {defaults.weights}));
 }
 
 } // namespace
@@ -216,7 +207,7 @@ bool measure_techniques(const TechniquesOptions& options) try {
   std::string answers;
   for (const auto& file : files) {
     const std::string name = file.stem().string();
-    const scene::Scene scene = load_at_size(file, options.quick ? quick_side : side);
+    const scene::Scene scene = load_at_size(file, options.side());
     const TechniqueRounds rounds = render_rounds(scene, options, [&](int round) {
       status.show(fmt::format("{}: round {} of {}", name, round + 1, rounds_of(options)));
     });
@@ -225,7 +216,7 @@ bool measure_techniques(const TechniquesOptions& options) try {
     for (const TechniqueShare& share : shares)
       table.line(fmt::format("{},{},{},{},{},{},{}x{},{},{}", csv_value(name), method.integrator,
                              method.variant, fmt::join(values_of(share), ","), rounds_of(options),
-                             samples_of(options), scene.camera.width, scene.camera.height, options.seed,
+                             options.round_samples(), scene.camera.width, scene.camera.height, options.seed,
                              csv_value(device.name)));
     status.clear();
     answers += fmt::format("{}: {}\n", name, techniques_answer(shares));
@@ -234,9 +225,7 @@ bool measure_techniques(const TechniquesOptions& options) try {
   files::write_file(options.folder / "techniques.verdict.txt", answers);
   write_provenance(options.folder, "techniques",
                    {command_of(options), device, options.lanes_on(device),
-                    "nothing is timed: rays are counted",
-                    fmt::format("{} to {}", options.seed,
-                                options.seed + static_cast<std::uint64_t>(rounds_of(options) - 1))});
+                    "nothing is timed: rays are counted", options.seeds(rounds_of(options))});
   draw_charts(options.folder, "techniques");
   fmt::print("{}\n", table.path().string());
   return true;

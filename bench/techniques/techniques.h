@@ -2,27 +2,19 @@
 // of the variance and of the rays (Veach 10.2).
 #pragma once
 
-#include <cstdint>
-#include <filesystem>
-#include <functional>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "bench/common/methods/image_estimates.h"
-#include "bench/common/options.h"
+#include "bench/common/round_options.h"
 #include "film/techniques.h"
 
 namespace phlux::bench {
 
-struct TechniquesOptions : CommonOptions {
-  std::vector<std::filesystem::path> scenes; ///< empty: shipped_scenes()
-  std::string integrator = "bidir";          ///< or light
-  std::string weights = "balance";           ///< of bidir
-  bool quick = false;                        ///< smaller images, fewer samples and rounds
-  int samples = 0;                           ///< per pixel and round; 0: 64, or 16 if quick
-  std::uint64_t seed = 1;                    ///< of the first round
-  std::function<bool()> interrupted;         ///< may be empty
+struct TechniquesOptions : RoundOptions {
+  std::string integrator = "bidir"; ///< or light
+  std::string weights = "balance";  ///< of bidir
 };
 
 /// The technique that stands for all of more than film::most_technique_edges edges.

@@ -12,6 +12,7 @@
 #include "bench/rays/rays.h"
 #include "bench/remedies/remedies.h"
 #include "bench/roulette/roulette.h"
+#include "bench/samplers/samplers.h"
 #include "bench/sampling/sampling.h"
 #include "bench/scenes/scenes.h"
 #include "bench/stability/stability.h"
@@ -71,13 +72,19 @@ void add_strategies(CLI::App& app, std::vector<std::string>& strategies) {
 }
 
 // Samples per pixel and round, where rays are counted and nothing is timed.
-void add_samples(CLI::App& app, int& samples) {
-  add_value(app, "--samples", "N", "samples per pixel and round; default: 64, or 16 with --quick",
-            [&samples](const std::string& text) {
-              constexpr std::uint64_t most = 1'000'000;
-              samples = static_cast<int>(settings::whole_number("--samples", text, 1, most));
-            });
+// Scenes, amount and seed of a measurement by rounds.
+void add_rounds(CLI::App& app, bench::RoundOptions& options, const std::string& default_scenes,
+                const std::string& samples) {
+  add_scene_files(app, default_scenes, options.scenes);
+  add_value(app, "--samples", "N", samples, [&options](const std::string& text) {
+    constexpr std::uint64_t most = 1'000'000;
+    options.samples = static_cast<int>(settings::whole_number("--samples", text, 1, most));
+  });
+  add_flag(app, "--quick", "smaller images, fewer samples and rounds", options.quick);
+  add_seed(app, "the first round", options.seed);
 }
+
+constexpr const char* samples_per_round = "samples per pixel and round; default: 64, or 16 with --quick";
 
 // Render time and image size.
 void add_amount(CLI::App& app, bench::ComparisonOptions& options, const std::string& seconds,
@@ -238,15 +245,28 @@ void add_roulette(CLI::App& bench, std::optional<Command>& command) {
       "roulette", "Measures variance x rays of renders with each Russian roulette: roulette.csv");
   const auto options = std::make_shared<bench::RouletteOptions>();
   add_common(app, *options);
-  add_scene_files(app, "scenes/*.xml, without the furnaces", options->scenes);
   add_names(app, "--integrator", "integrator", settings::integrator_names(), options->integrators);
   add_names(app, "--roulette", "survival probability, measured from edge 1 and from edge 5",
             render::roulette_names(), options->roulettes);
   add_strategies(app, options->strategies);
-  add_samples(app, options->samples);
-  app.add_flag("--quick", options->quick, "smaller images, fewer samples and rounds");
-  add_seed(app, "the first round", options->seed);
+  add_rounds(app, *options, "scenes/*.xml, without the furnaces", samples_per_round);
   measure_by(bench::measure_roulette, app, command, options);
+}
+
+void add_samplers(CLI::App& bench, std::optional<Command>& command) {
+  CLI::App& app = *bench.add_subcommand(
+      "samplers", "Measures error and time with low-discrepancy and independent samples: samplers.csv");
+  static const std::vector<std::string> integrators = {"path", "bidir"}; // light has independent samples only
+  const auto options = std::make_shared<bench::SamplersOptions>();
+  add_common(app, *options);
+  add_names(app, "--integrator", "integrator", integrators, options->integrators);
+  add_names(app, "--sampler", "compared with independent samples", settings::sampler_names(),
+            options->samplers);
+  add_rounds(
+      app, *options, "scenes/*.xml",
+      "largest number of samples per pixel; also measured are a quarter of it, and so on, four numbers "
+      "in all; default: 1024, or 64 with --quick");
+  measure_by(bench::measure_samplers, app, command, options);
 }
 
 void add_techniques(CLI::App& bench, std::optional<Command>& command) {
@@ -255,7 +275,6 @@ void add_techniques(CLI::App& bench, std::optional<Command>& command) {
       "Measures the share of each technique (s, t) in light, variance and rays: techniques.csv");
   const auto options = std::make_shared<bench::TechniquesOptions>();
   add_common(app, *options);
-  add_scene_files(app, "scenes/*.xml", options->scenes);
   add_value(app, "--integrator", "NAME", "bidir or light; default: bidir",
             [options](const std::string& text) {
               const std::vector<std::string> names = {"bidir", "light"};
@@ -266,9 +285,7 @@ void add_techniques(CLI::App& bench, std::optional<Command>& command) {
               const auto& names = render::weights_names();
               options->weights = names[settings::choice("--weights", text, names)];
             });
-  add_samples(app, options->samples);
-  app.add_flag("--quick", options->quick, "smaller images, fewer samples and rounds");
-  add_seed(app, "the first round", options->seed);
+  add_rounds(app, *options, "scenes/*.xml", samples_per_round);
   measure_by(bench::measure_techniques, app, command, options);
 }
 
@@ -344,6 +361,7 @@ void add_bench(CLI::App& program, std::optional<Command>& command) {
   add_precision(app, command);
   add_remedies(app, command);
   add_roulette(app, command);
+  add_samplers(app, command);
   add_techniques(app, command);
   add_figures(app, command);
   add_stability(app, command);

@@ -41,6 +41,7 @@ TEST_CASE("The answer on roulette is the least geometric mean, with what is not 
     add(scene, close, 0.71, 0.02);
     add(scene, bad, 1.5, 0.1);
   }
+  add("a", {"rejection", render::Roulette::kd_ks, 5}, 0.1, 0.01); // b's lobe is too narrow for it
   const std::vector<std::string> answers = roulette_answers(costs);
   REQUIRE(answers.size() == 1);
   CHECK_THAT(answers[0], Contains("bidir: --roulette kd-ks --rr-depth 5 needs 0.700 (95%: 0."));

@@ -24,7 +24,7 @@ TEST_CASE("phlux bench rays writes the contract's columns") {
     CHECK_THAT(outcome.out, Catch::Contains(kind));
 }
 
-TEST_CASE("phlux bench roulette and phlux bench techniques: rows, charts, and the answer last") {
+TEST_CASE("phlux bench roulette, samplers and techniques: rows, charts, and the answer last") {
   const TemporaryFolder folder;
   const Outcome roulette =
       run({{"bench", "roulette", "--quick", "--samples", "4", "--scene", shipped("cornell-box"), "--out", ".",
@@ -41,6 +41,22 @@ TEST_CASE("phlux bench roulette and phlux bench techniques: rows, charts, and th
   for (const std::string& line : lines) CHECK(columns_of(line) == columns_of(lines[0]));
   CHECK_THAT(roulette.out, Catch::Contains("\nlight: --r"));
 
+  const Outcome samplers =
+      run({{"bench", "samplers", "--quick", "--samples", "64", "--scene", shipped("cornell-box"), "--out",
+            ".", "--integrator", "path", "--sampler", "lattice"},
+           folder.path(),
+           {},
+           {}});
+  CAPTURE(samplers.err);
+  CHECK(has_charts(samplers) == drawn);
+  lines = lines_of(TemporaryFolder::read(folder / "samplers.csv"));
+  REQUIRE(lines.size() == 5); // two samplers with 16 and 64 samples
+  CHECK_THAT(lines[1], Catch::StartsWith("cornell-box,path,independent,16,"));
+  CHECK_THAT(lines[4], Catch::StartsWith("cornell-box,path,lattice,64,"));
+  for (const std::string& line : lines) CHECK(columns_of(line) == columns_of(lines[0]));
+  CHECK_THAT(samplers.out,
+             Catch::Contains("\npath: for the error of 64 independent samples per pixel, --sampler l"));
+
   const Outcome techniques = run(
       {{"bench", "techniques", "--quick", "--samples", "4", "--scene", shipped("cornell-box"), "--out", "."},
        folder.path(),
@@ -54,7 +70,8 @@ TEST_CASE("phlux bench roulette and phlux bench techniques: rows, charts, and th
   CHECK_THAT(techniques.out,
              Catch::Contains("\ncornell-box: (") && Catch::Contains(" of the variance; it brings "));
   if (drawn)
-    for (const char* title : {"Russian roulette in whole renders", "Techniques of bidir balance"})
+    for (const char* title :
+         {"Russian roulette in whole renders", "Low-discrepancy samplers", "Techniques of bidir balance"})
       CHECK_THAT(TemporaryFolder::read(folder / "index.html"), Catch::Contains(title));
 }
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -230,6 +231,27 @@ TEST_CASE("Means in the pages on roulette are those of the table") {
   for (const char* name : {"kd-ks", "throughput", "efficiency"}) {
     check("saved/ROULETTE.md", name, 2);
     check("CHOOSING.md", name, 3);
+  }
+}
+
+TEST_CASE("Means in the page on strategies in whole renders are those of the table") {
+  const Table table = saved("roulette-strategies.csv");
+  std::map<std::string, std::map<std::string, std::vector<double>>> logarithms; // by strategy, then column
+  for (std::size_t row = 0; row < table.rows.size(); ++row)
+    if (table.at(row, "roulette") != "strategy" && table.at(row, "scene") != "caustic")
+      logarithms[table.at(row, "strategy")][table.at(row, "integrator") + table.at(row, "rr_depth")]
+          .push_back(std::log(table.number(row, "ratio")));
+  CHECK(logarithms.size() == 12);
+  for (const auto& [strategy, columns] : logarithms) {
+    std::size_t column = 2;
+    for (const char* integrator : {"path", "bidir", "light"})
+      for (const char* depth : {"1", "5", "-1"}) {
+        const std::vector<double>& all = columns.at(std::string(integrator) + depth);
+        CAPTURE(strategy, integrator, depth);
+        CHECK(number_in(row_of("saved/ROULETTE.md", "`" + strategy + "`").at(column++)) ==
+              Approx(std::exp(std::accumulate(all.begin(), all.end(), 0.0) / static_cast<double>(all.size())))
+                  .epsilon(0.02));
+      }
   }
 }
 

@@ -6,6 +6,8 @@
 #include <functional>
 #include <numeric>
 
+#include <fmt/format.h>
+
 #include "measure/statistics.h"
 
 namespace phlux::bench {
@@ -201,6 +203,22 @@ Estimate ratio_of(std::span<const double> a, std::span<const double> b) {
   double squares = 0;
   for (const double ratio : without) squares += std::pow(ratio - mean(without), 2);
   return {sum_a / sum_b, std::sqrt(squares * (count - 1) / count), count - 1};
+}
+
+Estimate mean_log_of(std::span<const Estimate> ratios) {
+  const auto count = static_cast<double>(ratios.size());
+  double sum = 0, variance = 0;
+  for (const Estimate& ratio : ratios) {
+    sum += std::log(ratio.value);
+    variance += std::pow(ratio.standard_error / ratio.value, 2);
+  }
+  return {sum / count, std::sqrt(variance) / count, ratios.front().degrees};
+}
+
+std::string text_of_mean_log(const Estimate& mean) {
+  const double reach = measure::student_t(0.05, mean.degrees) * mean.standard_error;
+  return fmt::format("{:.3f} (95%: {:.3f} to {:.3f})", std::exp(mean.value), std::exp(mean.value - reach),
+                     std::exp(mean.value + reach));
 }
 
 std::vector<double> image_means(Repeats repeats) {

@@ -10,6 +10,7 @@
 
 #include <limits>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "film/film.h"
@@ -75,6 +76,13 @@ struct Reference {
 /// Mean of a / mean of b, of figures from the same rounds, with a standard error by the jackknife over the
 /// rounds. Requires two rounds or more, and means of b that are not 0.
 [[nodiscard]] Estimate ratio_of(std::span<const double> a, std::span<const double> b);
+
+/// The logarithm of the geometric mean of independent ratios, such as those of several scenes, with the
+/// degrees of freedom of one of them, which is on the safe side.
+[[nodiscard]] Estimate mean_log_of(std::span<const Estimate> ratios);
+
+/// Such a mean and its 95% interval: "0.931 (95%: 0.92 to 0.95)".
+[[nodiscard]] std::string text_of_mean_log(const Estimate& mean);
 
 /// Mean radiance over pixels and channels of each repeat.
 [[nodiscard]] std::vector<double> image_means(Repeats repeats);

@@ -153,7 +153,7 @@ TimedRender MethodRenderer::render_one_sample(std::uint64_t seed) {
 
 CountedRender MethodRenderer::render_samples(std::uint64_t seed, int samples,
                                              const std::function<bool()>& interrupted) {
-  CountedRender result{film::Film(width_, height_), {}};
+  CountedRender result{film::Film(width_, height_), {}, -processor_seconds()};
   render::Settings settings = settings_;
   settings.seed = seed;
   settings.samples_per_pixel = samples;
@@ -162,6 +162,7 @@ CountedRender MethodRenderer::render_samples(std::uint64_t seed, int samples,
   events.progress = [&](const render::Progress&) { return !(stopped = interrupted && interrupted()); };
   result.statistics = renderer_.render(settings, result.film, events);
   if (stopped) throw Interrupted{};
+  result.processor_seconds += processor_seconds();
   return result;
 }
 

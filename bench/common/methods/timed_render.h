@@ -42,6 +42,7 @@ struct TimedRender {
 struct CountedRender {
   film::Film film;
   render::Statistics statistics;
+  double processor_seconds = 0; ///< of this process, over all threads
 
   [[nodiscard]] double rays_per_sample() const {
     return static_cast<double>(statistics.rays + statistics.shadow_rays) /
