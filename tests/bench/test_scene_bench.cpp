@@ -36,6 +36,24 @@ const Method none{"path", "exact", "none"}, mis{"path", "exact", "mis"};
 
 } // namespace
 
+TEST_CASE("Light tracing is known to be biased where mirrors or glass are in view") {
+  const Method light{"light", "exact", "-"};
+  const auto bias_in = [](const scene::Scene& scene, const Method& method) {
+    return KnownBias(scene, render::Settings()).of(method);
+  };
+  CHECK(!bias_in(shipped("mirror-ball", 16), light).empty());
+  CHECK(bias_in(shipped("mirror-ball", 16), mis).empty());
+  CHECK(bias_in(shipped("cornell-box", 16), light).empty());
+  CHECK(bias_in(shipped("stability/mirrored-caustic", 16), light).empty()); // its mirror is out of view
+  scene::Scene masked = shipped("mirror-ball", 16);                         // only other surfaces are seen
+  for (scene::Material& material : masked.materials)
+    if (material.model->has_delta) material.opacity = scene::Rgb(0.0);
+  CHECK(bias_in(masked, light).empty());
+  scene::Scene with_point = shipped("mirror-ball", 16);
+  with_point.point_lights.push_back({});
+  CHECK(!bias_in(with_point, mis).empty());
+}
+
 // 200 seeds in groups of ten. Pixels are independent, so each pixel of a group is one experiment. The number
 // of intervals that cover the radiance is binomial; the test fails with probability 1e-3 for random seeds.
 TEST_CASE("The standard error of the mean covers the radiance of a furnace at the stated rate") {

@@ -7,14 +7,16 @@ Each scene is measured once for --truth seconds (default: 10 times the longest o
 seed. Prints a Markdown table of all scenes and times. A run resumes from the tables in OUT. Default: scenes/*.xml and
 scenes/stability/*.xml. Columns:
 
-- best, tied, undecided: runs that name one method, several, or say that there was too little time.
-- wrong: of the decided runs, those in which no named method is within 10% of the least cost of the long run.
-- biased: rows with the verdict biased by methods that the long run does not call biased.
-- intervals: of the ratios of cost to the best method, the share that holds the ratio of the long run. Intervals are right
-  together in 95% of the runs, so that each holds more often.
+- best, tied, undecided: number of runs that name one method, that name several, and that say that there was too little time.
+- wrong: number of runs, of those that name methods, in which no named method has a cost within 10% of the least of the long run.
+- biased: number of verdicts "biased" for methods that are not biased according to the long run.
+- intervals: share of the confidence intervals of the ratio of costs to the best method that contain the ratio of the long run,
+  and their number. The intervals of a run are all right with probability 95%, so that each contains it more often. They are
+  widened by two standard errors of the ratio of the long run, which has an error too.
 """
 import argparse
 import csv
+import math
 import os
 import pathlib
 import subprocess
@@ -52,6 +54,15 @@ def outcome_of(rows):
     return "undecided" if ranks["open"] or not ranks["best"] else "tied" if ranks["tied"] else "best"
 
 
+def contains_truth(row, truth, truth_of_best):
+    """Whether the interval of a ratio of costs contains that of the long run, within the errors of both."""
+    ratio = float(truth["cost"]) / float(truth_of_best["cost"])
+    errors = [float(r["variance_standard_error"]) / float(r["variance_per_sample"]) for r in (truth, truth_of_best)]
+    off = math.log(ratio / float(row["cost_ratio"]))
+    reach = math.log(float(row["cost_ratio_high" if off > 0 else "cost_ratio_low"]) / float(row["cost_ratio"]))
+    return abs(off) <= math.hypot(reach, 2 * errors[0], 2 * errors[1])
+
+
 def compare(rows, truth):
     """Counts of one run."""
     counts = Counter({outcome_of(rows): 1, "runs": 1})
@@ -65,7 +76,7 @@ def compare(rows, truth):
         for key, row in rows.items():
             if key in known and key != best and row["verdict"] == "sound":
                 counts["intervals"] += 1
-                counts["held"] += float(row["cost_ratio_low"]) <= known[key] / known[best] <= float(row["cost_ratio_high"])
+                counts["held"] += contains_truth(row, truth[key], truth[best])
     return counts
 
 

@@ -43,13 +43,4 @@ render::Settings settings_of(const Method& method, const scene::RenderDefaults& 
   return settings;
 }
 
-std::string known_bias(const Method& method, const scene::Scene& scene) {
-  const bool unhittable =
-      !scene.point_lights.empty() || !scene.spot_lights.empty() || !scene.directional_lights.empty();
-  if (method.integrator == "path" && method.variant == "none" && unhittable)
-    return "no path can hit a point, spot or directional light";
-  if (method.strategy == "lobe-estimate-printed") return "the strategy loses light at grazing angles";
-  return {};
-}
-
 } // namespace phlux::bench

@@ -25,7 +25,4 @@ struct Method {
 /// Settings of render() for the method, with the depths of the scene.
 [[nodiscard]] render::Settings settings_of(const Method& method, const scene::RenderDefaults& defaults);
 
-/// Why the method is known to be biased, as text; empty if it is unbiased.
-[[nodiscard]] std::string known_bias(const Method& method, const scene::Scene& scene);
-
 } // namespace phlux::bench

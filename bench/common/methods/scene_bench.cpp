@@ -45,13 +45,13 @@ void raise_variance(ReferenceImage& reference, double variance_per_sample) {
 
 // Without a trustworthy reference nobody can be shown to be biased.
 void doubt_reference(std::vector<MethodResult>& results, const ReferenceImage& reference,
-                     const scene::Scene& scene) {
+                     const KnownBias& known_bias) {
   const auto doubtful = [&](const MethodResult& result) {
     return result.method.name() == reference.method && result.verdict == Verdict::suspect_variance;
   };
   if (std::ranges::none_of(results, doubtful)) return;
   for (MethodResult& result : results)
-    if (result.verdict == Verdict::biased && known_bias(result.method, scene).empty())
+    if (result.verdict == Verdict::biased && known_bias.of(result.method).empty())
       result.decide(Verdict::undecided, result.reason + ", whose own variance is suspect");
 }
 
@@ -68,7 +68,10 @@ render::Settings render_settings(const Method& method, const scene::Scene& scene
 }
 
 SceneBench::SceneBench(const scene::Scene& scene, const SceneBenchSettings& settings)
-    : scene_(scene), settings_(settings), begin_(Clock::now()) {}
+    : scene_(scene), settings_(settings),
+      known_bias_(scene,
+                  render_settings(all_methods({render::Settings().strategy}, true).front(), scene, settings)),
+      begin_(Clock::now()) {}
 
 double SceneBench::seconds_left() const {
   return settings_.seconds - seconds_since(begin_);
@@ -147,7 +150,7 @@ Trial* SceneBench::best_trial() {
   const bool all_black = std::ranges::all_of(trials_, black);
   Trial* best = nullptr;
   for (Trial& trial : trials_)
-    if (trial.refusal.empty() && known_bias(trial.method, scene_).empty() && (all_black || !black(trial)))
+    if (trial.refusal.empty() && known_bias_.of(trial.method).empty() && (all_black || !black(trial)))
       if (best == nullptr ||
           trial.variance * trial.seconds_per_sample < best->variance * best->seconds_per_sample)
         best = &trial;
@@ -224,9 +227,9 @@ std::vector<MethodResult> SceneBench::measure(ReferenceImage& reference) {
   for (const Trial& trial : trials_)
     results.push_back(
         trial.refusal.empty()
-            ? renders[next++].result(trial.method, reference, known_bias(trial.method, scene_))
+            ? renders[next++].result(trial.method, reference, known_bias_.of(trial.method))
             : MethodResult{.method = trial.method, .verdict = Verdict::refused, .reason = trial.refusal});
-  doubt_reference(results, reference, scene_);
+  doubt_reference(results, reference, known_bias_);
   return results;
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/common/methods/known_bias.h"
 #include "bench/common/methods/method_result.h"
 #include "clock.h"
 
@@ -46,6 +47,7 @@ struct Trial {
 
 class SceneBench {
 public:
+  /// @throws DeviceError
   SceneBench(const scene::Scene& scene, const SceneBenchSettings& settings);
 
   /// Uses at most 15% of the time. @throws Interrupted, DeviceError
@@ -72,6 +74,7 @@ private:
 
   const scene::Scene& scene_;
   const SceneBenchSettings& settings_;
+  KnownBias known_bias_;
   Clock::time_point begin_;
   bool keep_renderers_ = true;
   std::vector<Trial> trials_;
