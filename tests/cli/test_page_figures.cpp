@@ -255,6 +255,36 @@ TEST_CASE("Means in the page on strategies in whole renders are those of the tab
   }
 }
 
+TEST_CASE("Times in the pages on samplers are those of the table") {
+  const Table table = saved("samplers.csv");
+  std::map<std::string, double> logarithms; // sums over the scenes
+  std::size_t scenes = 0;
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    const std::string sampler = table.at(row, "sampler"), integrator = table.at(row, "integrator");
+    if (table.at(row, "samples_per_pixel") != "1024") continue;
+    if (sampler == "independent") {
+      scenes += integrator == "path" ? 1 : 0;
+      continue;
+    }
+    const double time = table.number(row, "relative_time");
+    const std::size_t column = (integrator == "path" ? 2 : 4) + (sampler == "lattice" ? 0 : 1);
+    CAPTURE(table.at(row, "scene"), integrator, sampler);
+    CHECK(number_in(row_of("saved/SAMPLERS.md", table.at(row, "scene")).at(column)) ==
+          Approx(time).margin(6e-3));
+    logarithms[integrator + sampler] += std::log(time);
+  }
+  CHECK(scenes == 7);
+  for (const char* sampler : {"lattice", "sobol"}) {
+    std::size_t column = 3;
+    for (const char* integrator : {"path", "bidir"}) {
+      const double mean =
+          std::exp(logarithms.at(std::string(integrator) + sampler) / static_cast<double>(scenes));
+      CHECK(number_in(row_of("CHOOSING.md", std::string("`") + sampler + "`").at(column++)) ==
+            Approx(mean).margin(6e-3));
+    }
+  }
+}
+
 TEST_CASE("Times in the report of stability are those of its table") {
   const Table table = saved("stability.csv");
   std::map<std::string, std::map<std::string, double>> cells; // those of sound methods, by cell
