@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -18,6 +19,7 @@ namespace {
 using Texts = std::map<std::string, std::string>;
 
 constexpr int first_samples = 16, most_samples = 512;
+constexpr int most_variants = 2; // of variants_of()
 constexpr double path_seconds =
     150e-9; // of a path by `integrator` path, for a render's time before any trial
 
@@ -105,6 +107,19 @@ double seconds_of_render(const render::Settings& settings, double pixels,
   return pixels * best->trial.cost / (*settings.target_error * *settings.target_error);
 }
 
+bool has_points(const scene::Scene& scene) {
+  return !scene.point_lights.empty() || !scene.spot_lights.empty() || !scene.directional_lights.empty();
+}
+
+// Other values of a setting, by its name, with which the integrator may be better than with the default.
+std::vector<std::pair<std::string, std::string>> variants_of(const std::string& integrator,
+                                                             const scene::Scene& scene) {
+  if (integrator == "bidir") return {{"weights", "power"}};
+  if (integrator != "path") return {};
+  if (has_points(scene)) return {{"connect", "light"}}; // without connections no path finds such lights
+  return {{"connect", "light"}, {"connect", "none"}};
+}
+
 std::string words_for(const std::vector<Candidate>& sorted) {
   const Candidate& best = sorted.front();
   if (!is_comparable(best.trial)) return fmt::format("{}: trials were too noisy to tell", best.trial.method);
@@ -120,9 +135,7 @@ std::string words_for(const std::vector<Candidate>& sorted) {
 } // namespace
 
 bool misses_light(const scene::Scene& scene, const settings::IntegratorInfo& integrator) {
-  const bool points =
-      !scene.point_lights.empty() || !scene.spot_lights.empty() || !scene.directional_lights.empty();
-  return has_delta(scene) && (integrator.eye_paths ? points && !integrator.light_paths : true);
+  return has_delta(scene) && (integrator.eye_paths ? has_points(scene) && !integrator.light_paths : true);
 }
 
 MethodChoice choose_method(scene::Scene scene, const settings::Choices& choices,
@@ -149,25 +162,25 @@ MethodChoice choose_method(scene::Scene scene, const settings::Choices& choices,
   std::erase_if(candidates, [](const Candidate& c) { return !c.trial.refusal.empty(); });
   if (candidates.empty()) throw UsageError("no integrator can render this scene");
 
-  // Each of the trials to come may take as long: one for each integrator, and one for a variant of the best.
+  // Each of the trials to come may take as long: one for each integrator, and those for variants of the best.
   const double seconds = share_for_trials * seconds_of_render(settings, pixels, candidates) - first_seconds;
   const auto samples_for = [&](const Candidate& c) {
-    const double each = seconds / static_cast<double>(candidates.size() + 1);
+    const double each = seconds / static_cast<double>(candidates.size() + most_variants);
     return static_cast<int>(std::min(each / (trials.pixels() * c.sample_seconds), double{most_samples}));
   };
   for (Candidate& c : candidates)
     if (const int samples = samples_for(c); samples >= 2 * first_samples) trials.run(c, samples);
   std::ranges::sort(candidates, is_better);
 
-  const Candidate& best = candidates.front();
-  Texts variant = best.texts;
-  if (best.settings.integrator == "bidir" && !choices.has("weights")) variant["weights"] = "power";
-  if (best.settings.integrator == "path" && !choices.has("connect")) variant["connect"] = "light";
-  if (variant != best.texts)
-    if (auto candidate = trials.candidate(variant)) {
-      trials.run(*candidate, std::max(samples_for(best), first_samples));
-      if (candidate->trial.refusal.empty()) candidates.push_back(*candidate);
-    }
+  const Candidate best = candidates.front();
+  for (const auto& [name, text] : variants_of(best.settings.integrator, scene)) {
+    Texts texts = best.texts;
+    texts[name] = text;
+    auto variant = choices.has(name) ? std::nullopt : trials.candidate(texts);
+    if (!variant) continue;
+    trials.run(*variant, std::max(samples_for(best), first_samples));
+    if (variant->trial.refusal.empty()) candidates.push_back(*variant);
+  }
   std::ranges::sort(candidates, is_better);
   return {.texts = candidates.front().texts, .words = words_for(candidates)};
 }
