@@ -12,6 +12,7 @@
 
 #include "errors.h"
 #include "scene/image_size.h"
+#include "scene/lights.h"
 
 namespace phlux::advice {
 namespace {
@@ -107,16 +108,13 @@ double seconds_of_render(const render::Settings& settings, double pixels,
   return pixels * best->trial.cost / (*settings.target_error * *settings.target_error);
 }
 
-bool has_points(const scene::Scene& scene) {
-  return !scene.point_lights.empty() || !scene.spot_lights.empty() || !scene.directional_lights.empty();
-}
-
 // Other values of a setting, by its name, with which the integrator may be better than with the default.
 std::vector<std::pair<std::string, std::string>> variants_of(const std::string& integrator,
                                                              const scene::Scene& scene) {
   if (integrator == "bidir") return {{"weights", "power"}};
   if (integrator != "path") return {};
-  if (has_points(scene)) return {{"connect", "light"}}; // without connections no path finds such lights
+  if (has_unhittable_lights(scene))
+    return {{"connect", "light"}}; // without connections no path finds such lights
   return {{"connect", "light"}, {"connect", "none"}};
 }
 
@@ -135,7 +133,8 @@ std::string words_for(const std::vector<Candidate>& sorted) {
 } // namespace
 
 bool misses_light(const scene::Scene& scene, const settings::IntegratorInfo& integrator) {
-  return has_delta(scene) && (integrator.eye_paths ? has_points(scene) && !integrator.light_paths : true);
+  return has_delta(scene) &&
+         (integrator.eye_paths ? has_unhittable_lights(scene) && !integrator.light_paths : true);
 }
 
 MethodChoice choose_method(scene::Scene scene, const settings::Choices& choices,

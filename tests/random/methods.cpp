@@ -15,6 +15,7 @@
 #include "random/random_scene.h"
 #include "random/surfaces.h"
 #include "render/device_scene.h"
+#include "scene/lights.h"
 
 namespace phlux::test {
 namespace {
@@ -180,8 +181,7 @@ bool sampled_by_shape(const std::string& strategy) {
 
 SceneFacts facts_of(const scene::Scene& scene) {
   SceneFacts facts;
-  facts.lights_without_area =
-      !scene.point_lights.empty() || !scene.spot_lights.empty() || !scene.directional_lights.empty();
+  facts.lights_without_area = has_unhittable_lights(scene);
   const render::HostScene host = render::prepare(scene, Traversal::brute_force, 1, true);
   for (const PrimitiveRecord& p : host.geometry.primitives) {
     if (p.region == REGION_NONE) continue;

@@ -5,6 +5,7 @@
 
 #include "lobes/models.h"
 #include "render/first_hits.h"
+#include "scene/lights.h"
 
 namespace phlux::bench {
 
@@ -23,14 +24,13 @@ bool shows_delta(scene::Scene scene, const render::Settings& settings) {
 }
 
 KnownBias::KnownBias(const scene::Scene& scene, const render::Settings& settings)
-    : has_points_(!scene.point_lights.empty() || !scene.spot_lights.empty() ||
-                  !scene.directional_lights.empty()),
-      has_delta_(scene::has_delta(scene)), shows_delta_(shows_delta(scene, settings)) {}
+    : has_unhittable_lights_(scene::has_unhittable_lights(scene)), has_delta_(scene::has_delta(scene)),
+      shows_delta_(shows_delta(scene, settings)) {}
 
 std::string KnownBias::of(const Method& method) const {
-  if (method.integrator == "path" && method.variant == "none" && has_points_)
+  if (method.integrator == "path" && method.variant == "none" && has_unhittable_lights_)
     return "no path can hit a point, spot or directional light";
-  if (method.integrator == "path" && has_delta_ && has_points_)
+  if (method.integrator == "path" && has_delta_ && has_unhittable_lights_)
     return "path misses the light that point, spot and directional lights send through mirrors and smooth "
            "glass";
   if (method.integrator == "light" && shows_delta_)

@@ -14,14 +14,13 @@ namespace phlux::bench {
 
 class KnownBias {
 public:
-  /// Settings: of the device. @throws as shows_delta()
+  /// `settings` name the device. @throws as shows_delta()
   KnownBias(const scene::Scene& scene, const render::Settings& settings);
   /// Why the method is biased, as text; empty if it is not known to be.
   [[nodiscard]] std::string of(const Method& method) const;
 
 private:
-  bool has_points_; // lights that no ray can hit
-  bool has_delta_, shows_delta_;
+  bool has_unhittable_lights_, has_delta_, shows_delta_;
 };
 
 } // namespace phlux::bench

@@ -69,8 +69,7 @@ render::Settings render_settings(const Method& method, const scene::Scene& scene
 
 SceneBench::SceneBench(const scene::Scene& scene, const SceneBenchSettings& settings)
     : scene_(scene), settings_(settings),
-      known_bias_(scene,
-                  render_settings(all_methods({render::Settings().strategy}, true).front(), scene, settings)),
+      known_bias_(scene, render_settings({"path", render::Settings().strategy, "none"}, scene, settings)),
       begin_(Clock::now()) {}
 
 double SceneBench::seconds_left() const {
