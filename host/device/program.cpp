@@ -92,6 +92,11 @@ std::string build_log(const cl::Program& program, const cl::Device& device) {
   }
 }
 
+// The compiler refuses the text; other DeviceErrors of a build are failures that say nothing about it.
+struct Refused : DeviceError {
+  using DeviceError::DeviceError;
+};
+
 cl::Program build_text(const Device& device, const std::string& name, const std::string& text) {
   cl::Program program;
   try {
@@ -102,9 +107,12 @@ cl::Program build_text(const Device& device, const std::string& name, const std:
     const std::string log = program() == nullptr ? std::string() : build_log(program, device.handle);
     spdlog::debug("{} on {} ({}):\n{}", describe(error), device.info.name, device.info.driver, log);
     const std::string first = first_error(log, text);
-    throw DeviceError(first.empty() ? fmt::format("{}: kernels do not build on {}: {}", name,
-                                                  device.info.name, describe(error))
-                                    : fmt::format("{} (building kernels on {})", first, device.info.name));
+    const std::string line =
+        first.empty()
+            ? fmt::format("{}: kernels do not build on {}: {}", name, device.info.name, describe(error))
+            : fmt::format("{} (building kernels on {})", first, device.info.name);
+    if (error.err() == CL_BUILD_PROGRAM_FAILURE) throw Refused(line);
+    throw DeviceError(line);
   }
 }
 
@@ -240,7 +248,7 @@ BuiltProgram build_either(const Device& device, const sources::KernelFiles& file
   if (portable_lanes(device)) return build_portable(device, files, source, name);
   try {
     return build_expanded(device, name, text);
-  } catch (const DeviceError& refusal) {
+  } catch (const Refused& refusal) {
     if (!may_be_of_lanes(refusal.what())) throw;
     const BuiltProgram built = build_portable(device, files, source, name);
     portable_devices().add(device);

@@ -1,10 +1,11 @@
 #include "render/outline.h"
 
+#include "errors.h"
 #include "render/device_scene.h"
 
 namespace phlux::render {
 
-Outline outline(const scene::Scene& scene, const Settings& settings) {
+Outline outline(const scene::Scene& scene, const Settings& settings) try {
   Outline result;
   const device::Device device = device::open_devices(settings.devices, settings.threads).front();
   result.device = device.info;
@@ -15,6 +16,8 @@ Outline outline(const scene::Scene& scene, const Settings& settings) {
   result.primitives = host.geometry.primitive_count;
   result.table_bytes = DeviceScene(device, host, result.parts).bytes();
   return result;
+} catch (const cl::Error& error) {
+  throw DeviceError(device::describe(error));
 }
 
 } // namespace phlux::render

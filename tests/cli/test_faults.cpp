@@ -193,6 +193,25 @@ TEST_CASE("A device that fails leaves image and checkpoint, from which the rende
   CHECK(place.image("on.exr").channels == place.image("whole.exr").channels);
 }
 
+TEST_CASE("A failure while devices are looked for is an error of the device, or another one is used") {
+  const Renders place;
+  for (const std::string call :
+       {"clGetPlatformIDs", "clGetPlatformInfo", "clGetDeviceIDs", "clGetDeviceInfo"}) {
+    const Outcome outcome =
+        place.render({"-n", "1"}, with({{"LD_PRELOAD", PHLUX_DEVICE_FAULTS},
+                                        {"PHLUX_DEVICE_FAULT", fault(call + " 0 1", out_of_resources)}}));
+    CAPTURE(call, outcome.err);
+    CHECK_THAT(outcome.err, Contains("CL_OUT_OF_RESOURCES"));
+    if (outcome.exit_code == 0) { // of another platform
+      CHECK(call != "clGetPlatformIDs");
+      CHECK_THAT(outcome.err, Contains("skipped"));
+    } else {
+      CHECK(outcome.exit_code == 4);
+      CHECK_THAT(outcome.err, Contains("phlux: no OpenCL "));
+    }
+  }
+}
+
 // PoCL's driver "basic" is a second device on the same processor.
 TEST_CASE("Of two devices, one goes on when the other fails") {
   const Renders place;

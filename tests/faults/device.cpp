@@ -47,6 +47,12 @@ public:
     ++struck_;
     return code_;
   }
+  // Whether a call that returns an object is to fail; then it writes the error.
+  bool fails(const std::string& call, cl_int* error, cl_command_queue queue = nullptr) {
+    const cl_int code = error_of(call, queue);
+    if (code != CL_SUCCESS && error != nullptr) *error = code;
+    return code != CL_SUCCESS;
+  }
   long calls(const std::string& call) {
     const std::lock_guard lock(mutex_);
     return calls_[call];
@@ -119,10 +125,7 @@ using faults::plan;
 #define RETURNS_OBJECT(type, name, parameters, arguments)                                                    \
   extern "C" type name parameters {                                                                          \
     static auto* const driver = loader<type parameters>(#name);                                              \
-    if (const cl_int code = plan().error_of(#name); code != CL_SUCCESS) {                                    \
-      if (error != nullptr) *error = code;                                                                   \
-      return nullptr;                                                                                        \
-    }                                                                                                        \
+    if (plan().fails(#name, error)) return nullptr;                                                          \
     return driver arguments;                                                                                 \
   }
 
@@ -172,6 +175,22 @@ RETURNS_ERROR(clGetKernelArgInfo, nullptr,
               (cl_kernel kernel, cl_uint index, cl_kernel_arg_info what, size_t bytes, void* to,
                size_t* needed),
               (kernel, index, what, bytes, to, needed))
+RETURNS_ERROR(clGetMemObjectInfo, nullptr,
+              (cl_mem buffer, cl_mem_info what, size_t bytes, void* to, size_t* needed),
+              (buffer, what, bytes, to, needed))
+RETURNS_ERROR(clGetPlatformIDs, nullptr, (cl_uint count, cl_platform_id* platforms, cl_uint* found),
+              (count, platforms, found))
+RETURNS_ERROR(clGetPlatformInfo, nullptr,
+              (cl_platform_id platform, cl_platform_info what, size_t bytes, void* to, size_t* needed),
+              (platform, what, bytes, to, needed))
+RETURNS_ERROR(clGetDeviceIDs, nullptr,
+              (cl_platform_id platform, cl_device_type type, cl_uint count, cl_device_id* devices,
+               cl_uint* found),
+              (platform, type, count, devices, found))
+RETURNS_ERROR(clCreateSubDevices, nullptr,
+              (cl_device_id device, const cl_device_partition_property* properties, cl_uint count,
+               cl_device_id* parts, cl_uint* created),
+              (device, properties, count, parts, created))
 RETURNS_ERROR(clFlush, queue, (cl_command_queue queue), (queue))
 RETURNS_ERROR(clFinish, queue, (cl_command_queue queue), (queue))
 RETURNS_OBJECT(cl_mem, clCreateBuffer,
@@ -189,6 +208,10 @@ RETURNS_OBJECT(cl_command_queue, clCreateCommandQueue,
 RETURNS_OBJECT(cl_program, clCreateProgramWithSource,
                (cl_context context, cl_uint count, const char** texts, const size_t* lengths, cl_int* error),
                (context, count, texts, lengths, error))
+RETURNS_OBJECT(cl_program, clCreateProgramWithBinary,
+               (cl_context context, cl_uint count, const cl_device_id* devices, const size_t* lengths,
+                const unsigned char** binaries, cl_int* status, cl_int* error),
+               (context, count, devices, lengths, binaries, status, error))
 RETURNS_OBJECT(cl_kernel, clCreateKernel, (cl_program program, const char* name, cl_int* error),
                (program, name, error))
 
@@ -196,10 +219,7 @@ extern "C" void* clEnqueueMapBuffer(cl_command_queue queue, cl_mem buffer, cl_bo
                                     cl_map_flags flags, size_t offset, size_t bytes, cl_uint count,
                                     const cl_event* events, cl_event* event, cl_int* error) {
   static auto* const driver = loader<decltype(clEnqueueMapBuffer)>("clEnqueueMapBuffer");
-  if (const cl_int code = plan().error_of("clEnqueueMapBuffer", queue); code != CL_SUCCESS) {
-    if (error != nullptr) *error = code;
-    return nullptr;
-  }
+  if (plan().fails("clEnqueueMapBuffer", error, queue)) return nullptr;
   void* const memory = driver(queue, buffer, blocking, flags, offset, bytes, count, events, event, error);
   if (memory != nullptr) faults::count_mapped(1);
   return memory;

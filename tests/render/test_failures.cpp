@@ -7,10 +7,14 @@
 #include <catch2/catch.hpp>
 
 #include "device/device.h"
+#include "device/environment.h"
 #include "device/opencl.h"
+#include "device/program.h"
 #include "faults/device.h"
 #include "images/scenes.h"
+#include "render/outline.h"
 #include "render/render.h"
+#include "temporary_folder.h"
 
 using namespace phlux;
 using namespace phlux::test;
@@ -196,8 +200,8 @@ TEST_CASE(
   for (const std::string call :
        {"clCreateContext", "clCreateCommandQueue", "clCreateProgramWithSource", "clBuildProgram",
         "clCreateKernelsInProgram", "clCreateKernel", "clGetDeviceInfo", "clGetProgramInfo",
-        "clGetProgramBuildInfo", "clGetKernelInfo", "clGetKernelArgInfo", "clCreateBuffer",
-        "clEnqueueWriteBuffer"}) {
+        "clGetProgramBuildInfo", "clGetKernelInfo", "clGetKernelArgInfo", "clGetPlatformInfo",
+        "clCreateBuffer", "clEnqueueWriteBuffer"}) {
     device::reopen_devices();
     no_faults();
     Outcome without;
@@ -218,11 +222,64 @@ TEST_CASE(
         CHECK_THAT(error.what(), !Catch::Contains("\n"));
       }
       CHECK(faults::device_faults() == 1);
+      CHECK_FALSE(
+          device::portable_lanes(device::open_devices({}).front())); // no compiler has refused anything
     }
   }
   no_faults();
   CHECK(renders > 0);
   CHECK(errors > 0);
+}
+
+TEST_CASE("a kept binary that cannot be loaded costs a build from the text") {
+  const TemporaryFolder cache;
+  const Environment folder("PHLUX_CACHE_DIR", cache.path().string());
+  const Environment no_driver_cache("POCL_KERNEL_CACHE", "0"); // else PoCL keeps its programs itself
+  const render::Settings settings = settings_of("path");
+  const auto rendered = [&] {
+    Outcome outcome;
+    outcome.statistics = render::render(box(), settings, outcome.film, {});
+    return outcome;
+  };
+  no_faults();
+  const Outcome whole = rendered();
+  CHECK_FALSE(whole.statistics.kernels_from_cache);
+  const bool kept = rendered().statistics.kernels_from_cache; // some drivers have no binaries
+  faults::plan_device_fault("clCreateProgramWithBinary", 0, 1, CL_OUT_OF_RESOURCES);
+  const Outcome outcome = rendered();
+  CHECK(faults::device_faults() == (kept ? 1 : 0));
+  CHECK_FALSE(outcome.statistics.kernels_from_cache);
+  CHECK(same(outcome, whole));
+  no_faults();
+  CHECK(rendered().statistics.kernels_from_cache == kept);
+}
+
+TEST_CASE("a device that cannot be divided is an error of the device") {
+  render::Settings settings = settings_of("path");
+  settings.threads = 1;
+  const device::DeviceInfo device = device::chosen_devices({}).front();
+  if (device.type != "cpu" || device.compute_units == 1) return;
+  device::reopen_devices();
+  faults::plan_device_fault("clCreateSubDevices", 0, 1, CL_OUT_OF_RESOURCES);
+  film::Film film(width, height);
+  CHECK_THROWS_MATCHES(render::render(box(), settings, film, {}), DeviceError,
+                       Catch::Predicate<DeviceError>([](const DeviceError& error) {
+                         return std::string(error.what())
+                                    .find("cannot be divided (clCreateSubDevices: CL_OUT_OF_RESOURCES)") !=
+                                std::string::npos;
+                       }));
+  CHECK_NOTHROW(render::render(box(), settings, film, {}));
+  no_faults();
+}
+
+TEST_CASE("a failure while the tables of a scene are counted is an error of the device") {
+  for (const char* call : {"clGetMemObjectInfo", "clCreateBuffer"}) {
+    faults::plan_device_fault(call, 1, 1, CL_OUT_OF_RESOURCES);
+    CHECK_THROWS_AS(render::outline(box(), settings_of("path")), DeviceError);
+    CHECK(faults::device_faults() == 1);
+  }
+  no_faults();
+  CHECK(render::outline(box(), settings_of("path")).table_bytes > 0);
 }
 
 TEST_CASE("where memory is short, launches get smaller until there is enough") {
