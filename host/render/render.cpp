@@ -91,7 +91,8 @@ public:
     const device::Device& device = programs.device();
     const int lanes = lanes_for(device.info, settings_);
     const Clock::time_point begin = Clock::now();
-    if (!host_ || lanes_ != lanes)
+    const bool is_first = !host_;
+    if (is_first || lanes_ != lanes)
       host_ = prepare(scene_, settings_.traversal, lanes_ = lanes, settings_.double_precision,
                       wants_light_tree(settings_));
     Worker worker;
@@ -99,8 +100,8 @@ public:
     if (events_.warning) warn(worker.parts);
     statistics.seconds_setup += seconds_since(begin);
     const device::BuiltProgram built = programs.program(worker.parts, events_.building_kernels);
-    statistics.kernels_from_cache = built.from_cache;
-    statistics.portable_lanes = device::portable_lanes(device);
+    statistics.kernels_from_cache = built.from_cache && (is_first || statistics.kernels_from_cache);
+    statistics.portable_lanes = device::portable_lanes(device) || (!is_first && statistics.portable_lanes);
     const Clock::time_point warm_up_begin = Clock::now();
     worker.launcher = launcher(device, built, worker.parts);
     device::record_driver_cache();

@@ -44,8 +44,8 @@ struct Statistics : RenderState {
   std::string traversal;          ///< brute or bvh
   std::vector<std::string> parts; ///< Parts::names()
   double seconds_setup = 0.0, seconds_build_kernels = 0.0;
-  bool kernels_from_cache = false;
-  bool shines = true; ///< whether a light of the scene has power
+  bool kernels_from_cache = false; ///< of every device
+  bool shines = true;              ///< whether a light of the scene has power
   bool interrupted = false;
 };
 
