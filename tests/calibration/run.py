@@ -21,6 +21,7 @@ import math
 import os
 import pathlib
 import subprocess
+import sys
 import tempfile
 from collections import Counter
 
@@ -38,14 +39,18 @@ class Runs:
         (package / "__init__.py").write_text("raise ImportError\n", encoding="utf-8")
 
     def rows(self, scene, seconds, seed):
-        """The rows of scenes.csv by (integrator, strategy, variant); measures them unless they are there."""
+        """The rows of scenes.csv by (integrator, strategy, variant); measures them unless they are there. None, and a message, if
+        the scene cannot be measured."""
         folder = self.out / f"{scene.parent.name}-{scene.stem}" / f"{seconds:g}s-seed{seed}"
         table = folder / "scenes.csv"
         if not table.exists() or table.read_text(encoding="utf-8").count("\n") < 2:
             command = [self.program, "bench", "scenes", "--scene", scene, "--seconds", f"{seconds:g}", "--seed", str(seed),
                        "--side", str(self.side), "--out", folder]
-            subprocess.run(command, env={**os.environ, "PYTHONPATH": self.no_charts.name}, stdout=subprocess.DEVNULL,
-                           stderr=subprocess.DEVNULL, check=False)  # without charts the exit code is 5
+            done = subprocess.run(command, env={**os.environ, "PYTHONPATH": self.no_charts.name}, stdout=subprocess.DEVNULL,
+                                  stderr=subprocess.PIPE, text=True, check=False)  # without charts the exit code is 5
+            if not table.exists():
+                print(f"left out: {done.stderr.strip()}", file=sys.stderr)
+                return None
         with open(table, newline="", encoding="utf-8") as file:
             return {(row["integrator"], row["strategy"], row["connect_or_weights"]): row for row in csv.DictReader(file)}
 
@@ -107,6 +112,8 @@ def main():
     print("|---|---|---|---|---|---|---|---|---|")
     for scene in scenes:
         truth = runs.rows(scene, options.truth or 10 * max(times), TRUTH_SEED)
+        if truth is None:
+            continue
         for seconds in times:
             counts = Counter()
             for seed in range(1, options.seeds + 1):
