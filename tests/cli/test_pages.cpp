@@ -74,13 +74,14 @@ std::vector<std::string> code_of(const fs::path& page) {
 }
 
 // The words of a command of phlux, without its own name. Nothing for other texts, and for those that are no
-// command as they stand: one word, NAMEs, [optional] words or an ellipsis.
+// command of the program as they stand: one word, NAMEs, [optional] words, an ellipsis, or a command of the
+// launcher.
 std::optional<std::vector<std::string>> words_of(const std::string& code) {
   std::string text = code.starts_with("./") ? code.substr(2) : code;
   if (!text.starts_with("phlux ") || text.starts_with("phlux: ")) return std::nullopt;
   text = text.substr(0, std::min(text.find(" | "), text.find(" > ")));
-  for (const char* mark :
-       {"[", "...", "<", "NAME", "COMMAND", "--help", "--version", "KD,KS", "SPEC", "phlux test"})
+  for (const char* mark : {"[", "...", "<", "NAME", "COMMAND", "--help", "--version", "KD,KS", "SPEC",
+                           "phlux test", "phlux bundle"})
     if (text.find(mark) != std::string::npos) return std::nullopt;
   for (const auto& [placeholder, value] : std::map<std::string, std::string>{
            {" N", " 4"}, {" SECONDS", " 1"}, {"X,Y,W,H", "0,0,1,1"}, {" EV", " 0"}, {" FOLDER", " folder"}})
