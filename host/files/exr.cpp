@@ -161,8 +161,10 @@ void find_attribute(const Imf::Header& header, const char* name, double& value) 
 // be read as another number of samples, or as the name of another channel. OpenEXR has a checksum of the
 // pixels.
 std::string digest_of(const Imf::Header& header) {
-  std::vector<std::string> names = {seed_name, ranges_name};
+  std::vector<std::string> names;
   for_each_attribute(RenderInfo(), [&](const char* name, const auto&) { names.emplace_back(name); });
+  names.insert(std::ranges::find(names, "device"),
+               {seed_name, ranges_name}); // the order is part of the checksum
   for (const settings::Setting& setting : settings::all())
     if (is_stored(setting)) names.push_back(attribute_of(setting.name));
   std::string texts;
