@@ -15,6 +15,13 @@ struct CommonOptions {
   int lanes = 0;                    ///< WIDTH; 0: the default of the device
   std::filesystem::path kernel_dir; ///< empty: the embedded kernels
 
+  /// Sets devices, WIDTH and kernels of settings, those of render() or of SceneBench.
+  template<class Settings>
+  void apply_to(Settings& settings) const {
+    settings.devices = devices;
+    settings.lanes = lanes;
+    settings.kernel_dir = kernel_dir;
+  }
   [[nodiscard]] int lanes_on(const device::DeviceInfo& device) const {
     return lanes != 0 ? lanes : device.lanes;
   }

@@ -13,8 +13,8 @@ std::string RoundOptions::command(const std::string& name, const std::string& mo
   return fmt::format("{} --seed {}", text, seed);
 }
 
-std::string RoundOptions::seeds(int rounds) const {
-  return fmt::format("{} to {}", seed, seed + static_cast<std::uint64_t>(rounds - 1));
+std::string RoundOptions::seeds(int count) const {
+  return fmt::format("{} to {}", seed, seed + static_cast<std::uint64_t>(count - 1));
 }
 
 std::string text_of_values(const char* option, const std::vector<std::string>& values,

@@ -20,12 +20,16 @@ struct RoundOptions : CommonOptions {
 
   /// Largest side of the images, in pixels.
   [[nodiscard]] int side() const { return quick ? 32 : 64; }
+  [[nodiscard]] int rounds() const { return quick ? quick_rounds : 10; }
   /// Per pixel and round.
   [[nodiscard]] int round_samples() const { return samples > 0 ? samples : quick ? 16 : 64; }
   /// The command that repeats the measurement. `more`: its own options, each with a space before it.
   [[nodiscard]] std::string command(const std::string& name, const std::string& more) const;
-  /// Of so many rounds: "1 to 10".
-  [[nodiscard]] std::string seeds(int rounds) const;
+  /// The first and the last of `count` seeds: "1 to 10".
+  [[nodiscard]] std::string seeds(int count) const;
+
+protected:
+  int quick_rounds = 6;
 };
 
 /// " --option VALUE" for each value, unless they are the default ones.

@@ -52,9 +52,7 @@ const Method path_light{"path", "exact", "light"}, path_mis{"path", "exact", "mi
 RemedyCase new_case(const RemediesOptions& options, const std::string& remedy, const std::string& place,
                     const scene::Scene& scene, const Method& method) {
   RemedyCase result{remedy, place, scene, method, settings_of(method, scene.defaults), {}};
-  result.before.devices = options.devices;
-  result.before.lanes = options.lanes;
-  result.before.kernel_dir = options.kernel_dir;
+  options.apply_to(result.before);
   result.before.seed = options.seed;
   result.after = result.before;
   return result;

@@ -17,13 +17,11 @@
 #include "bench/common/tables/csv.h"
 #include "bench/common/tables/provenance.h"
 #include "bench/scenes/scene_files.h"
-#include "files/output.h"
 #include "measure/statistics.h"
 
 namespace phlux::bench {
 namespace {
 
-constexpr int rounds = 10, quick_rounds = 5;
 constexpr int longest = 64; // edges of a path: without roulette nothing else ends it
 constexpr double false_alarm_rate = 0.05;
 
@@ -33,10 +31,6 @@ const std::string columns =
 
 std::string name_of(render::Roulette roulette) {
   return render::roulette_names()[static_cast<std::size_t>(roulette)];
-}
-
-int rounds_of(const RouletteOptions& options) {
-  return options.quick ? quick_rounds : rounds;
 }
 
 // In a furnace roulette is nearly all of the noise, which no room has.
@@ -55,9 +49,7 @@ render::Settings settings_of(const RouletteVariant& variant, const std::string& 
   settings.roulette = variant.roulette;
   settings.rr_depth = variant.rr_depth;
   settings.max_depth = scene.defaults.max_depth < 0 ? longest : scene.defaults.max_depth;
-  settings.devices = options.devices;
-  settings.lanes = options.lanes;
-  settings.kernel_dir = options.kernel_dir;
+  options.apply_to(settings);
   return settings;
 }
 
@@ -69,7 +61,7 @@ struct Renders { // of one variant
 Renders render(const scene::Scene& scene, const render::Settings& settings, const RouletteOptions& options) {
   MethodRenderer renderer(scene, settings);
   Renders renders;
-  for (int round = 0; round < rounds_of(options); ++round) {
+  for (int round = 0; round < options.rounds(); ++round) {
     const CountedRender one = renderer.render_samples(options.seed + static_cast<std::uint64_t>(round),
                                                       options.round_samples(), options.interrupted);
     renders.images.push_back(estimate_of(one.film));
@@ -125,7 +117,7 @@ std::string row_of(const RouletteCost& c, const scene::Camera& camera, const Rou
   for (const double value : {c.variance.value, c.variance.standard_error, c.rays_per_sample, c.cost.value,
                              c.ratio.value, c.ratio.standard_error})
     row.push_back(number_text(value));
-  row.push_back(fmt::format("{},{},{}x{},{}", rounds_of(options), options.round_samples(), camera.width,
+  row.push_back(fmt::format("{},{},{}x{},{}", options.rounds(), options.round_samples(), camera.width,
                             camera.height, options.seed));
   row.push_back(csv_value(device));
   return fmt::format("{}", fmt::join(row, ","));
@@ -240,13 +232,8 @@ bool measure_roulette(const RouletteOptions& options) try {
   }
   write_provenance(options.folder, "roulette",
                    {command_of(options), device, options.lanes_on(device),
-                    "nothing is timed: rays are counted", options.seeds(rounds_of(options))});
-  fmt::print("{}\n", table.path().string());
-  const std::string answers = fmt::format("{}\n", fmt::join(roulette_answers(all), "\n"));
-  files::write_file(options.folder / "roulette.verdict.txt", answers);
-  fmt::print("{}", answers);
-  std::fflush(stdout);
-  draw_charts(options.folder, "roulette");
+                    "nothing is timed: rays are counted", options.seeds(options.rounds())});
+  report_answers(options.folder, "roulette", roulette_answers(all));
   return true;
 } catch (const Interrupted&) {
   fmt::print("interrupted: {} contains the finished rows\n", (options.folder / "roulette.csv").string());

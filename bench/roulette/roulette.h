@@ -13,6 +13,7 @@ namespace phlux::bench {
 
 /// Without scenes: shipped_scenes() with lamps.
 struct RouletteOptions : RoundOptions {
+  RouletteOptions() { quick_rounds = 5; }
   std::vector<std::string> integrators = settings::integrator_names(); ///< path, light, bidir
   std::vector<std::string> strategies = {"exact"};
   std::vector<std::string> roulettes = {"reflectivity", "kd-ks", "throughput", "efficiency"};

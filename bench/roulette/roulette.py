@@ -12,12 +12,11 @@ import matplotlib.pyplot as plt
 
 TICKS = (0.1, 0.3, 1, 3, 10, 30, 100)
 FINE_TICKS = (0.3, 0.4, 0.6, 0.8, 1, 1.2, 1.5, 2, 3, 4)
-DEPTHS = {1: "from edge 1", 5: "from edge 5", -1: ""}
-COLUMNS = {1: "from edge 1", 5: "from edge 5", -1: "no roulette"}
+DEPTHS = {1: "from edge 1", 5: "from edge 5", -1: "no roulette"}
 
 
 def series_of(row):
-    return row.roulette if row.strategy == "exact" else row.strategy if row.rr_depth < 0 else f"{row.strategy}, {row.roulette}"
+    return row.roulette if row.strategy == "exact" else f"{row.strategy}, {row.roulette}"
 
 
 def name_of(row, one_roulette):
@@ -26,7 +25,7 @@ def name_of(row, one_roulette):
 
 
 def variant_of(row):
-    return f"{series_of(row)} {DEPTHS[int(row.rr_depth)]}".strip()
+    return series_of(row) if row.rr_depth < 0 else f"{series_of(row)} {DEPTHS[int(row.rr_depth)]}"
 
 
 def draw(rows, theme):
@@ -35,7 +34,7 @@ def draw(rows, theme):
     one_roulette = len({row.roulette for row in rows if row.rr_depth > 0}) == 1
     integrators = list(dict.fromkeys(row.integrator for row in rows))
     scenes = list(dict.fromkeys(row.scene for row in rows))
-    depths = [depth for depth in COLUMNS if any(row.rr_depth == depth for row in rows)]
+    depths = [depth for depth in DEPTHS if any(row.rr_depth == depth for row in rows)]
     series = list(dict.fromkeys(name_of(row, one_roulette) for row in rows if row.rr_depth > 0))
     high = len(scenes) * (0.3 + 0.05 * len(series))
     figure, panels = plt.subplots(len(integrators), len(depths), figsize=(9, 1.2 + (high + 0.6) * len(integrators)),
@@ -53,7 +52,7 @@ def draw(rows, theme):
                               mfc=color if i < len(style.SERIES) else "none")
             axes.axvline(1, color=theme.ink, lw=0.8)
             axes.grid(True, axis="x")
-            axes.set_title(f"{integrator}, {COLUMNS[depth]}", loc="left", fontsize="medium")
+            axes.set_title(f"{integrator}, {DEPTHS[depth]}", loc="left", fontsize="medium")
     axes = panels[0, 0]
     least = min(row.ratio for row in rows)
     most = max(row.ratio for row in rows)

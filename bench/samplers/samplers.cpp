@@ -20,13 +20,11 @@
 #include "bench/common/tables/csv.h"
 #include "bench/common/tables/provenance.h"
 #include "bench/scenes/scene_files.h"
-#include "files/output.h"
 #include "measure/moments.h"
 
 namespace phlux::bench {
 namespace {
 
-constexpr int round_count = 10, quick_round_count = 6;
 constexpr int most_samples = 1024, quick_most_samples = 256;
 constexpr int least_samples = 16; // fewer are independent with every sampler
 constexpr int step = 4;
@@ -40,10 +38,6 @@ const std::string columns =
     "gain_standard_error,ns_per_sample,time_ratio,relative_time,slope,slope_standard_error,rounds,image,seed,"
     "device";
 
-int rounds_of(const SamplersOptions& options) {
-  return options.quick ? quick_round_count : round_count;
-}
-
 render::Settings settings_of(const std::string& integrator, const std::string& sampler,
                              const scene::Scene& scene, const SamplersOptions& options) {
   const render::Settings defaults;
@@ -51,9 +45,7 @@ render::Settings settings_of(const std::string& integrator, const std::string& s
   render::Settings settings = settings_of(Method{integrator, defaults.strategy, variant}, scene.defaults);
   settings.sampler = static_cast<settings::Sampler>(std::ranges::find(settings::sampler_names(), sampler) -
                                                     settings::sampler_names().begin());
-  settings.devices = options.devices;
-  settings.lanes = options.lanes;
-  settings.kernel_dir = options.kernel_dir;
+  options.apply_to(settings);
   return settings;
 }
 
@@ -66,7 +58,7 @@ struct Rounds { // of one sampler, with one number of samples
 std::vector<Rounds> render(std::vector<std::unique_ptr<MethodRenderer>>& renderers, std::uint64_t first_seed,
                            int samples, CostClock clock, const SamplersOptions& options) {
   std::vector<Rounds> all(renderers.size());
-  for (int round = 0; round < rounds_of(options); ++round)
+  for (int round = 0; round < options.rounds(); ++round)
     for (std::size_t i = 0; i < renderers.size(); ++i) {
       const CountedRender one = renderers[i]->render_samples(first_seed + static_cast<std::uint64_t>(round),
                                                              samples, options.interrupted);
@@ -94,23 +86,25 @@ std::vector<SamplerError> measure(const scene::Scene& scene, const std::string& 
   for (const int samples : counts) {
     report(samples);
     rounds.push_back(render(renderers, seed, samples, clock, options));
-    seed += static_cast<std::uint64_t>(rounds_of(options));
+    seed += static_cast<std::uint64_t>(options.rounds());
   }
   std::vector<ImageEstimate> best;
   for (const Rounds& of_sampler : rounds.back())
     best.insert(best.end(), of_sampler.images.begin(), of_sampler.images.end());
   const Reference reference = pooled_reference(best, static_cast<std::size_t>(scene.camera.width));
 
-  std::vector<double> ratios(rounds_of(options));
+  std::vector<std::vector<double>> independent_variances; // by number of samples
+  std::vector<double> ratios(options.rounds());
   std::vector<SamplerError> errors;
   for (std::size_t i = 0; i < options.samplers.size(); ++i) {
     const std::vector<double>& seconds = rounds.back()[i].seconds;
     std::ranges::transform(seconds, rounds.back()[0].seconds, ratios.begin(), std::divides<>());
     for (std::size_t k = 0; k < counts.size(); ++k) {
       const std::vector<double> variances = variances_per_sample(rounds[k][i].images, reference);
+      if (i == 0) independent_variances.push_back(variances);
       errors.push_back({name, integrator, options.samplers[i], counts[k], mean_of(variances),
-                        ratio_of(variances_per_sample(rounds[k][0].images, reference), variances),
-                        1e9 * measure::median(seconds), measure::median(ratios)});
+                        ratio_of(independent_variances[k], variances), 1e9 * measure::median(seconds),
+                        measure::median(ratios)});
     }
   }
   return errors;
@@ -131,7 +125,7 @@ std::string row_of(const SamplerError& e, const Estimate& slope, const scene::Ca
                              e.variance.standard_error, e.gain.value, e.gain.standard_error, e.ns,
                              e.time_ratio, e.relative_time().value, slope.value, slope.standard_error})
     row.push_back(number_text(value));
-  row.push_back(fmt::format("{},{}x{},{},{}", rounds_of(options), camera.width, camera.height, options.seed,
+  row.push_back(fmt::format("{},{}x{},{},{}", options.rounds(), camera.width, camera.height, options.seed,
                             csv_value(device)));
   return fmt::format("{}", fmt::join(row, ","));
 }
@@ -233,15 +227,11 @@ bool measure_samplers(const SamplersOptions& given) try {
       }
     }
   }
-  const int seeds = rounds_of(options) * static_cast<int>(sample_counts(options).size());
+  const int seeds = options.rounds() * static_cast<int>(sample_counts(options).size());
   write_provenance(options.folder, "samplers",
                    {command_of(given), device, options.lanes_on(device),
                     "kernels are built before the rounds", options.seeds(seeds)});
-  const std::string answers = fmt::format("{}\n", fmt::join(sampler_answers(all), "\n"));
-  files::write_file(options.folder / "samplers.verdict.txt", answers);
-  fmt::print("{}\n{}", table.path().string(), answers);
-  std::fflush(stdout);
-  draw_charts(options.folder, "samplers");
+  report_answers(options.folder, "samplers", sampler_answers(all));
   return true;
 } catch (const Interrupted&) {
   fmt::print("interrupted: {} contains the finished rows\n", (given.folder / "samplers.csv").string());

@@ -27,7 +27,7 @@ struct SamplerError {
   Estimate variance;     ///< relative, per sample: relative MSE x samples
   Estimate gain;         ///< variance with independent samples / this variance
   double ns = 0;         ///< time of a sample, in nanoseconds
-  double time_ratio = 1; ///< the same / that of independent samples: median over the rounds
+  double time_ratio = 1; ///< time of a sample / that of an independent one: median over the rounds
 
   /// Time to the same error, relative to independent samples.
   [[nodiscard]] Estimate relative_time() const {

@@ -21,17 +21,12 @@
 namespace phlux::bench {
 namespace {
 
-constexpr int round_count = 10, quick_round_count = 6;
 constexpr double false_alarm_rate = 0.05;
 
 const std::string columns =
     "scene,integrator,connect_or_weights,light_vertices,eye_vertices,edges,light_share,light_share_standard_"
     "error,variance_share,variance_share_standard_error,variance,variance_standard_error,variance_alone,"
     "variance_alone_standard_error,rays_per_sample,ray_share,rounds,samples_per_pixel,image,seed,device";
-
-int rounds_of(const TechniquesOptions& options) {
-  return options.quick ? quick_round_count : round_count;
-}
 
 Method method_of(const TechniquesOptions& options) {
   return {options.integrator, render::Settings().strategy,
@@ -83,12 +78,10 @@ TechniqueRounds render_rounds(const scene::Scene& scene, const TechniquesOptions
                               const std::function<void(int round)>& report) {
   render::Settings settings = settings_of(method_of(options), scene.defaults);
   settings.techniques = true;
-  settings.devices = options.devices;
-  settings.lanes = options.lanes;
-  settings.kernel_dir = options.kernel_dir;
+  options.apply_to(settings);
   MethodRenderer renderer(scene, settings);
   TechniqueRounds rounds;
-  const int count = rounds_of(options);
+  const int count = options.rounds();
   for (int round = 0; round < count; ++round) {
     report(round);
     add_round(rounds, renderer.render_samples(options.seed + static_cast<std::uint64_t>(round),
@@ -209,13 +202,13 @@ bool measure_techniques(const TechniquesOptions& options) try {
     const std::string name = file.stem().string();
     const scene::Scene scene = load_at_size(file, options.side());
     const TechniqueRounds rounds = render_rounds(scene, options, [&](int round) {
-      status.show(fmt::format("{}: round {} of {}", name, round + 1, rounds_of(options)));
+      status.show(fmt::format("{}: round {} of {}", name, round + 1, options.rounds()));
     });
     const Reference reference = pooled_reference(rounds.images, static_cast<std::size_t>(scene.camera.width));
     const std::vector<TechniqueShare> shares = technique_shares(rounds, reference);
     for (const TechniqueShare& share : shares)
       table.line(fmt::format("{},{},{},{},{},{},{}x{},{},{}", csv_value(name), method.integrator,
-                             method.variant, fmt::join(values_of(share), ","), rounds_of(options),
+                             method.variant, fmt::join(values_of(share), ","), options.rounds(),
                              options.round_samples(), scene.camera.width, scene.camera.height, options.seed,
                              csv_value(device.name)));
     status.clear();
@@ -225,7 +218,7 @@ bool measure_techniques(const TechniquesOptions& options) try {
   files::write_file(options.folder / "techniques.verdict.txt", answers);
   write_provenance(options.folder, "techniques",
                    {command_of(options), device, options.lanes_on(device),
-                    "nothing is timed: rays are counted", options.seeds(rounds_of(options))});
+                    "nothing is timed: rays are counted", options.seeds(options.rounds())});
   draw_charts(options.folder, "techniques");
   fmt::print("{}\n", table.path().string());
   return true;

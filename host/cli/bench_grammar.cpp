@@ -71,7 +71,6 @@ void add_strategies(CLI::App& app, std::vector<std::string>& strategies) {
   add_names(app, "--strategy", "directional sampling strategy", render::strategy_names(), strategies);
 }
 
-// Samples per pixel and round, where rays are counted and nothing is timed.
 // Scenes, amount and seed of a measurement by rounds.
 void add_rounds(CLI::App& app, bench::RoundOptions& options, const std::string& default_scenes,
                 const std::string& samples) {

@@ -8,9 +8,7 @@ namespace phlux::bench {
 
 SceneBenchSettings bench_settings(const ComparisonOptions& options) {
   SceneBenchSettings settings;
-  settings.devices = options.devices;
-  settings.lanes = options.lanes;
-  settings.kernel_dir = options.kernel_dir;
+  options.apply_to(settings);
   settings.seed = options.seed;
   settings.interrupted = options.interrupted;
   return settings;

@@ -153,16 +153,17 @@ TimedRender MethodRenderer::render_one_sample(std::uint64_t seed) {
 
 CountedRender MethodRenderer::render_samples(std::uint64_t seed, int samples,
                                              const std::function<bool()>& interrupted) {
-  CountedRender result{film::Film(width_, height_), {}, -processor_seconds()};
+  CountedRender result{film::Film(width_, height_), {}};
   render::Settings settings = settings_;
   settings.seed = seed;
   settings.samples_per_pixel = samples;
   bool stopped = false;
   render::Events events;
   events.progress = [&](const render::Progress&) { return !(stopped = interrupted && interrupted()); };
+  const double begin = processor_seconds();
   result.statistics = renderer_.render(settings, result.film, events);
   if (stopped) throw Interrupted{};
-  result.processor_seconds += processor_seconds();
+  result.processor_seconds = processor_seconds() - begin;
   return result;
 }
 

@@ -1,11 +1,15 @@
 #include "bench/common/report/draw.h"
 
+#include <cstdio>
+
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
 #include "bench/common/report/python.h"
 #include "errors.h"
+#include "files/output.h"
 
 namespace phlux::bench {
 namespace {
@@ -48,6 +52,15 @@ void draw_charts(const std::filesystem::path& folder, const std::string& module)
                                  outcome.errors.empty() ? fmt::format("exit code {}", outcome.exit_code)
                                                         : last_line(outcome.errors)));
   if (!outcome.errors.empty()) spdlog::info("{}", outcome.errors);
+}
+
+void report_answers(const std::filesystem::path& folder, const std::string& module,
+                    const std::vector<std::string>& answers) {
+  const std::string text = fmt::format("{}\n", fmt::join(answers, "\n"));
+  files::write_file(folder / (module + ".verdict.txt"), text);
+  fmt::print("{}\n{}", (folder / (module + ".csv")).string(), text);
+  std::fflush(stdout);
+  draw_charts(folder, module);
 }
 
 } // namespace phlux::bench

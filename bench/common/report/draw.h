@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "sources/embedded.h"
 
@@ -17,5 +18,10 @@ namespace phlux::bench {
 /// (bench/README.md). @throws WriteError if no Python with matplotlib is installed, or if the program fails;
 /// the tables are complete in either case
 void draw_charts(const std::filesystem::path& folder, const std::string& module);
+
+/// Writes the answers of a measurement, a line each, to `folder`/MODULE.verdict.txt, and prints them after
+/// the path of its table; then draw_charts(). @throws WriteError
+void report_answers(const std::filesystem::path& folder, const std::string& module,
+                    const std::vector<std::string>& answers);
 
 } // namespace phlux::bench
