@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Checks the folder that ./phlux bundle makes: it needs no library of this machine, and the program in it renders.
+# Checks the folder that ./phlux bundle makes: it needs no library of this machine, uses this machine's libraries of the
+# compiler where they are new enough, as drivers do, and the program in it renders.
 #   bundle.sh LAUNCHER PROGRAM SCENE
 set -euo pipefail
 launcher=$1 program=$2 scene=$3
@@ -14,12 +15,14 @@ cp "$program" "$folder/clone/build/bundle/phlux"
 bundle=$folder/bundle
 "$folder/clone/phlux" bundle "$bundle"
 
-# With this machine's glibc, and with that of the bundle.
-for path in "$bundle/lib" "$bundle/lib:$bundle/lib/glibc"; do
-  loader=$(echo /lib*/ld-linux-*.so.*)
-  if [[ $path == *glibc ]]; then loader=$(echo "$bundle"/lib/glibc/ld-linux-*); fi
+# With this machine's libraries of the compiler and glibc, with its glibc alone, and with neither.
+common='libc\.so\|libm\.so\|ld-linux\|linux-vdso'
+for path in "$bundle/lib" "$bundle/lib:$bundle/lib/compiler" "$bundle/lib:$bundle/lib/compiler:$bundle/lib/glibc"; do
+  loader=$(echo /lib*/ld-linux-*.so.*) machine=$common
+  if [[ $path == *glibc ]]; then loader=$(echo "$bundle"/lib/glibc/ld-linux-*) machine='linux-vdso'; fi
+  if [[ $path == *lib ]]; then machine+='\|libstdc++\.so\|libgcc_s\.so\|libz\.so'; fi
   "$loader" --library-path "$path" --list "$bundle/lib/phlux" >"$folder/libraries"
-  if grep -v "=> $bundle/lib\|libc\.so\|libm\.so\|ld-linux\|linux-vdso" "$folder/libraries"; then
+  if grep -v "=> $bundle/lib\|$machine" "$folder/libraries"; then
     echo "FAILED: these libraries are not in the bundle"
     exit 1
   fi
