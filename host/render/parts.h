@@ -15,7 +15,8 @@
 
 namespace phlux::render {
 
-/// Largest number of entries of a table that fits the registers of a CPU (kernels/lanes/lanes.h).
+/// Largest number of entries of a table that is kept in the registers of a CPU: TABLE_ENTRIES of
+/// kernels/lanes/memory.h.
 inline constexpr std::size_t few_entries = 16;
 
 struct Parts {

@@ -2,17 +2,14 @@
 #ifndef PHLUX_LANES_ACROSS_H
 #define PHLUX_LANES_ACROSS_H
 
-#include "lanes/avx512.h"
 #include "lanes/memory.h"
+#include "lanes/native.h"
 
 // ---- Tests of a mask
 
-#ifdef LANES_AVX512
-static inline uint lane_bits(Mask m) {
-  return (ushort)__builtin_ia32_cmpd512_mask(LANE_NATIVE_INTS(m), LANE_NATIVE_INTS((Int)(0)), 4, (ushort)0xffff);
-}
-static inline int any_lane(Mask m) { return lane_bits(m) != 0; }
-static inline int all_lanes(Mask m) { return lane_bits(m) == 0xffff; }
+#ifdef LANES_NATIVE
+static inline int any_lane(Mask m) { return native_bits(m) != 0; }
+static inline int all_lanes(Mask m) { return native_bits(m) == LANE_ALL_BITS; }
 #elif WIDTH == 1
 static inline int any_lane(Mask m) { return m != 0; }
 static inline int all_lanes(Mask m) { return m != 0; }
@@ -55,8 +52,8 @@ static inline uint sum_of_lanes(Uint v) {
 static inline int first_lane(Mask m) {
 #if WIDTH == 1
   return 0;
-#elif defined(LANES_AVX512)
-  return (int)(31 - clz(lane_bits(m) & (0u - lane_bits(m))));
+#elif defined(LANES_NATIVE)
+  return __builtin_ctz(native_bits(m));
 #else
   int array[WIDTH];
   int_lanes_to_array(m, array);
@@ -67,8 +64,8 @@ static inline int first_lane(Mask m) {
 }
 
 static inline int count_lanes(Mask m) {
-#ifdef LANES_AVX512
-  return popcount((int)lane_bits(m));
+#ifdef LANES_NATIVE
+  return __builtin_popcount(native_bits(m));
 #else
   return (int)sum_of_lanes(m ? (Uint)(1u) : (Uint)(0u));
 #endif
@@ -76,9 +73,8 @@ static inline int count_lanes(Mask m) {
 
 // For each lane of m, the number of lanes of m before it; undefined in other lanes.
 static inline Int rank_lanes(Mask m) {
-#ifdef LANES_AVX512
-  return LANE_INTS(__builtin_ia32_expandsi512_mask(LANE_NATIVE_INTS(LANE_NUMBERS), LANE_NATIVE_INTS((Int)(0)),
-                                                   (ushort)lane_bits(m)));
+#ifdef LANES_NATIVE
+  return native_rank(m);
 #elif WIDTH == 1
   return 0;
 #else
@@ -94,9 +90,8 @@ static inline Int rank_lanes(Mask m) {
 
 // Moves the values of the lanes of m to the first lanes, in lane order; the other lanes are undefined.
 static inline Real pack_lanes(Mask m, Real v) {
-#ifdef LANES_AVX512
-  return LANE_REALS(
-      __builtin_ia32_compresssf512_mask(LANE_NATIVE_FLOATS(v), LANE_NATIVE_FLOATS((Real)(0.0f)), (ushort)lane_bits(m)));
+#ifdef LANES_NATIVE
+  return native_pack(m, v);
 #elif WIDTH == 1
   return v;
 #else
@@ -116,9 +111,8 @@ static inline Int pack_int_lanes(Mask m, Int v) { return carried_int(pack_lanes(
 
 // The inverse: the lanes of m get the first values of v, in lane order; the others keep `old`.
 static inline Real unpack_lanes(Mask m, Real v, Real old) {
-#ifdef LANES_AVX512
-  return LANE_REALS(
-      __builtin_ia32_expandsf512_mask(LANE_NATIVE_FLOATS(v), LANE_NATIVE_FLOATS(old), (ushort)lane_bits(m)));
+#ifdef LANES_NATIVE
+  return native_unpack(m, v, old);
 #elif WIDTH == 1
   return m ? v : old;
 #else

@@ -2,7 +2,7 @@
 #ifndef PHLUX_LANES_MEMORY_H
 #define PHLUX_LANES_MEMORY_H
 
-#include "lanes/avx512.h"
+#include "lanes/native.h"
 #include "lanes/types.h"
 
 #if WIDTH == 4
@@ -18,9 +18,8 @@
 
 // base[index] in every lane; index counts 4-byte words and must be valid in every lane, whatever its mask.
 static inline Real gather_real(const __global float* base, Int index) {
-#ifdef LANES_AVX512
-  return LANE_REALS(__builtin_ia32_gathersiv16sf(LANE_NATIVE_FLOATS((Real)(0.0f)), (const void*)(size_t)base,
-                                                 LANE_NATIVE_INTS(index), (ushort)0xffff, 4));
+#ifdef LANES_GATHER
+  return native_gather(base, index);
 #elif WIDTH == 1
   return base[index];
 #else
@@ -30,9 +29,8 @@ static inline Real gather_real(const __global float* base, Int index) {
 }
 
 static inline Int gather_int(const __global int* base, Int index) {
-#ifdef LANES_AVX512
-  return LANE_INTS(__builtin_ia32_gathersiv16si(LANE_NATIVE_INTS((Int)(0)), (const void*)(size_t)base,
-                                                LANE_NATIVE_INTS(index), (ushort)0xffff, 4));
+#ifdef LANES_GATHER
+  return native_gather_int(base, index);
 #elif WIDTH == 1
   return base[index];
 #else
@@ -49,25 +47,36 @@ static inline Int gather_int(const __global int* base, Int index) {
 #define GATHER_INT(table, index, member)                                                                               \
   gather_int((const __global int*)(table), (index) * (int)(sizeof(*(table)) / 4) + MEMBER_PLACE(int, table, member))
 
-static inline void float_lanes_to_array(Real v, float* array) {
+// The words of all lanes, at any address of a word. The vload and vstore of OpenCL C are functions of the driver's
+// library, which it may not inline (see inlined.h).
 #if WIDTH == 1
-  *array = (float)v;
+typedef float FloatWords;
+typedef Scalar ScalarWords;
+typedef int IntWords;
 #else
-  LANE_JOIN(vstore, WIDTH)(v, 0, array);
+typedef Real FloatWords __attribute__((aligned(4)));
+typedef FloatWords ScalarWords;
+typedef Int IntWords __attribute__((aligned(4)));
 #endif
-}
 
-// A table of at most LANES structs of 4-byte members can be stored in private memory, one array per member. A lookup
-// then permutes a register, which is many times as fast as a gather. LANES_PERMUTE is 1 if the device has such
-// permutations.
-#ifdef LANES_AVX512
+static inline void float_lanes_to_array(Real v, float* array) { *(FloatWords*)array = v; }
+
+// A table of at most TABLE_ENTRIES structs of 4-byte members can be stored in private memory, one array per member, if
+// LANES_PERMUTE is 1: the device has permutations of registers. A lookup is then many times as fast as a gather.
+#ifdef LANES_NATIVE
 #define LANES_PERMUTE 1
+#define TABLE_ENTRIES 16
 #else
 #define LANES_PERMUTE 0
+#define TABLE_ENTRIES LANES
 #endif
 static inline Real permute_real(const float* base, Int index) {
-#ifdef LANES_AVX512
-  return LANE_REALS(__builtin_ia32_permvarsf512(LANE_NATIVE_FLOATS(vload16(0, base)), LANE_NATIVE_INTS(index)));
+#if LANES_PERMUTE && WIDTH == TABLE_ENTRIES
+  return native_permute(*(const FloatWords*)base, index);
+#elif LANES_PERMUTE
+  const Real first = native_permute(*(const FloatWords*)base, index);
+  const Real second = native_permute(*(const FloatWords*)(base + WIDTH), index);
+  return index < WIDTH ? first : second;
 #elif WIDTH == 1
   return base[index];
 #else
@@ -75,10 +84,12 @@ static inline Real permute_real(const float* base, Int index) {
 #endif
 }
 static inline Int permute_int(const float* base, Int index) { return carried_int(permute_real(base, index)); }
-// The table has room for LANES entries of `words` words each.
-static inline void load_members(const __global void* table, int words, float (*members)[LANES]) {
+// The table has room for TABLE_ENTRIES entries of `words` words each.
+static inline void load_members(const __global void* table, int words, float (*members)[TABLE_ENTRIES]) {
   for (int word = 0; word < words; ++word)
-    float_lanes_to_array(gather_real((const __global float*)table, LANE_NUMBERS * words + word), members[word]);
+    for (int entry = 0; entry < TABLE_ENTRIES; entry += LANES)
+      float_lanes_to_array(gather_real((const __global float*)table, (LANE_NUMBERS + entry) * words + word),
+                           members[word] + entry);
 }
 #define PERMUTE_REAL(members, table, index, member) permute_real((members)[MEMBER_PLACE(float, table, member)], index)
 #define PERMUTE_INT(members, table, index, member) permute_int((members)[MEMBER_PLACE(int, table, member)], index)
@@ -102,66 +113,18 @@ static inline void scatter_int(__global int* base, Int index, Int value, Mask m)
 }
 
 // Private copies of lanes, for loops over them.
-static inline void lanes_to_array(Real v, Scalar* array) {
-#if WIDTH == 1
-  *array = v;
-#else
-  LANE_JOIN(vstore, WIDTH)(v, 0, array);
-#endif
-}
-static inline void int_lanes_to_array(Int v, int* array) {
-#if WIDTH == 1
-  *array = v;
-#else
-  LANE_JOIN(vstore, WIDTH)(v, 0, array);
-#endif
-}
-static inline Real lanes_from_array(const Scalar* array) {
-#if WIDTH == 1
-  return *array;
-#else
-  return LANE_JOIN(vload, WIDTH)(0, array);
-#endif
-}
-static inline Int int_lanes_from_array(const int* array) {
-#if WIDTH == 1
-  return *array;
-#else
-  return LANE_JOIN(vload, WIDTH)(0, array);
-#endif
-}
+static inline void lanes_to_array(Real v, Scalar* array) { *(ScalarWords*)array = v; }
+static inline void int_lanes_to_array(Int v, int* array) { *(IntWords*)array = v; }
+static inline Real lanes_from_array(const Scalar* array) { return *(const ScalarWords*)array; }
+static inline Int int_lanes_from_array(const int* array) { return *(const IntWords*)array; }
 
 // WIDTH consecutive words from `base`.
-static inline Real load_reals(const __global float* base) {
-#if WIDTH == 1
-  return *base;
-#else
-  return LANE_JOIN(vload, WIDTH)(0, base);
-#endif
-}
-static inline Int load_ints(const __global int* base) {
-#if WIDTH == 1
-  return *base;
-#else
-  return LANE_JOIN(vload, WIDTH)(0, base);
-#endif
-}
+static inline Real load_reals(const __global float* base) { return *(const __global FloatWords*)base; }
+static inline Int load_ints(const __global int* base) { return *(const __global IntWords*)base; }
 
 // WIDTH consecutive words to `base`.
-static inline void store_reals(__global float* base, Real v) {
-#if WIDTH == 1
-  *base = (float)v;
-#else
-  LANE_JOIN(vstore, WIDTH)(v, 0, base);
-#endif
-}
-static inline void store_ints(__global int* base, Int v) {
-#if WIDTH == 1
-  *base = v;
-#else
-  LANE_JOIN(vstore, WIDTH)(v, 0, base);
-#endif
-}
+static inline void store_reals(__global float* base, Real v) { *(__global FloatWords*)base = v; }
+static inline void store_ints(__global int* base, Int v) { *(__global IntWords*)base = v; }
 
 // The same for tables in the precision of a Real; those above always contain floats.
 #ifdef PHLUX_DOUBLE

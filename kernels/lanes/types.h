@@ -2,6 +2,8 @@
 #ifndef PHLUX_LANES_TYPES_H
 #define PHLUX_LANES_TYPES_H
 
+#include "lanes/inlined.h"
+
 // The type of one lane of a Real, constants of that precision, and properties of it.
 #ifdef PHLUX_DOUBLE
 #if WIDTH != 1

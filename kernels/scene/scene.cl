@@ -33,11 +33,11 @@ typedef struct {
   const __global float* texels; // values of bytes, and texels
   const __global float* uv_maps; // UV_FLOATS per primitive
   // Copies of tables with few entries, member by member.
-  float material_members[MEMBERS_IN_REGISTERS(MATERIALS_IN_REGISTERS, MATERIAL_WORDS)][LANES];
-  float light_members[MEMBERS_IN_REGISTERS(LIGHTS_IN_REGISTERS, sizeof(LightRecord) / 4)][LANES];
-  float primitive_members[MEMBERS_IN_REGISTERS(PRIMITIVES_IN_REGISTERS, sizeof(PrimitiveRecord) / 4)][LANES];
-  float planar_members[MEMBERS_IN_REGISTERS(PRIMITIVES_IN_REGISTERS, PLANAR_FLOATS)][LANES];
-  float sphere_members[MEMBERS_IN_REGISTERS(PRIMITIVES_IN_REGISTERS, SPHERE_FLOATS)][LANES];
+  float material_members[MEMBERS_IN_REGISTERS(MATERIALS_IN_REGISTERS, MATERIAL_WORDS)][TABLE_ENTRIES];
+  float light_members[MEMBERS_IN_REGISTERS(LIGHTS_IN_REGISTERS, sizeof(LightRecord) / 4)][TABLE_ENTRIES];
+  float primitive_members[MEMBERS_IN_REGISTERS(PRIMITIVES_IN_REGISTERS, sizeof(PrimitiveRecord) / 4)][TABLE_ENTRIES];
+  float planar_members[MEMBERS_IN_REGISTERS(PRIMITIVES_IN_REGISTERS, PLANAR_FLOATS)][TABLE_ENTRIES];
+  float sphere_members[MEMBERS_IN_REGISTERS(PRIMITIVES_IN_REGISTERS, SPHERE_FLOATS)][TABLE_ENTRIES];
 } Scene;
 
 // A member of an entry of a table, in every lane.

@@ -132,11 +132,11 @@ __kernel void stores(__global const Real* real, __global const Int* whole, __glo
   store_ints(ints + i * LANES, whole[i]);
 }
 
-// A table of LANES rows of three words, entries looked up in it by lane: by gathers where registers are not permuted.
+// A table of 16 rows of three words, entries looked up in it by lane: by gathers where registers are not permuted.
 __kernel void permutes(__global Row* rows, __global const Int* index, __global Real* b, __global Int* c) {
   const size_t i = get_global_id(0);
-#ifdef LANES_PERMUTE
-  float members[3][LANES];
+#if LANES_PERMUTE
+  float members[3][TABLE_ENTRIES];
   load_members(rows, 3, members);
   b[i] = PERMUTE_REAL(members, rows, index[i], b);
   c[i] = PERMUTE_INT(members, rows, index[i], c);
