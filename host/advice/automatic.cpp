@@ -118,6 +118,18 @@ std::vector<std::pair<std::string, std::string>> variants_of(const std::string& 
   return {{"connect", "light"}, {"connect", "none"}};
 }
 
+// Lattices need at most the samples that independent samples need (bench/saved/SAMPLERS.md); trials are too
+// short to measure by how much less. They do not help `light`, whose samples are not those of a pixel.
+void with_point_sets(Candidate& best, Trials& trials, const settings::Choices& choices) {
+  if (best.settings.integrator == "light" || choices.has("sampler")) return;
+  Texts texts = best.texts;
+  texts["sampler"] = "lattice";
+  const auto with_lattice = trials.candidate(texts);
+  if (!with_lattice) return;
+  best.texts = texts;
+  best.trial.method = method_of(with_lattice->settings);
+}
+
 std::string words_for(const std::vector<Candidate>& sorted) {
   const Candidate& best = sorted.front();
   if (!is_comparable(best.trial)) return fmt::format("{}: trials were too noisy to tell", best.trial.method);
@@ -181,6 +193,7 @@ MethodChoice choose_method(scene::Scene scene, const settings::Choices& choices,
     if (variant->trial.refusal.empty()) candidates.push_back(*variant);
   }
   std::ranges::sort(candidates, is_better);
+  with_point_sets(candidates.front(), trials, choices);
   return {.texts = candidates.front().texts, .words = words_for(candidates)};
 }
 

@@ -81,6 +81,10 @@ TEST_CASE("integrator auto: the method with the least error, the same each time"
   CHECK(choice_for(shipped("caustic", 64, 48), 20'000).words == caustic.words);
   const advice::MethodChoice near_light = choice_for(shipped("stability/near-light", 64, 48), 20'000);
   CHECK(near_light.texts.at("integrator") == "path");
+  CHECK(near_light.texts.at("sampler") == "lattice");
+  CHECK_THAT(near_light.words, Catch::StartsWith("`integrator` path `sampler` lattice: "));
+  CHECK(!choice_for(shipped("stability/near-light", 64, 48), 20'000, {{"sampler", "independent"}})
+             .texts.contains("sampler"));
   const advice::MethodChoice furnace = choice_for(shipped("furnace-box", 64, 48), 20'000); // light all around
   CHECK(furnace.texts.at("connect") == "none");
 }

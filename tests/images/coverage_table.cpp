@@ -2,9 +2,10 @@
 // many 95% intervals (mean +- t standard errors) contain the true value, and what film::reliability_of()
 // predicts.
 //   PHLUX_COVERAGE_SEEDS=20 PHLUX_COVERAGE_TABLE=coverage.csv test_images "[.coverage]"
-// writes a line for each render and prints the share of the renders that are not trusted, for those whose
-// intervals contain the true value in 93% to 97% of the pixels and in less than 85%. Two hours on one core
-// for 50 seeds.
+// PHLUX_COVERAGE_SAMPLER=lattice measures path and bidir with that sampler, PHLUX_COVERAGE_SAMPLES=N up to N
+// samples. writes a line for each render and prints the share of the renders that are not trusted, for those
+// whose intervals contain the true value in 93% to 97% of the pixels and in less than 85%. Two hours on one
+// core for 50 seeds.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -20,6 +21,7 @@
 #include "images/integrators.h"
 #include "images/prepared_render.h"
 #include "measure/statistics.h"
+#include "render/schedule.h"
 #include "scene_file/load.h"
 
 using namespace phlux;
@@ -67,10 +69,15 @@ std::string environment(const char* name, const char* otherwise) {
   return value != nullptr ? value : otherwise;
 }
 
-// Student's t of 95% for the samples of a pixel; 1.96 for splats, which are of many paths.
+// Student's t of 95% for the independent samples, or sets of samples, of a pixel; 1.96 for splats, which are
+// of many paths.
 double interval_of(const Method& method, int samples) {
   if (method.integrator == "light") return 1.96;
-  return measure::student_t(0.05, samples - 1.0);
+  if (method.sampler == render::Sampler::independent) return measure::student_t(0.05, samples - 1.0);
+  double squares = 0.0; // of the lengths of sets; as many equal sets say as much (render/schedule.h)
+  for (int sample = 0; sample < samples; sample += 1 << render::point_bits(sample))
+    squares += std::pow(4.0, render::point_bits(sample));
+  return measure::student_t(0.05, std::pow(samples, 2) / squares - 1.0);
 }
 
 // Mean of `renders` renders, and the variance of that mean from their differences.
@@ -144,6 +151,8 @@ struct Tally {
 TEST_CASE("renders whose intervals fail are not trusted, and those whose intervals hold are", "[.coverage]") {
   const int seeds = std::stoi(environment("PHLUX_COVERAGE_SEEDS", "50"));
   const std::string only = environment("PHLUX_COVERAGE_SCENE", "");
+  const bool lattice = environment("PHLUX_COVERAGE_SAMPLER", "") == "lattice";
+  const int most_samples = std::stoi(environment("PHLUX_COVERAGE_SAMPLES", "2048"));
   std::ofstream table(environment("PHLUX_COVERAGE_TABLE", "coverage.csv"));
   table << "scene,method,samples,seed,coverage,error,relative_standard_error,predicted_coverage,predicted_"
            "error,"
@@ -158,8 +167,10 @@ TEST_CASE("renders whose intervals fail are not trusted, and those whose interva
         scene_file::load(std::string(PHLUX_SOURCE_DIR "/scenes/") + of.scene + ".xml", {}, {{width, height}});
     const Estimate reference = reference_of(scene, of.reference, std::max(8, seeds));
     Tally tally;
-    for (const Method& method : of.methods)
+    for (Method method : of.methods) {
+      if (lattice && method.integrator != "light") method.sampler = render::Sampler::lattice;
       for (const int samples : sample_counts) {
+        if (samples > most_samples) break;
         const PreparedRender prepared(scene, settings_for(method, samples));
         for (int seed = 0; seed < seeds; ++seed) {
           const film::Film film = prepared.image(static_cast<std::uint64_t>(seed), samples).film;
@@ -174,6 +185,7 @@ TEST_CASE("renders whose intervals fail are not trusted, and those whose interva
                 << std::flush;
         }
       }
+    }
     text += tally.text(of.scene);
   }
   text += all.text("all");
