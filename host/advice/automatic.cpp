@@ -118,10 +118,14 @@ std::vector<std::pair<std::string, std::string>> variants_of(const std::string& 
   return {{"connect", "light"}, {"connect", "none"}};
 }
 
-// Lattices need at most the samples that independent samples need (bench/saved/SAMPLERS.md); trials are too
-// short to measure by how much less. They do not help `light`, whose samples are not those of a pixel.
-void with_point_sets(Candidate& best, Trials& trials, const settings::Choices& choices) {
-  if (best.settings.integrator == "light" || choices.has("sampler")) return;
+// Lattices need fewer samples than independent points (bench/saved/SAMPLERS.md); trials are too short to
+// measure by how much. With less than about 100 samples the gain is small, and a bad error estimate is more
+// often taken for a good one (bench/saved/COVERAGE.md). They do not help `light`, whose samples are not those
+// of a pixel.
+constexpr double fewest_for_point_sets = 128;
+void with_point_sets(Candidate& best, double samples, Trials& trials, const settings::Choices& choices) {
+  if (samples < fewest_for_point_sets || best.settings.integrator == "light" || choices.has("sampler"))
+    return;
   Texts texts = best.texts;
   texts["sampler"] = "lattice";
   const auto with_lattice = trials.candidate(texts);
@@ -193,8 +197,10 @@ MethodChoice choose_method(scene::Scene scene, const settings::Choices& choices,
     if (variant->trial.refusal.empty()) candidates.push_back(*variant);
   }
   std::ranges::sort(candidates, is_better);
-  with_point_sets(candidates.front(), trials, choices);
-  return {.texts = candidates.front().texts, .words = words_for(candidates)};
+  Candidate& chosen = candidates.front();
+  const double samples = seconds_of_render(settings, pixels, candidates) / (pixels * chosen.sample_seconds);
+  with_point_sets(chosen, samples, trials, choices);
+  return {.texts = chosen.texts, .words = words_for(candidates)};
 }
 
 } // namespace phlux::advice

@@ -59,7 +59,7 @@ typedef FloatWords ScalarWords;
 typedef Int IntWords __attribute__((aligned(4)));
 #endif
 
-static inline void float_lanes_to_array(Real v, float* array) { *(FloatWords*)array = v; }
+static inline void float_lanes_to_array(Real v, float* array) { *(FloatWords*)array = (FloatWords)v; }
 
 // A table of at most TABLE_ENTRIES structs of 4-byte members can be stored in private memory, one array per member, if
 // LANES_PERMUTE is 1: the device has permutations of registers. A lookup is then many times as fast as a gather.
@@ -123,7 +123,7 @@ static inline Real load_reals(const __global float* base) { return *(const __glo
 static inline Int load_ints(const __global int* base) { return *(const __global IntWords*)base; }
 
 // WIDTH consecutive words to `base`.
-static inline void store_reals(__global float* base, Real v) { *(__global FloatWords*)base = v; }
+static inline void store_reals(__global float* base, Real v) { *(__global FloatWords*)base = (FloatWords)v; }
 static inline void store_ints(__global int* base, Int v) { *(__global IntWords*)base = v; }
 
 // The same for tables in the precision of a Real; those above always contain floats.
