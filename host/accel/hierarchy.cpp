@@ -13,12 +13,22 @@
 namespace phlux::accel {
 namespace {
 
-constexpr unsigned patch_geometry = 0xFFFFFFFE, sphere_geometry = 0xFFFFFFFF; // geomIDs; below: a mesh
+// geomIDs, by which the primitives of a leaf are ordered; below: a mesh.
+constexpr unsigned parallelogram_geometry = 0xFFFFFFFD, ellipse_geometry = 0xFFFFFFFE,
+                   sphere_geometry = 0xFFFFFFFF;
+constexpr int kinds_of_primitives = 4;
+
+// As in the leaves of kernels/scene/scene_data.h.
+int kind_of(const RTCBuildPrimitive& p) {
+  if (p.geomID == sphere_geometry) return LEAF_SPHERES;
+  if (p.geomID == ellipse_geometry) return REGION_ELLIPSE;
+  if (p.geomID == parallelogram_geometry) return REGION_PARALLELOGRAM;
+  return REGION_TRIANGLE;
+}
 
 Reference reference_of(const RTCBuildPrimitive& p) {
-  if (p.geomID == patch_geometry) return {Reference::Kind::patch, p.primID, 0};
-  if (p.geomID == sphere_geometry) return {Reference::Kind::sphere, p.primID, 0};
-  return {Reference::Kind::mesh, p.geomID, p.primID};
+  if (p.geomID < parallelogram_geometry) return {Reference::Kind::mesh, p.geomID, p.primID};
+  return {p.geomID == sphere_geometry ? Reference::Kind::sphere : Reference::Kind::patch, p.primID, 0};
 }
 
 std::vector<RTCBuildPrimitive> build_primitives(const scene::Scene& scene, const scene::Vec3& origin,
@@ -38,7 +48,9 @@ std::vector<RTCBuildPrimitive> build_primitives(const scene::Scene& scene, const
   };
   for (unsigned mesh = 0; mesh < scene.meshes.size(); ++mesh)
     for (std::uint32_t i = 0; i < scene.meshes[mesh].triangles.size(); ++i) add(mesh, i);
-  for (std::uint32_t i = 0; i < scene.patches.size(); ++i) add(patch_geometry, i);
+  for (std::uint32_t i = 0; i < scene.patches.size(); ++i)
+    add(scene.patches[i].region == scene::Patch::Region::ellipse ? ellipse_geometry : parallelogram_geometry,
+        i);
   for (std::uint32_t i = 0; i < scene.spheres.size(); ++i) add(sphere_geometry, i);
   return primitives;
 }
@@ -70,16 +82,16 @@ private:
     return static_cast<int>(index);
   }
 
-  // A leaf has either planar primitives or spheres; a mixed leaf of Embree's becomes a node with two leaves.
+  // The primitives of a leaf are of one kind; a mixed leaf of Embree's becomes a node with a leaf of the
+  // first kind and, as another child, the others.
   int write_leaf(std::span<const RTCBuildPrimitive> all) {
-    const auto first_sphere =
-        std::find_if(all.begin(), all.end(), [](const auto& p) { return p.geomID == sphere_geometry; });
-    const std::span flats(all.begin(), first_sphere), spheres(first_sphere, all.end());
-    if (spheres.empty()) return write_blocks(flats, false);
-    if (flats.empty()) return write_blocks(spheres, true);
+    const int kind = kind_of(all.front());
+    const auto other = std::ranges::find_if(all, [&](const auto& p) { return kind_of(p) != kind; });
+    const std::span first(all.begin(), other), others(other, all.end());
+    if (others.empty()) return write_blocks(all, kind);
     const std::size_t index = reserve_node();
-    fill_node(index,
-              {{write_blocks(flats, false), box_of(flats)}, {write_blocks(spheres, true), box_of(spheres)}});
+    const Child one{write_blocks(first, kind), box_of(first)}, rest{write_leaf(others), box_of(others)};
+    fill_node(index, {one, rest});
     return static_cast<int>(index);
   }
 
@@ -95,7 +107,8 @@ private:
     return b;
   }
 
-  int write_blocks(std::span<const RTCBuildPrimitive> primitives, bool spheres) {
+  int write_blocks(std::span<const RTCBuildPrimitive> primitives, int kind) {
+    const bool spheres = kind == LEAF_SPHERES;
     const int block = geometry_.block;
     const int first = (spheres ? writer_.finish_sphere_block() : writer_.finish_planar_block()) / block;
     for (const RTCBuildPrimitive& p : primitives) {
@@ -106,9 +119,9 @@ private:
     }
     const int end = (spheres ? writer_.finish_sphere_block() : writer_.finish_planar_block()) / block;
     const int blocks = end - first;
-    if (blocks > 16 || first >= 1 << 26)
+    if (blocks > 8 || first >= 1 << 26)
       throw SceneError("the scene has more primitives than a hierarchy can index");
-    return ~(first << 5 | (blocks - 1) << 1 | (spheres ? 1 : 0));
+    return ~(first << 5 | (blocks - 1) << 2 | kind);
   }
 
   std::size_t reserve_node() {
@@ -158,8 +171,8 @@ Geometry hierarchy(const scene::Scene& scene, int lanes, bool in_double) {
   if (primitives.empty() && count_primitives(scene) > 0) return geometry; // none has an area
   geometry.radius = radius_of(primitives);
 
-  // One level is reserved for the node that splits a mixed leaf.
-  const int most_levels = (lanes == 1 ? max_depth_binary : max_depth_wide) - 1;
+  // Levels are reserved for the nodes that split a mixed leaf.
+  const int most_levels = (lanes == 1 ? max_depth_binary : max_depth_wide) - (kinds_of_primitives - 1);
   const auto width = static_cast<unsigned>(lanes);
   const Tree tree(std::move(primitives), {.branching = std::max(width, 2u),
                                           .leaf_size = std::max(width, 4u),

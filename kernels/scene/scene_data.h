@@ -167,7 +167,9 @@ enum VertexWords {
 enum { SCRATCH_WORDS_PER_PATH = 8 };
 
 // One node of the hierarchy: the boxes of CHILDREN children, then the children. A child >= 0 is a node; one < 0 is a
-// leaf: ~child = first block << 5 | (blocks - 1) << 1 | (1 if the blocks contain spheres).
+// leaf: ~child = first block << 5 | (blocks - 1) << 2 | kind. The kind of its primitives is one of PlanarRegions, or
+// LEAF_SPHERES; a leaf has at most 8 blocks.
+enum { LEAF_SPHERES = 3 };
 enum NodeValues {
   NODE_LOW_X = 0,
   NODE_LOW_Y,

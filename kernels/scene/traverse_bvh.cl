@@ -79,7 +79,7 @@ static inline Vec3 load_planar(const __global Scalar* block, int value) {
               load_scalars(block + (value + 2) * LANES));
 }
 
-static inline Mask meet_planars(const Scene* scene, int block, Ray ray, Scalar limit, Real* distance) {
+static inline Mask meet_planars(const Scene* scene, int block, int kind, Ray ray, Scalar limit, Real* distance) {
   const __global Scalar* values = scene->planars + block * (PLANAR_FLOATS * LANES);
   Planar p;
   p.origin = load_planar(values, PLANAR_ORIGIN);
@@ -87,12 +87,9 @@ static inline Mask meet_planars(const Scene* scene, int block, Ray ray, Scalar l
   p.minus_u = load_planar(values, PLANAR_MINUS_U);
   p.normal = load_planar(values, PLANAR_NORMAL);
   const PlaneCrossing c = cross_plane(ray, p);
-  Mask inside = HAS_TRIANGLES ? in_triangle(c) : HAS_PARALLELOGRAMS ? in_parallelogram(c) : in_ellipse(c);
-  if (HAS_MIXED_REGIONS) {
-    const Int region = GATHER_INT(scene->primitives, block * LANES + LANE_NUMBERS, region);
-    inside = (in_triangle(c) & (region == REGION_TRIANGLE)) |
-             (in_parallelogram(c) & (region == REGION_PARALLELOGRAM)) | (in_ellipse(c) & (region == REGION_ELLIPSE));
-  }
+  const Mask inside = HAS_TRIANGLES && kind == REGION_TRIANGLE ? in_triangle(c)
+                      : HAS_ELLIPSES && kind == REGION_ELLIPSE ? in_ellipse(c)
+                                                               : in_parallelogram(c);
   const Mask met = inside & (c.distance > 0.0f) & (c.distance < limit * c.facing);
   *distance = c.distance / c.facing;
   return met;
@@ -107,15 +104,27 @@ static inline Mask meet_spheres(const Scene* scene, int block, Ray ray, Scalar l
   return (*distance > 0.0f) & (*distance < limit);
 }
 
+// The blocks of a leaf, and the kind of their primitives.
+typedef struct {
+  int first, end, kind;
+} Leaf;
+
+static inline Leaf leaf_of(int child) {
+  const int code = ~child, first = code >> 5;
+  const Leaf leaf = {first, first + ((code >> 2) & 7) + 1, code & 3};
+  return leaf;
+}
+
 // The primitives of block `block` of a leaf; *first is the primitive index of its lane 0.
-static inline Mask meet_block(const Scene* scene, int block, int spheres, Ray ray, Scalar limit, Real* distance,
+static inline Mask meet_block(const Scene* scene, int block, int kind, Ray ray, Scalar limit, Real* distance,
                               int* first) {
-  if (HAS_SPHERES & (!HAS_PLANARS | (spheres != 0))) {
+  if (HAS_SPHERES & (!HAS_PLANARS | (kind == LEAF_SPHERES))) {
     *first = scene->first_sphere + block * LANES;
     return meet_spheres(scene, block, ray, limit, distance);
   }
   *first = block * LANES;
-  return meet_planars(scene, block, ray, limit, distance);
+  const int only_kind = HAS_TRIANGLES ? REGION_TRIANGLE : HAS_ELLIPSES ? REGION_ELLIPSE : REGION_PARALLELOGRAM;
+  return meet_planars(scene, block, HAS_MIXED_REGIONS ? kind : only_kind, ray, limit, distance);
 }
 
 // Finds the closest primitive before *distance; returns its index, or -1 without changing *distance.
@@ -134,11 +143,11 @@ static inline int closest_along(const Scene* scene, const Scalar* ray, Scalar* d
       top = push_children(scene->nodes + child * (NODE_WORDS * CHILDREN), &b, *distance, nears, children, top);
       continue;
     }
-    const int leaf = ~child, end = (leaf >> 5) + ((leaf >> 1) & 15) + 1;
-    for (int block = leaf >> 5; block < end; ++block) {
+    const Leaf leaf = leaf_of(child);
+    for (int block = leaf.first; block < leaf.end; ++block) {
       Real at;
       int first;
-      const Mask met = meet_block(scene, block, leaf & 1, b.ray, *distance, &at, &first);
+      const Mask met = meet_block(scene, block, leaf.kind, b.ray, *distance, &at, &first);
       if (any_lane(met)) {
         at = met ? at : (Real)(INFINITY);
         *distance = min_of_lanes(at);
@@ -163,11 +172,11 @@ static inline int blocked_along(const Scene* scene, const Scalar* ray, Scalar di
       top = push_children(scene->nodes + child * (NODE_WORDS * CHILDREN), &b, distance, nears, children, top);
       continue;
     }
-    const int leaf = ~child, end = (leaf >> 5) + ((leaf >> 1) & 15) + 1;
-    for (int block = leaf >> 5; block < end; ++block) {
+    const Leaf leaf = leaf_of(child);
+    for (int block = leaf.first; block < leaf.end; ++block) {
       Real at;
       int first;
-      if (any_lane(meet_block(scene, block, leaf & 1, b.ray, distance, &at, &first))) return 1;
+      if (any_lane(meet_block(scene, block, leaf.kind, b.ray, distance, &at, &first))) return 1;
     }
   }
   return 0;

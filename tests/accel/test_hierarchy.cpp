@@ -62,14 +62,15 @@ private:
   }
 
   void visit_leaf(int leaf, const std::vector<Box>& above) {
-    const bool spheres = (leaf & 1) != 0;
-    const int blocks = (leaf >> 1 & 15) + 1, first = (leaf >> 5) * geometry_.block;
+    const int kind = leaf & 3, blocks = (leaf >> 2 & 7) + 1, first = (leaf >> 5) * geometry_.block;
+    const bool spheres = kind == LEAF_SPHERES;
     const int offset = spheres ? geometry_.first_sphere : 0;
     const int end = spheres ? geometry_.sphere_count : geometry_.first_sphere;
     REQUIRE(first + blocks * geometry_.block <= end);
     for (int i = first; i < first + blocks * geometry_.block; ++i) {
       const PrimitiveRecord& record = geometry_.primitives[static_cast<std::size_t>(offset + i)];
       if (record.region == REGION_NONE) continue;
+      if (!spheres) REQUIRE(record.region == kind);
       materials.insert(record.material);
       const auto reference = shapes_.references.at(static_cast<std::size_t>(record.material));
       REQUIRE(spheres == (reference.kind == accel::Reference::Kind::sphere));
