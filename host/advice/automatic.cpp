@@ -149,8 +149,7 @@ std::string words_for(const std::vector<Candidate>& sorted) {
 } // namespace
 
 bool misses_light(const scene::Scene& scene, const settings::IntegratorInfo& integrator) {
-  return has_delta(scene) &&
-         (integrator.eye_paths ? has_unhittable_lights(scene) && !integrator.light_paths : true);
+  return integrator.eye_paths ? eye_paths_miss_light(scene) && !integrator.light_paths : has_delta(scene);
 }
 
 MethodChoice choose_method(scene::Scene scene, const settings::Choices& choices,

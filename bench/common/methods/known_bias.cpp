@@ -24,13 +24,13 @@ bool shows_delta(scene::Scene scene, const render::Settings& settings) {
 }
 
 KnownBias::KnownBias(const scene::Scene& scene, const render::Settings& settings)
-    : has_unhittable_lights_(scene::has_unhittable_lights(scene)), has_delta_(scene::has_delta(scene)),
-      shows_delta_(shows_delta(scene, settings)) {}
+    : has_unhittable_lights_(scene::has_unhittable_lights(scene)),
+      eye_paths_miss_light_(scene::eye_paths_miss_light(scene)), shows_delta_(shows_delta(scene, settings)) {}
 
 std::string KnownBias::of(const Method& method) const {
   if (method.integrator == "path" && method.variant == "none" && has_unhittable_lights_)
     return "no path can hit a point, spot or directional light";
-  if (method.integrator == "path" && has_delta_ && has_unhittable_lights_)
+  if (method.integrator == "path" && eye_paths_miss_light_)
     return "path misses the light that point, spot and directional lights send through mirrors and smooth "
            "glass";
   if (method.integrator == "light" && shows_delta_)

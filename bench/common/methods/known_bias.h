@@ -20,7 +20,7 @@ public:
   [[nodiscard]] std::string of(const Method& method) const;
 
 private:
-  bool has_unhittable_lights_, has_delta_, shows_delta_;
+  bool has_unhittable_lights_, eye_paths_miss_light_, shows_delta_;
 };
 
 } // namespace phlux::bench
