@@ -14,33 +14,13 @@ namespace {
 
 constexpr double least_gain = 2.0;     // in efficiency, for a suggestion
 constexpr double dominant_share = 0.8; // of the variance
+// The right error of a comparable trial is up to 1.6 times its estimate (trial.cpp).
+constexpr double largest_correction = 1.6 * 1.6; // of a cost
 
 // One significant digit: short trials are no more accurate.
 double rounded(double x) {
   const double unit = std::pow(10.0, std::floor(std::log10(x)));
   return std::round(x / unit) * unit;
-}
-
-// Sets `found` and `words`.
-void conclude(Advice& advice, double seconds) {
-  const Trial &own = advice.trials.front(), *best = nullptr;
-  for (const Trial& trial : advice.trials)
-    if (&trial != &own && is_comparable(trial) && (best == nullptr || trial.cost < best->cost)) best = &trial;
-  const bool finds_light = own.cost > 0.0;
-  const double times = best != nullptr ? own.cost / best->cost : 0.0;
-  advice.found = best != nullptr && (times >= least_gain || !finds_light);
-  if (advice.found && !finds_light)
-    advice.words =
-        fmt::format("try {}: in a trial of {:.2g} s it found light, and this integrator found none",
-                    best->method, seconds);
-  else if (advice.found)
-    advice.words = fmt::format("try {}: {} {:g} times as efficient in a trial of {:.2g} s", best->method,
-                               is_comparable(own) ? "about" : "at least", rounded(times), seconds);
-  else if (best != nullptr || own.reliability.trusted)
-    advice.words = fmt::format("no better integrator was found in trials of {:.2g} s", seconds);
-  else
-    advice.words =
-        fmt::format("trials of {:.2g} s are too noisy to tell which integrator is better", seconds);
 }
 
 // The light that dominates the variance, if any.
@@ -67,6 +47,28 @@ std::string unfound_light(const scene::Scene& scene, const render::Settings& set
 
 std::size_t trials_of(const scene::Scene& scene) {
   return settings::integrators.size() + 1 + light_share_renders(scene);
+}
+
+void conclude(Advice& advice, double seconds) {
+  const Trial &own = advice.trials.front(), *best = nullptr;
+  for (const Trial& trial : advice.trials)
+    if (&trial != &own && is_comparable(trial) && (best == nullptr || trial.cost < best->cost)) best = &trial;
+  const bool finds_light = own.cost > 0.0;
+  const double times = best != nullptr ? own.cost / best->cost : 0.0;
+  advice.found = best != nullptr && (times >= least_gain || !finds_light);
+  if (advice.found && !finds_light)
+    advice.words =
+        fmt::format("try {}: in a trial of {:.2g} s it found light, and this integrator found none",
+                    best->method, seconds);
+  else if (advice.found)
+    advice.words = fmt::format("try {}: {} {:g} times as efficient in a trial of {:.2g} s", best->method,
+                               is_comparable(own) ? "about" : "at least", rounded(times), seconds);
+  else if (own.reliability.trusted ||
+           (best != nullptr && is_comparable(own) && times * largest_correction < least_gain))
+    advice.words = fmt::format("no better integrator was found in trials of {:.2g} s", seconds);
+  else
+    advice.words =
+        fmt::format("trials of {:.2g} s are too noisy to tell which integrator is better", seconds);
 }
 
 Advice advise(scene::Scene scene, const render::Settings& settings, double seconds) {

@@ -14,6 +14,9 @@ struct Advice {
   std::string words;         ///< the answer: that method, or why there is none; never empty
 };
 
+/// Sets `found` and `words` from the trials, which took `seconds` each.
+void conclude(Advice& advice, double seconds);
+
 /// The largest number of renders that advise() makes.
 [[nodiscard]] std::size_t trials_of(const scene::Scene& scene);
 

@@ -32,6 +32,24 @@ TEST_CASE("the advice says so if no method is better, or if too few samples tell
   CHECK(words("caustic", 1e-4) == "trials of 0.0001 s are too noisy to tell which integrator is better");
 }
 
+TEST_CASE("no better integrator is found only where the error of the own one is known well enough") {
+  const auto words = [](double cost, bool trusted) { // relative to the only other method
+    advice::Trial own, other;
+    own.method = "path", own.cost = cost;
+    own.reliability.trusted = trusted, own.reliability.coverage = 0.8;
+    other.method = "bidir", other.cost = 1;
+    other.reliability.trusted = true, other.reliability.coverage = 0.94;
+    advice::Advice advice;
+    advice.trials = {own, other};
+    advice::conclude(advice, 1);
+    return advice.words;
+  };
+  CHECK(words(3, true) == "try bidir: about 3 times as efficient in a trial of 1 s");
+  CHECK(words(1.2, true) == "no better integrator was found in trials of 1 s");
+  CHECK(words(0.5, false) == "no better integrator was found in trials of 1 s");
+  CHECK(words(1.2, false) == "trials of 1 s are too noisy to tell which integrator is better");
+}
+
 TEST_CASE("where path finds a caustic by chance only, the advice says so and names what finds it") {
   const auto words = [](const char* scene) {
     return advice::advise(shipped(scene, 16, 16), settings_for(1), 0.01).words;
