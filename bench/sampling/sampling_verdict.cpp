@@ -35,7 +35,7 @@ std::string cost_text(const VerdictConditions& conditions) {
 std::string times_text(double factor, double least, double most) {
   if (factor > largest_factor) return fmt::format("over {:.0f} times", largest_factor);
   const double certain = std::min(most - least, std::abs(least - 1));
-  const int decimals = factor >= 10 ? 0 : certain >= 0.01 ? 2 : certain >= 0.001 ? 3 : 4;
+  const int decimals = factor >= 10 && least >= 2 ? 0 : certain >= 0.01 ? 2 : certain >= 0.001 ? 3 : 4;
   return fmt::format("{0:.{3}f} times (95%: {1:.{3}f} to {2:.{3}f})", factor, least, most, decimals);
 }
 

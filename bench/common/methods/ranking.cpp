@@ -157,8 +157,8 @@ std::string answer_of(const std::vector<MethodResult>& results, const std::vecto
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::erase_if(order, [&](std::size_t i) { return std::isnan(costs[i].cost); });
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return costs[i].cost; });
-  std::vector<std::string> fastest, slower, open;
-  double soonest = INFINITY, longest = 2; // factors of the time
+  std::vector<std::string> fastest, slower, open, ahead; // ahead: open, and so far less than the best
+  double soonest = INFINITY, longest = 2;                // factors of the time
   for (const std::size_t i : order) {
     const std::string name = options_of(results[i].method);
     const Rank rank = costs[i].rank;
@@ -168,6 +168,7 @@ std::string answer_of(const std::vector<MethodResult>& results, const std::vecto
       slower.push_back(name + ", needs " + text_of_ratio(costs[i]) + " times as long");
     if (rank == Rank::open) {
       open.push_back(name);
+      if (costs[i].high < 1) ahead.push_back(name + " needed " + text_of_ratio(costs[i]));
       soonest = std::min(soonest, std::max(2.0, results[i].times_longer));
       longest = std::max(longest, results[i].times_longer);
     }
@@ -185,6 +186,7 @@ std::string answer_of(const std::vector<MethodResult>& results, const std::vecto
   const std::string what = open.empty() ? "the least time for the same error" : "the least time";
   text += fastest.size() == 1 ? fmt::format("{} needs {}", fastest[0], what)
                               : fmt::format("tied for {}: {}", what, fmt::join(fastest, "; "));
+  if (!ahead.empty()) text += fmt::format("; so far {} times as long as the best of these", ahead[0]);
   return text + (slower.empty() ? "; no other method is known to be sound" : "; the next, " + slower[0]);
 }
 
