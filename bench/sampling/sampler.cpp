@@ -10,6 +10,8 @@
 #include <boost/math/special_functions/gamma.hpp>
 #include <fmt/format.h>
 
+#include "bench/common/methods/ranking.h"
+#include "bench/common/processor_time.h"
 #include "bench/sampling/quadrature.h"
 #include "clock.h"
 
@@ -195,10 +197,11 @@ Sampler::Run Sampler::run(const Subject& subject, std::uint64_t samples, std::ui
       static_cast<cl_int>(subject.light), cl_float{centre}, device_sums, device_counts);
   cl::Event done;
   const Clock::time_point begin = Clock::now();
+  const double begin_processor = processor_seconds();
   device.queue.enqueueNDRangeKernel(kernel_, cl::NullRange, cl::NDRange(items_), cl::NDRange(local_), nullptr,
                                     &done);
   done.wait();
-  const double wall_seconds = seconds_since(begin);
+  const double wall_seconds = seconds_since(begin), processor = processor_seconds() - begin_processor;
   device.queue.enqueueReadBuffer(device_sums, CL_TRUE, 0, sums.size() * sizeof(float), sums.data());
   device.queue.enqueueReadBuffer(device_counts, CL_TRUE, 0, counts.size() * sizeof(cl_uint), counts.data());
 
@@ -212,7 +215,7 @@ Sampler::Run Sampler::run(const Subject& subject, std::uint64_t samples, std::ui
   }
   run.sums.count = items_ * lanes * block_count * block_samples;
   run.sums.centre = static_cast<double>(centre);
-  run.seconds = seconds_of(done);
+  run.seconds = clock_of(device.info) == CostClock::processor ? processor : seconds_of(done);
   run.wall_seconds = wall_seconds;
   return run;
 } catch (const cl::Error& error) {

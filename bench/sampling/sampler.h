@@ -59,7 +59,7 @@ public:
     std::uint64_t rays = 0;    ///< samples that survive roulette and are above the surface
     std::uint64_t draws = 0;   ///< directions drawn, rejected ones included
     std::uint64_t defects = 0; ///< invalid samples: not unit, density not positive, or not finite
-    double seconds = 0;        ///< of the kernels, by the device's clock
+    double seconds = 0;        ///< of the kernels: processor time on CPUs, else by the device's clock
     double wall_seconds = 0;   ///< of the kernels, by the clock of the host
 
     void add(const Run& other);

@@ -347,8 +347,8 @@ bool measure_sampling(const SamplingOptions& options) {
   print_left_out(strategies_of(options), cases_of(options));
   for (const SavedTable& table : tables) fmt::print("{}\n", table.path().string());
   write_rankings(options.folder, name_of(options) + ".ranking.csv", rankings, ray_ns);
-  const std::string verdict =
-      verdict_of(options, rankings, {ray_ns, name, options.material ? "" : "--strategy "});
+  const std::string verdict = verdict_of(
+      options, rankings, {ray_ns, name, options.material ? "" : "--strategy ", clock_of(device.info)});
   files::write_file(options.folder / (name_of(options) + ".verdict.txt"), verdict + "\n");
   fmt::print("\n{}\n", verdict);
   std::fflush(stdout);

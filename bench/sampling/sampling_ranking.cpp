@@ -30,9 +30,10 @@ double log_error(const Competitor& c) {
                     c.cost_standard_error / c.cost);
 }
 
-// Standard error of the median of `count` times. Other programs only lengthen some of them, so that the median
-// and the least tell the standard deviation: for normally distributed values the expected difference is q
-// deviations, with the quantile q of (count - 3/8) / (count + 1/4) (Blom 1958). Requires two values or more.
+// Standard error of the median of `count` times. Other programs only lengthen some of them, so that the
+// median and the least tell the standard deviation: for normally distributed values the expected difference
+// is q deviations, with the quantile q of (count - 3/8) / (count + 1/4) (Blom 1958). Requires two values or
+// more.
 double median_error(double median, double least, double count) {
   const double deviation = (median - least) / measure::normal_sigmas(1.25 / (count + 0.25));
   return deviation * std::sqrt(std::numbers::pi / 2 / count);
@@ -59,8 +60,8 @@ Competitor competitor_of(const SavedTable& table, const SavedTable::Row& row, do
   c.variance_standard_error = value("variance_standard_error") / square;
   c.cost = value("ns_per_sample") + ray_ns * rays;
   const double rays_error = std::sqrt(std::max(0.0, rays * (1 - rays)) / value("samples"));
-  c.cost_standard_error =
-      std::hypot(median_error(value("ns_per_sample"), value("ns_least"), value("rounds")), ray_ns * rays_error);
+  c.cost_standard_error = std::hypot(median_error(value("ns_per_sample"), value("ns_least"), value("rounds")),
+                                     ray_ns * rays_error);
   return c;
 }
 

@@ -26,8 +26,9 @@ std::string condition_text(bool roulette) {
 }
 
 std::string cost_text(const VerdictConditions& conditions) {
-  return fmt::format("cost: time of the sampler plus {:.3g} ns for each reflected ray; by the clock of {}",
-                     conditions.ray_ns, conditions.device);
+  return fmt::format("cost: {} time of the sampler plus {:.3g} ns for each reflected ray; {}",
+                     conditions.clock == CostClock::processor ? "processor" : "device", conditions.ray_ns,
+                     conditions.device);
 }
 
 // A factor with its interval, in as many decimals as the interval leaves certain, and so that no end is

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/common/methods/ranking.h"
 #include "bench/sampling/sampling_ranking.h"
 
 namespace phlux::bench {
@@ -15,6 +16,7 @@ struct VerdictConditions {
   std::string device; ///< its name, and WIDTH
   std::string option =
       "--strategy "; ///< before the name of the answer; empty for a model, which has no option
+  CostClock clock = CostClock::processor;
 };
 
 /// A sentence on each case (all kinds of light), without roulette and then with it; the answer comes first,

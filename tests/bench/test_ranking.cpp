@@ -72,6 +72,9 @@ TEST_CASE("Methods whose interval reaches 1 are tied, and no sound method means 
       answer_of(tied, costs, 10),
       Catch::StartsWith(
           "tied for the least time for the same error: -i path --connect mis; -i path --connect none, "));
+  RankedCost slower;
+  slower.ratio = 1.06, slower.low = 1.0021, slower.high = 1.15;
+  CHECK(text_of_ratio(slower) == "1.06 (1.002 to 1.15)");
   const std::vector<MethodResult> refused = {{.method = light, .verdict = Verdict::refused}};
   CHECK(answer_of(refused, rank(refused, CostClock::wall), 10) == "no method is sound");
   // Images without noise cost nothing.

@@ -65,8 +65,8 @@ std::string verdict(const std::vector<Row>& rows) {
 const std::string without = " without roulette (the default before edge 5): ";
 const std::string with = " with roulette at every bounce (--rr-depth 1): ";
 const std::string closing =
-    " (--case 0.3,0.6,200,70; cost: time of the sampler plus 90 ns for each reflected ray; "
-    "by the clock of the device, WIDTH 1)";
+    " (--case 0.3,0.6,200,70; cost: processor time of the sampler plus 90 ns for each reflected ray; "
+    "the device, WIDTH 1)";
 
 } // namespace
 

@@ -76,8 +76,8 @@ def compare(rows, truth):
     counts["biased"] = sum(row["verdict"] == "biased" and truth[key]["verdict"] != "biased" for key, row in rows.items())
     named = [key for key, row in rows.items() if row["rank"] in ("best", "tied")]
     if not counts["undecided"] and known:
-        counts["wrong"] = not any(known.get(key, float("inf")) <= TOLERANCE * min(known.values()) or truth[key]["rank"] == "open"
-                                  for key in named)
+        counts["wrong"] = int(not any(known.get(key, float("inf")) <= TOLERANCE * min(known.values()) or truth[key]["rank"] == "open"
+                                      for key in named))
     best = next((key for key, row in rows.items() if row["rank"] == "best"), None)
     if best in known:
         for key, row in rows.items():

@@ -112,10 +112,9 @@ TEST_CASE("phlux bench sampling writes the contract's columns, a row for each st
   invocation.arguments.insert(invocation.arguments.end(), {"--ray-cost", "100"});
   const Outcome again = run(invocation);
   CHECK(again.exit_code == outcome.exit_code);
-  CHECK_THAT(again.out,
-             Catch::Contains("2 of 2 measurements are there") &&
-                 Catch::Contains(
-                     "(--case 0.4,0.05,50,30; cost: time of the sampler plus 100 ns for each reflected ray"));
+  CHECK_THAT(again.out, Catch::Contains("2 of 2 measurements are there") &&
+                            Catch::Contains("(--case 0.4,0.05,50,30; cost: processor time of the sampler "
+                                            "plus 100 ns for each reflected ray"));
 }
 
 TEST_CASE("phlux bench sampling --quick draws maps in light and dark") {

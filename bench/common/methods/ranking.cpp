@@ -84,6 +84,13 @@ double rounded(double value) {
   return std::round(value / unit) * unit;
 }
 
+// An end of an interval to three digits, or more if it would be rounded to 1.
+std::string text_of_end(double end) {
+  int digits = 3;
+  while (digits < 6 && end != 1 && fmt::format("{:.{}g}", end, digits) == "1") ++digits;
+  return fmt::format("{:.{}g}", end, digits);
+}
+
 bool has_cost(const MethodResult& result) {
   return result.verdict != Verdict::refused && result.verdict != Verdict::biased;
 }
@@ -140,7 +147,7 @@ std::vector<RankedCost> rank(const std::vector<MethodResult>& results, CostClock
 }
 
 std::string text_of_ratio(const RankedCost& cost) {
-  return fmt::format("{:.3g} ({:.3g} to {:.3g})", cost.ratio, cost.low, cost.high);
+  return fmt::format("{:.3g} ({} to {})", cost.ratio, text_of_end(cost.low), text_of_end(cost.high));
 }
 
 std::string options_of(const Method& method) {

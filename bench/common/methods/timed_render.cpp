@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <sys/resource.h>
-
+#include "bench/common/processor_time.h"
 #include "errors.h"
 
 namespace phlux::bench {
@@ -20,16 +19,6 @@ bool all_pixels(const film::Film& film, const std::function<bool(double)>& have)
     return have(film.samples_per_pixel());
   return std::ranges::all_of(
       film.pixels(), [&](const film::Pixel& pixel) { return have(static_cast<double>(pixel.samples)); });
-}
-
-// Processor time of the process, or of the calling thread (RUSAGE_THREAD).
-double processor_seconds(int whose = RUSAGE_SELF) {
-  rusage usage{};
-  ::getrusage(whose, &usage);
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
 // Time per path between the first launch and the last one. Its callbacks' processor time is excluded, as is
