@@ -53,6 +53,8 @@ TEST_CASE("The answer names the best method, its lead with an interval, and what
           "far -i light needed 0.211 (") &&
           Catch::Contains(
               ") times as long as the best of these; the next, -i path --connect mis, needs 2.01 ("));
+  results[3] = result_of(light, {0, 0, 0, 0, 0}, 1, Verdict::suspect_variance); // found no light
+  CHECK_THAT(answer_of(results, rank(results, CostClock::processor), 10), !Catch::Contains("so far"));
   results[3] = result_of(light, {19, 21, 20, 19, 21}, 1, Verdict::undecided); // not the best in any case
   CHECK_THAT(answer_of(results, rank(results, CostClock::processor), 10),
              Catch::StartsWith(

@@ -175,7 +175,8 @@ std::string answer_of(const std::vector<MethodResult>& results, const std::vecto
       slower.push_back(name + ", needs " + text_of_ratio(costs[i]) + " times as long");
     if (rank == Rank::open) {
       open.push_back(name);
-      if (costs[i].high < 1) ahead.push_back(name + " needed " + text_of_ratio(costs[i]));
+      if (costs[i].high < 1 && costs[i].cost > 0) // 0: no sample found light
+        ahead.push_back(name + " needed " + text_of_ratio(costs[i]));
       soonest = std::min(soonest, std::max(2.0, results[i].times_longer));
       longest = std::max(longest, results[i].times_longer);
     }
