@@ -71,22 +71,30 @@ void conclude(Advice& advice, double seconds) {
         fmt::format("trials of {:.2g} s are too noisy to tell which integrator is better", seconds);
 }
 
-Advice advise(scene::Scene scene, const render::Settings& settings, double seconds) {
+Advice advise(scene::Scene scene, const render::Settings& settings, double seconds,
+              const film::Progress& progress) {
+  const std::size_t trials = trials_of(scene);
+  Advice advice;
+  render::Events events;
+  if (progress)
+    events.progress = [&](const render::Progress&) {
+      progress(static_cast<double>(advice.trials.size()) / static_cast<double>(trials));
+      return true;
+    };
   scene::shrink_image(scene.camera, trial_side);
   render::Settings trial = trial_settings(settings);
   trial.time_limit = seconds;
   const render::Settings own = trial;
-  Advice advice;
-  advice.trials.push_back(try_method(scene, own));
+  advice.trials.push_back(try_method(scene, own, events));
   for (const settings::Setting& setting : settings::all())
     if (!setting.conditions.empty()) setting.copy({}, trial);
   for (const settings::IntegratorInfo& info : settings::integrators) {
     trial.integrator = info.name;
-    if (method_of(trial) != method_of(own)) advice.trials.push_back(try_method(scene, trial));
+    if (method_of(trial) != method_of(own)) advice.trials.push_back(try_method(scene, trial, events));
   }
   conclude(advice, seconds);
   advice.words += unfound_light(scene, settings);
-  if (!advice.trials.front().reliability.trusted) advice.words += words_for(light_shares(scene, own));
+  if (!advice.trials.front().reliability.trusted) advice.words += words_for(light_shares(scene, own, events));
   return advice;
 }
 

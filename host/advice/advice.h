@@ -24,7 +24,8 @@ void conclude(Advice& advice, double seconds);
 /// kernels are built. Suggests the most efficient method if it is at least twice as efficient. Costs are
 /// corrected for rare light that pixels lack, and methods that lack too much of it are not suggested. If the
 /// error estimate of the method is unreliable, names the light that causes most of the variance, if any.
-/// @throws DeviceError
-[[nodiscard]] Advice advise(scene::Scene scene, const render::Settings& settings, double seconds);
+/// `progress`: of the trials; what it throws ends them. @throws DeviceError
+[[nodiscard]] Advice advise(scene::Scene scene, const render::Settings& settings, double seconds,
+                            const film::Progress& progress = {});
 
 } // namespace phlux::advice

@@ -57,7 +57,8 @@ std::size_t light_share_renders(const scene::Scene& scene) {
   return count > 1 && count <= most_lights ? count : 0;
 }
 
-std::vector<LightShare> light_shares(scene::Scene& scene, const render::Settings& settings) {
+std::vector<LightShare> light_shares(scene::Scene& scene, const render::Settings& settings,
+                                     const render::Events& events) {
   std::vector<LightShare> shares;
   if (light_share_renders(scene) == 0) return shares;
   const std::vector<Light> lights = lights_of(scene);
@@ -67,7 +68,7 @@ std::vector<LightShare> light_shares(scene::Scene& scene, const render::Settings
   for (std::size_t i = 0; i < lights.size(); ++i) {
     film::Film film(scene.camera.width, scene.camera.height);
     *lights[i].power = powers[i];
-    if (powers[i] != scene::Rgb(0.0)) (void)render::render(scene, settings, film, {});
+    if (powers[i] != scene::Rgb(0.0)) (void)render::render(scene, settings, film, events);
     *lights[i].power = scene::Rgb(0.0);
     shares.push_back({lights[i].name, variance_of_sample(film)});
     total += shares.back().share;

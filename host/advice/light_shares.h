@@ -22,6 +22,7 @@ inline constexpr std::size_t most_lights = 8;
 
 /// Renders each light alone by these settings, for their time_limit. Radiance is additive over lights, and
 /// variance nearly so. The scene is unchanged afterwards. @throws UsageError, DeviceError
-[[nodiscard]] std::vector<LightShare> light_shares(scene::Scene& scene, const render::Settings& settings);
+[[nodiscard]] std::vector<LightShare> light_shares(scene::Scene& scene, const render::Settings& settings,
+                                                   const render::Events& events = {});
 
 } // namespace phlux::advice

@@ -21,12 +21,12 @@ std::string method_of(const render::Settings& of) {
   return text;
 }
 
-Trial try_method(const scene::Scene& scene, const render::Settings& settings) {
+Trial try_method(const scene::Scene& scene, const render::Settings& settings, const render::Events& events) {
   Trial trial;
   trial.method = method_of(settings);
   try {
     film::Film film(scene.camera.width, scene.camera.height);
-    trial.statistics = render::render(scene, settings, film, {});
+    trial.statistics = render::render(scene, settings, film, events);
     trial.reliability = film::reliability_of(film);
     const double error = trial.reliability.relative_standard_error;
     trial.cost = error * error * trial.statistics.seconds_render;

@@ -26,7 +26,8 @@ struct Trial {
 [[nodiscard]] std::string method_of(const render::Settings& settings);
 
 /// Renders the scene as the settings say; cost is in seconds. @throws DeviceError
-[[nodiscard]] Trial try_method(const scene::Scene& scene, const render::Settings& settings);
+[[nodiscard]] Trial try_method(const scene::Scene& scene, const render::Settings& settings,
+                               const render::Events& events = {});
 
 /// Whether the cost is known well enough for a comparison.
 [[nodiscard]] bool is_comparable(const Trial& trial);

@@ -123,13 +123,15 @@ private:
 // Adds what is written to a digest, and passes it on by pieces.
 class DigestBuffer final : public files::OutputBuffer {
 public:
-  DigestBuffer(std::streambuf& to, Digest& digest) : to_(to), digest_(digest) {}
+  DigestBuffer(std::streambuf& to, Digest& digest, double bytes, const film::Progress& progress)
+      : to_(to), digest_(digest), bytes_(bytes), progress_(progress) {}
 
 protected:
   int sync() override {
     const auto count = pptr() - pbase();
     digest_.add(pbase(), static_cast<std::size_t>(count));
     const bool written = to_.sputn(pbase(), count) == count;
+    if (progress_) progress_(std::min(1.0, static_cast<double>(digest_.length()) / bytes_));
     start();
     return written ? 0 : -1;
   }
@@ -137,6 +139,8 @@ protected:
 private:
   std::streambuf& to_;
   Digest& digest_;
+  double bytes_; // that will pass, about
+  const film::Progress& progress_;
 };
 
 std::string session_bytes(const Session& session) {
@@ -219,12 +223,12 @@ bool is_replaceable(const std::filesystem::path& file) {
   return start == magic;
 }
 
-void write(const Session& session, const film::Film& film, std::ostream& to) {
+void write(const Session& session, const film::Film& film, std::ostream& to, const film::Progress& progress) {
   const auto begin = to.tellp();
   to << Digest().first_line();
   Digest digest;
   {
-    DigestBuffer buffer(*to.rdbuf(), digest);
+    DigestBuffer buffer(*to.rdbuf(), digest, film.bytes(), progress);
     std::ostream rest(&buffer);
     const std::string first = session_bytes(session);
     rest << fmt::format("{:020}\n", first.size()) << first;

@@ -28,7 +28,9 @@ struct Checkpoint {
 /// Writes a file: a line of text with the format's version, the digest (XXH3, 128 bits) and the length of the
 /// rest; a line with the session's length; and two of cereal's portable binary archives, of the session and
 /// of the film with its size. `to` must be able to seek. Takes no memory in proportion to the film.
-void write(const Session& session, const film::Film& film, std::ostream& to);
+/// `progress` must not throw.
+void write(const Session& session, const film::Film& film, std::ostream& to,
+           const film::Progress& progress = {});
 
 /// The bytes that write() writes.
 [[nodiscard]] std::string encode(const Session& session, const film::Film& film);

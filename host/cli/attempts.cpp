@@ -1,5 +1,9 @@
 #include "cli/attempts.h"
 
+#include <fmt/ranges.h>
+#include <spdlog/spdlog.h>
+
+#include "cli/interrupt.h"
 #include "cli/spelling.h"
 #include "terminal.h"
 
@@ -7,7 +11,9 @@ namespace phlux::cli {
 
 int Attempts::report(int otherwise) const {
   for (const Error& error : errors_) print_error(error.what());
-  return errors_.empty() ? otherwise : errors_.front().exit_code();
+  if (!interrupted_.empty()) spdlog::warn("interrupted, and left out: {}", fmt::join(interrupted_, ", "));
+  if (!errors_.empty()) return errors_.front().exit_code();
+  return interrupted_.empty() ? otherwise : interrupted_exit_code;
 }
 
 void print_error(const std::string& message) {

@@ -14,6 +14,9 @@
 namespace phlux::cli {
 namespace {
 
+// Bytes of a film whose copy would take more memory than an interruption of the render is worth.
+constexpr double most_copied = 1 << 28;
+
 // Adds a remedy to the error of a checkpoint that does not match.
 template<class Function>
 auto with_remedy(const Function& function) {
@@ -25,13 +28,6 @@ auto with_remedy(const Function& function) {
   } catch (const UsageError& error) {
     throw UsageError(error.what() + std::string(anew));
   }
-}
-
-// Whether a copy would take more memory than an interruption of the render is worth.
-bool is_large(const film::Film& film) {
-  constexpr double most_copied = 1 << 28; // bytes
-  return film::Film::bytes(static_cast<double>(film.pixels().size()), 1, film.splats() ? 1 : 0,
-                           film.dependent_samples() ? 1 : 0, 0) > most_copied;
 }
 
 // A checkpoint from elsewhere must not run code on this machine.
@@ -109,7 +105,7 @@ void Checkpoints::update(const film::Film& film, const render::Progress& progres
   warn_if_it_fails(file_, [&] { wait(); });
   warn_if_it_fails(file_, [&] {
     session_.state = progress.state();
-    if (is_large(film)) return write(film);
+    if (film.bytes() > most_copied) return write(film);
     writing_ = std::async(std::launch::async, [file = file_, bytes = checkpoint::encode(session_, film)] {
       replace(file, [&](std::ostream& to) { to << bytes; });
     });
@@ -117,15 +113,16 @@ void Checkpoints::update(const film::Film& film, const render::Progress& progres
   next_ = Clock::now() + between_;
 }
 
-void Checkpoints::write(const film::Film& film) const {
-  replace(file_, [&](std::ostream& to) { checkpoint::write(session_, film, to); });
+void Checkpoints::write(const film::Film& film, const film::Progress& progress) const {
+  replace(file_, [&](std::ostream& to) { checkpoint::write(session_, film, to, progress); });
 }
 
-void Checkpoints::finish(const film::Film& film, const render::RenderState& state) {
+void Checkpoints::finish(const film::Film& film, const render::RenderState& state,
+                         const film::Progress& progress) {
   if (file_.empty()) return;
   warn_if_it_fails(file_, [&] { wait(); });
   session_.state = state;
-  write(film);
+  write(film, progress);
 }
 
 } // namespace phlux::cli

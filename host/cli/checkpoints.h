@@ -31,12 +31,12 @@ public:
   /// in memory, or, if that would be large, for the file. A failure is a warning, as the next may succeed.
   void update(const film::Film& film, const render::Progress& progress);
   /// Writes the last checkpoint. @throws WriteError
-  void finish(const film::Film& film, const render::RenderState& state);
+  void finish(const film::Film& film, const render::RenderState& state, const film::Progress& progress);
 
 private:
   using Clock = std::chrono::steady_clock;
   void wait();
-  void write(const film::Film& film) const;
+  void write(const film::Film& film, const film::Progress& progress = {}) const;
 
   std::filesystem::path file_;
   checkpoint::Session session_;

@@ -33,9 +33,9 @@ std::string remedies(const Diagnosis& diagnosis, const render::Settings& setting
 }
 
 // The error that the render states, the error that it may have, and why.
-std::string doubt(const film::Reliability& r, const film::Film& film, const render::Settings& settings) {
+std::string doubt(const film::Reliability& r, double stated, const film::Film& film,
+                  const render::Settings& settings) {
   if (!(r.variance > 0.0)) return fmt::format("the error is unknown: {}", r.reasons.front());
-  const double stated = film.relative_standard_error();
   std::string text =
       fmt::format("the relative standard error of {:.3g}% may be {:.3g}% ({}", 100.0 * stated,
                   100.0 * std::max(stated, r.relative_standard_error), fmt::join(r.reasons, "; "));
@@ -48,24 +48,34 @@ std::string doubt(const film::Reliability& r, const film::Film& film, const rend
 
 } // namespace
 
-void diagnose(const film::Film& film, const render::Statistics& statistics, const render::Settings& settings,
-              scene::Scene&& scene, bool insist, Diagnosis& diagnosis) {
-  diagnosis.reliability = film::reliability_of(film);
-  if (statistics.interrupted || !statistics.shines || (diagnosis.reliability.trusted && !insist)) return;
-  if (const double seconds = trial_seconds(statistics, advice::trials_of(scene), insist); seconds > 0.0) {
-    try {
-      const advice::Advice advice = advice::advise(std::move(scene), settings, seconds);
-      diagnosis.advice = with_options(advice.words);
-      diagnosis.better_found = advice.found;
-    } catch (const DeviceError& error) {
-      if (insist) throw;
-      spdlog::info("no trials of other integrators: {}", error.what());
-    }
+void estimate_error(const film::Film& film, LastSteps& steps, Patience& patience, Diagnosis& diagnosis) {
+  const film::Progress progress = steps.optional("computing the error", patience);
+  if (film.has_variance(progress)) diagnosis.error = film.relative_error(progress);
+  diagnosis.reliability =
+      film::reliability_of(film, steps.optional("computing the reliability of the error", patience));
+}
+
+void try_other_methods(const render::Statistics& statistics, const render::Settings& settings,
+                       scene::Scene&& scene, bool insist, LastSteps& steps, Patience& patience,
+                       Diagnosis& diagnosis) {
+  if (statistics.interrupted || !statistics.shines || !diagnosis.reliability ||
+      (diagnosis.reliability->trusted && !insist))
+    return;
+  const double seconds = trial_seconds(statistics, advice::trials_of(scene), insist);
+  if (!(seconds > 0.0)) return;
+  try {
+    const advice::Advice advice = advice::advise(std::move(scene), settings, seconds,
+                                                 steps.optional("trying other integrators", patience));
+    diagnosis.advice = with_options(advice.words);
+    diagnosis.better_found = advice.found;
+  } catch (const DeviceError& error) {
+    if (insist) throw;
+    spdlog::info("no trials of other integrators: {}", error.what());
   }
 }
 
 void report(const Diagnosis& diagnosis, const film::Film& film, const render::Statistics& statistics,
-            const render::Settings& settings, bool quiet) {
+            const render::Settings& settings, double clamped_share, bool quiet) {
   if (const auto& origin = statistics.first_nonfinite) {
     const auto [x, y] = place_of(origin->pixel, film, settings);
     spdlog::warn(
@@ -77,12 +87,13 @@ void report(const Diagnosis& diagnosis, const film::Film& film, const render::St
   }
   if (settings.clamp)
     spdlog::warn("--clamp {:g}: the image is biased: {:.3g}% of its light was removed", *settings.clamp,
-                 100.0 * film.clamped_share());
-  if (quiet) return;
-  const film::Reliability& r = diagnosis.reliability;
+                 100.0 * clamped_share);
+  if (quiet || !diagnosis.reliability) return;
+  const film::Reliability& r = *diagnosis.reliability;
   if (statistics.shines && !r.trusted && !r.reasons.empty() &&
       film.samples_per_pixel() >= film::least_samples)
-    spdlog::warn("{}: {}", doubt(r, film, settings), remedies(diagnosis, settings));
+    spdlog::warn("{}: {}", doubt(r, diagnosis.error.standard_error, film, settings),
+                 remedies(diagnosis, settings));
   else if (!diagnosis.advice.empty())
     say("advice: {}\n", diagnosis.advice);
 }

@@ -47,14 +47,13 @@ double free_address_space() {
 } // namespace
 
 MemoryNeed memory_needed(double pixels, const settings::Settings& settings, const Outputs& outputs) {
-  constexpr double preview = 6, contribution = 36; // bytes per pixel while one is written
+  constexpr double contribution = 36; // bytes per pixel while one is written
   const settings::IntegratorInfo& integrator = settings::integrator_named(settings.integrator);
   const int point_sets = settings::samples_point_sets(settings) ? 1 : 0;
   const double samples = film::Film::bytes(pixels, integrator.eye_paths ? 1 : 0, 0, point_sets, 0);
   const double splats = film::Film::bytes(pixels, 0, integrator.light_paths ? 1 : 0, 0, techniques(settings));
-  const double outputs_of_film =
-      pixels * (outputs.aov.empty() ? 0.0 : double{sizeof(film::FirstHit)}) +
-      pixels * std::max(outputs.preview.empty() ? 0 : preview, settings.techniques ? contribution : 0);
+  const double outputs_of_film = pixels * ((outputs.aov.empty() ? 0.0 : double{sizeof(film::FirstHit)}) +
+                                           (settings.techniques ? contribution : 0.0));
   return {samples + splats + outputs_of_film, samples};
 }
 

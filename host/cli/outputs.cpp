@@ -8,6 +8,7 @@
 #include <spdlog/spdlog.h>
 #include <spdlog/stopwatch.h>
 
+#include "cli/last_steps.h"
 #include "errors.h"
 #include "files/contributions.h"
 #include "files/output.h"
@@ -137,11 +138,16 @@ void check_writable(const Outputs& outputs) {
   for (const fs::path& file : outputs.files()) files::check_writable(file);
 }
 
-void PreviewRefresher::update(const film::Film& film, double seconds) {
+void PreviewRefresher::update(const film::Film& film, double seconds,
+                              const std::function<bool()>& interrupted) {
   if (file_.empty() || seconds < next_) return;
   const spdlog::stopwatch watch;
   try {
-    files::write_png(file_, files::rows_of(film, false), exposure_);
+    const auto check = [&](double) {
+      if (interrupted()) throw StepInterrupted();
+    };
+    files::write_png(file_, files::with_progress(files::rows_of(film, false), check), exposure_);
+  } catch (const StepInterrupted&) { // and the render ends
   } catch (const std::exception& error) {
     spdlog::info("{}", error.what());
   }

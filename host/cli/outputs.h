@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -51,8 +52,8 @@ public:
   /// `exposure` as RenderOptions'.
   PreviewRefresher(std::filesystem::path file, std::optional<double> exposure)
       : file_(std::move(file)), exposure_(exposure) {}
-  /// `seconds` of rendering so far.
-  void update(const film::Film& film, double seconds);
+  /// `seconds` of rendering so far. A preview that is being written when `interrupted` is left out.
+  void update(const film::Film& film, double seconds, const std::function<bool()>& interrupted);
 
 private:
   std::filesystem::path file_;

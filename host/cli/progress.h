@@ -1,6 +1,7 @@
 // Progress of a render: one changing line on a terminal, elsewhere a new line every ten seconds.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <optional>
 #include <string>
@@ -28,15 +29,19 @@ public:
   void building_kernels();
   /// To be called often; computes `error`, the relative standard error so far, only when it shows it.
   void update(const render::Progress& progress, const std::function<double()>& error);
+  /// The same for a step after the render, of which the share `done` is done.
+  void step(const std::string& what, double done);
   /// Erases the changing line.
   void clear();
 
 private:
   void show(const std::string& text);
+  [[nodiscard]] double between_updates() const; // in seconds
 
   bool quiet_, terminal_;
   std::optional<double> time_limit_, target_error_;
   double next_update_; // seconds of rendering
+  std::chrono::steady_clock::time_point next_step_;
   bool line_is_shown_ = false;
 };
 

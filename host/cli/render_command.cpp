@@ -95,7 +95,7 @@ render::Statistics run(const scene::Scene& scene, const render::Settings& settin
   events.building_kernels = [&] { display.building_kernels(); };
   events.progress = [&](const render::Progress& progress) {
     display.update(progress, [&] { return error.at(progress.samples_done); });
-    preview.update(film, progress.seconds);
+    preview.update(film, progress.seconds, [&] { return interrupt.requested(); });
     checkpoints.update(film, progress);
     interrupted = interrupt.requested();
     return !interrupted;
@@ -135,14 +135,20 @@ files::RenderInfo info_of(const checkpoint::Session& session, const std::string&
 
 // Writes the image where it can. Returns its path, empty if it cannot be written.
 std::filesystem::path write_image(const std::filesystem::path& wanted, const files::Rows& rows,
-                                  const files::RenderInfo& info, Attempts& attempts) {
+                                  const files::RenderInfo& info, LastSteps& steps, Attempts& attempts) {
+  const auto write = [&](const std::filesystem::path& file) {
+    const auto progress = steps.needed("writing " + printable(file.string()));
+    const files::NonFinite not_finite = files::write_exr(file, files::with_progress(rows, progress), info);
+    steps.clear();
+    warn_of_nonfinite(file, not_finite);
+  };
   try {
-    warn_of_nonfinite(wanted, files::write_exr(wanted, rows, info));
+    write(wanted);
     return wanted;
   } catch (const WriteError& error) {
     const std::filesystem::path second = files::elsewhere(wanted);
     try {
-      warn_of_nonfinite(second, files::write_exr(second, rows, info));
+      write(second);
     } catch (const WriteError& other) {
       attempts.failed(WriteError(fmt::format("{}; {}", error.what(), other.what())));
       return {};
@@ -152,8 +158,12 @@ std::filesystem::path write_image(const std::filesystem::path& wanted, const fil
   }
 }
 
-void write_techniques(const std::filesystem::path& folder, film::Film& film, const files::RenderInfo& info) {
-  warn_of_nonfinite(folder, files::write_contributions(folder, film, info));
+void write_techniques(const std::filesystem::path& folder, film::Film& film, const files::RenderInfo& info,
+                      LastSteps& steps, Patience& patience) {
+  const files::NonFinite not_finite =
+      files::write_contributions(folder, film, info, steps.optional("writing the contributions", patience));
+  steps.clear();
+  warn_of_nonfinite(folder, not_finite);
   if (const std::uint64_t left_out = film.techniques()->left_out(); left_out > 0)
     spdlog::warn(
         "--contributions: paths of more than {} edges ({} contributions) are only in the image of the render",
@@ -161,13 +171,13 @@ void write_techniques(const std::filesystem::path& folder, film::Film& film, con
 }
 
 std::string summary(const std::filesystem::path& image, const std::filesystem::path& checkpoint,
-                    const film::Film& film, const render::Statistics& statistics) {
+                    const film::Film& film, const render::Statistics& statistics, double error) {
   const double seconds = statistics.seconds_render;
   std::string text = fmt::format("{}: {}x{}, {:.6g} samples per pixel, {:.3g} s", image.string(),
                                  film.width(), film.height(), film.samples_per_pixel(), seconds);
   if (seconds > 0.0)
     text += fmt::format(", {:.3g} M paths/s", 1e-6 * static_cast<double>(statistics.paths) / seconds);
-  if (const double error = film.relative_standard_error(); std::isfinite(error))
+  if (std::isfinite(error))
     text +=
         fmt::format(", relative standard error {:.3g}%{}", 100.0 * error,
                     film.samples_per_pixel() < film::least_samples ? " (of too few samples to trust)" : "");
@@ -179,39 +189,54 @@ std::string summary(const std::filesystem::path& image, const std::filesystem::p
 // Everything that a render leaves, the image first. A failure of one prevents no other.
 void write_all(const Outputs& outputs, const RenderOptions& options, const checkpoint::Session& session,
                film::Film& film, const render::Statistics& statistics, scene::Scene&& scene,
-               Checkpoints& checkpoints, Attempts& attempts) {
+               Checkpoints& checkpoints, const InterruptGuard& interrupt, Attempts& attempts) {
+  using namespace std::chrono_literals;
+  LastSteps steps(options.quiet, [&] { return interrupt.requested(); });
+  Patience for_channels(10s), for_rest(1s); // image and checkpoint are written in any case
   const render::Settings& settings = session.settings;
   const files::RenderInfo info = info_of(session, options.choice, scene.camera, film, statistics);
   std::filesystem::path image_file, checkpoint_file;
   std::vector<film::FirstHit> hits;
-  if (!outputs.aov.empty()) attempts("--aov", [&] { hits = render::first_hits(scene, settings); });
+  if (!outputs.aov.empty())
+    attempts("--aov", [&] {
+      hits = render::first_hits(scene, settings, steps.optional("computing the first hits", for_channels));
+    });
   attempts(outputs.image, [&] {
     if (options.moments && !film.has_variance())
       spdlog::warn("--moments: variances need two samples in every pixel: their channels are left out");
-    files::Rows rows = files::rows_of(film, options.moments && film.has_variance());
+    files::Rows rows = files::rows_of(film, options.moments && film.has_variance(),
+                                      steps.needed("computing the reliability of the error"));
     if (!hits.empty()) files::add_first_hits(rows, hits, outputs.aov);
-    image_file = write_image(outputs.image, rows, info, attempts);
+    image_file = write_image(outputs.image, rows, info, steps, attempts);
   });
   attempts(outputs.checkpoint, [&] {
-    checkpoints.finish(film, statistics);
+    checkpoints.finish(film, statistics, steps.needed("writing " + printable(outputs.checkpoint.string())));
     checkpoint_file = outputs.checkpoint;
   });
   if (!outputs.preview.empty())
-    attempts(outputs.preview,
-             [&] { files::write_png(outputs.preview, files::rows_of(film, false), options.exposure); });
+    attempts(outputs.preview, [&] {
+      const auto progress = steps.optional("writing " + printable(outputs.preview.string()), for_rest);
+      files::write_png(outputs.preview, files::with_progress(files::rows_of(film, false), progress),
+                       options.exposure);
+    });
   if (settings.techniques)
-    attempts(options.contributions, [&] { write_techniques(options.contributions, film, info); });
+    attempts(options.contributions,
+             [&] { write_techniques(options.contributions, film, info, steps, for_rest); });
   Diagnosis diagnosis;
-  attempts("diagnosis",
-           [&] { diagnose(film, statistics, settings, std::move(scene), options.advise, diagnosis); });
+  attempts("the error", [&] { estimate_error(film, steps, for_rest, diagnosis); });
+  attempts("trials of other integrators", [&] {
+    try_other_methods(statistics, settings, std::move(scene), options.advise, steps, for_rest, diagnosis);
+  });
   if (!outputs.statistics.empty())
     attempts(outputs.statistics, [&] {
       files::write_file(outputs.statistics,
                         files::json_text(statistics_json(statistics, settings, info, film, diagnosis)));
     });
+  steps.clear();
   if (!options.quiet && !image_file.empty())
-    say("{}\n", printable(summary(image_file, checkpoint_file, film, statistics)));
-  report(diagnosis, film, statistics, settings, options.quiet);
+    say("{}\n",
+        printable(summary(image_file, checkpoint_file, film, statistics, diagnosis.error.standard_error)));
+  report(diagnosis, film, statistics, settings, info.clamped_share, options.quiet);
 }
 
 } // namespace
@@ -268,7 +293,8 @@ int render(const RenderOptions& given) {
   if (film.samples_per_pixel() == 0.0) // an older image is worth more than a black one
     spdlog::warn("interrupted before the first sample: nothing is written");
   else
-    write_all(outputs, options, session, film, statistics, std::move(scene), checkpoints, attempts);
+    write_all(outputs, options, session, film, statistics, std::move(scene), checkpoints, interrupt,
+              attempts);
   return attempts.report(statistics.interrupted ? interrupted_exit_code : 0);
 }
 

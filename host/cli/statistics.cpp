@@ -1,6 +1,8 @@
 #include "cli/statistics.h"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <type_traits>
 #include <variant>
 
@@ -12,8 +14,10 @@ nlohmann::ordered_json value_or_null(const std::optional<T>& value) {
   return value ? nlohmann::ordered_json(*value) : nullptr;
 }
 
-nlohmann::ordered_json reliability_json(const film::Reliability& r, const film::Film& film,
-                                        const render::Settings& settings) {
+nlohmann::ordered_json reliability_json(const std::optional<film::Reliability>& reliability,
+                                        const film::Film& film, const render::Settings& settings) {
+  if (!reliability) return nullptr;
+  const film::Reliability& r = *reliability;
   const auto [x, y] = place_of(std::int64_t{r.worst_y} * film.width() + r.worst_x, film, settings);
   auto history = nlohmann::ordered_json::array();
   for (const film::Growth& then : film.evidence().history())
@@ -63,35 +67,37 @@ void add_settings(const render::Settings& settings, nlohmann::ordered_json& json
 nlohmann::ordered_json statistics_json(const render::Statistics& statistics, const render::Settings& settings,
                                        const files::RenderInfo& info, const film::Film& film,
                                        const Diagnosis& diagnosis) {
+  const film::Film::RelativeError& error = diagnosis.error;
   nlohmann::ordered_json json = {{"version", info.version}, {"scene", info.scene}};
   add_settings(settings, json);
   json["choice"] =
       info.choice.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(info.choice);
-  json.update({{"device", statistics.device},
-               {"driver", statistics.driver},
-               {"lanes", statistics.lanes},
-               {"portable_lanes", statistics.portable_lanes},
-               {"traversal", statistics.traversal},
-               {"parts", statistics.parts},
-               {"width", film.width()},
-               {"height", film.height()},
-               {"samples_per_pixel", film.samples_per_pixel()},
-               {"paths", statistics.paths},
-               {"rays", statistics.rays},
-               {"shadow_rays", statistics.shadow_rays},
-               {"nonfinite", statistics.nonfinite},
-               {"seconds",
-                {{"setup", statistics.seconds_setup},
-                 {"build_kernels", statistics.seconds_build_kernels},
-                 {"render", statistics.seconds_render}}},
-               {"kernel_cache", statistics.kernels_from_cache ? "hit" : "miss"},
-               {"variance", film.has_variance() ? nlohmann::ordered_json(film.relative_variance()) : nullptr},
-               {"relative_standard_error", film.relative_standard_error()},
-               {"reliability", reliability_json(diagnosis.reliability, film, settings)},
-               {"first_nonfinite", origin_json(statistics.first_nonfinite, film, settings)},
-               {"clamped_share", info.clamped_share},
-               {"advice", diagnosis.advice},
-               {"interrupted", statistics.interrupted}});
+  json.update(
+      {{"device", statistics.device},
+       {"driver", statistics.driver},
+       {"lanes", statistics.lanes},
+       {"portable_lanes", statistics.portable_lanes},
+       {"traversal", statistics.traversal},
+       {"parts", statistics.parts},
+       {"width", film.width()},
+       {"height", film.height()},
+       {"samples_per_pixel", film.samples_per_pixel()},
+       {"paths", statistics.paths},
+       {"rays", statistics.rays},
+       {"shadow_rays", statistics.shadow_rays},
+       {"nonfinite", statistics.nonfinite},
+       {"seconds",
+        {{"setup", statistics.seconds_setup},
+         {"build_kernels", statistics.seconds_build_kernels},
+         {"render", statistics.seconds_render}}},
+       {"kernel_cache", statistics.kernels_from_cache ? "hit" : "miss"},
+       {"variance", std::isfinite(error.standard_error) ? nlohmann::ordered_json(error.variance) : nullptr},
+       {"relative_standard_error", error.standard_error},
+       {"reliability", reliability_json(diagnosis.reliability, film, settings)},
+       {"first_nonfinite", origin_json(statistics.first_nonfinite, film, settings)},
+       {"clamped_share", info.clamped_share},
+       {"advice", diagnosis.advice},
+       {"interrupted", statistics.interrupted}});
   return json;
 }
 

@@ -11,7 +11,8 @@
 namespace phlux::cli {
 
 /// The settings of the image and of its samples, and the statistics of the render, of the film and of its
-/// error estimate. `parts` are those that the kernel has code for. Infinite values become null.
+/// error estimate. `parts` are those that the kernel has code for. Infinite values, and what a
+/// signal has left out of the diagnosis, become null.
 [[nodiscard]] nlohmann::ordered_json statistics_json(const render::Statistics& statistics,
                                                      const render::Settings& settings,
                                                      const files::RenderInfo& info, const film::Film& film,

@@ -125,14 +125,18 @@ Canvas contact_sheet(film::Film& film) {
   return sheet.picture();
 }
 
-NonFinite write_contributions(const std::filesystem::path& folder, film::Film& film, const RenderInfo& info) {
+NonFinite write_contributions(const std::filesystem::path& folder, film::Film& film, const RenderInfo& info,
+                              const film::Progress& progress) {
   std::error_code failure;
   std::filesystem::create_directories(folder, failure);
   if (failure)
     throw WriteError(
         fmt::format("{}: cannot be made: {}: name another folder", folder.string(), failure.message()));
   NonFinite not_finite;
-  for (const auto& [technique, sums] : film.techniques()->sums()) {
+  const auto& all = film.techniques()->sums();
+  double done = 0.0;
+  for (const auto& [technique, sums] : all) {
+    if (progress) progress(done++ / static_cast<double>(all.size()));
     const std::string name = fmt::format("s{}-t{}", technique.light_vertices, technique.eye_vertices);
     for (const bool weighted : {true, false}) {
       const Pixels pixels = film.technique_image(weighted ? sums.weighted : sums.unweighted);

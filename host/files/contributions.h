@@ -17,7 +17,8 @@ namespace phlux::files {
 /// Writes sS-tT.exr (weighted: they add up to the image), sS-tT-unweighted.exr (the technique's own estimate)
 /// and contributions.png, the contact_sheet(). Creates the folder. Returns the numbers of values that are not
 /// finite in all images. @throws WriteError
-NonFinite write_contributions(const std::filesystem::path& folder, film::Film& film, const RenderInfo& info);
+NonFinite write_contributions(const std::filesystem::path& folder, film::Film& film, const RenderInfo& info,
+                              const film::Progress& progress = {});
 
 /// Whether write_contributions() may replace `file`: its name is that of a contribution in `folder`.
 [[nodiscard]] bool is_contribution(const std::filesystem::path& folder, const std::filesystem::path& file);

@@ -56,14 +56,23 @@ Rows rows_of(const Image& image) {
   return rows;
 }
 
-Rows rows_of(const film::Film& film, bool moments) {
+Rows with_progress(Rows rows, film::Progress progress) {
+  rows.fill = [height = rows.height, progress = std::move(progress),
+               fill = std::move(rows.fill)](int row, std::size_t channel, float* to) {
+    if (channel == 0) progress(static_cast<double>(row) / height);
+    fill(row, channel, to);
+  };
+  return rows;
+}
+
+Rows rows_of(const film::Film& film, bool moments, const film::Progress& progress) {
   Rows rows{.width = film.width(), .height = film.height(), .channels = {}, .fill = {}};
   rows.channels.assign(radiance_names.begin(), radiance_names.end());
   std::shared_ptr<const film::ReliabilityMap> reliability;
   if (moments) {
     rows.channels.insert(rows.channels.end(), variance_names.begin(), variance_names.end());
     rows.channels.emplace_back("reliability");
-    reliability = std::make_shared<film::ReliabilityMap>(film);
+    reliability = std::make_shared<film::ReliabilityMap>(film, progress);
   }
   rows.fill = [&film, reliability](int row, std::size_t channel, float* to) {
     const auto width = static_cast<std::size_t>(film.width()), first = static_cast<std::size_t>(row) * width;

@@ -89,8 +89,11 @@ private:
 
 /// `image` must live as long as the result.
 [[nodiscard]] Rows rows_of(const Image& image);
+/// The same rows, with `progress` called at the beginning of each.
+[[nodiscard]] Rows with_progress(Rows rows, film::Progress progress);
 /// The channels of image_of(film, ...). `film` must live as long as the result.
-[[nodiscard]] Rows rows_of(const film::Film& film, bool moments);
+/// `progress`: of the computation of the reliability.
+[[nodiscard]] Rows rows_of(const film::Film& film, bool moments, const film::Progress& progress = {});
 
 /// The names of the first hits' values, each before the point of its channels.
 inline const std::vector<std::string> aov_names = {"albedo", "normal", "depth"};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <iosfwd>
 #include <optional>
 #include <string>
 
@@ -17,13 +18,10 @@ void draw_image(Canvas& canvas, int left, int top, int zoom, const Image& image,
 /// The bytes of an 8-bit sRGB PNG file. Deterministic. @throws WriteError for more pixels than libpng writes
 [[nodiscard]] std::string encode_png(const Canvas& canvas);
 
-/// encode_png of channels R, G, B, tone-mapped by tone_map.h: radiance is multiplied by 2^stops, or by the
-/// exposure of tone_map.h. Takes 6 bytes of memory per pixel. @throws WriteError
-[[nodiscard]] std::string encode_png(const Rows& rows, std::optional<double> stops = {});
-
-[[nodiscard]] inline std::string encode_png(const Image& image, std::optional<double> stops = {}) {
-  return encode_png(rows_of(image), stops);
-}
+/// Writes channels R, G, B as such a file, tone-mapped by tone_map.h: radiance is multiplied by 2^stops, or
+/// by the exposure of tone_map.h. Takes memory in proportion to the width alone. @throws WriteError
+void encode_png(const Rows& rows, std::optional<double> stops, std::ostream& to);
+[[nodiscard]] std::string encode_png(const Image& image, std::optional<double> stops = {});
 
 /// encode_png to a file. @throws WriteError
 void write_png(const std::filesystem::path& file, const Rows& rows, std::optional<double> stops = {});

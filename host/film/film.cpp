@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "film/reliability.h"
@@ -89,11 +88,12 @@ void Film::clamp(std::array<double, 3>& value) {
 }
 
 double Film::clamped_share() const {
+  const double clamped = clamped_ + clamped_of_splats_;
+  if (!(clamped > 0.0)) return 0.0;
   double left = 0.0;
   for (const Pixel& pixel : pixels()) left += std::accumulate(pixel.sum.begin(), pixel.sum.end(), 0.0);
   for (const Splats& splats : splats_) left += std::accumulate(splats.sum.begin(), splats.sum.end(), 0.0);
-  const double clamped = clamped_ + clamped_of_splats_;
-  return clamped > 0.0 ? clamped / (clamped + left) : 0.0;
+  return clamped / (clamped + left);
 }
 
 // Blocks of equal length that say as much about a variance as the blocks of a pixel: (sum of lengths)^2 / sum
@@ -254,51 +254,51 @@ std::string Film::contradiction(const std::function<std::uint64_t(std::size_t pi
   return {};
 }
 
-bool Film::has_variance() const {
+bool Film::has_variance(const Progress& progress) const {
+  if (own_samples_ == 0) return splatting_paths_per_pixel() >= 2.0;
   std::size_t known = 0;
-  while (known < pixels_.size() && has_variance(known)) ++known;
-  if (known == pixels_.size()) return true;
-  const bool only_splats =
-      std::ranges::all_of(pixels(), [](const Pixel& pixel) { return pixel.samples == 0; });
-  return only_splats && splatting_paths_per_pixel() >= 2.0;
+  for (; known < pixels_.size() && has_variance(known); ++known) report(progress, known);
+  return known == pixels_.size();
 }
 
-// Mean of f(pixel, mean, variance of the mean) over all channels with a mean above 0; 0 if there are none.
-template<class Function>
-double Film::mean_where_not_black(Function f) const {
-  double total = 0.0;
-  std::uint64_t count = 0;
+void Film::report(const Progress& progress, std::size_t pixel) const {
+  constexpr std::size_t pixels_between_reports = std::size_t{1} << 16;
+  if (progress && pixel % pixels_between_reports == 0)
+    progress(static_cast<double>(pixel) / static_cast<double>(pixels_.size()));
+}
+
+Film::RelativeError Film::relative_error(const Progress& progress) const {
+  double variances = 0.0, errors = 0.0;
+  std::uint64_t count = 0; // of channels that are not black
+  std::size_t known = 0;   // pixels of whose own samples there are enough
   for (std::size_t pixel = 0; pixel < pixels_.size(); ++pixel) {
-    if (!has_variance(pixel) && splatting_paths_ < 2) continue;
+    report(progress, pixel);
+    if (has_variance(pixel))
+      ++known;
+    else if (splatting_paths_ < 2)
+      continue;
+    const std::uint64_t own = pixels_[pixel].samples;
+    const double samples = own > 0 ? static_cast<double>(own) : splatting_paths_per_pixel();
     for (std::size_t channel = 0; channel < channel_count; ++channel) {
       const double mean = mean_in_units(pixel, channel);
       if (!(mean > 0.0)) continue;
-      total += f(pixel, mean, variance_in_units(pixel, channel));
+      const double variance = variance_in_units(pixel, channel);
+      variances += samples * variance / (mean * mean);
+      errors += std::sqrt(variance) / mean;
       ++count;
     }
   }
-  return count > 0 ? total / static_cast<double>(count) : 0.0;
-}
-
-double Film::relative_variance() const {
-  return mean_where_not_black([&](std::size_t pixel, double mean, double variance) {
-    const std::uint64_t own = pixels_[pixel].samples;
-    const double samples = own > 0 ? static_cast<double>(own) : splatting_paths_per_pixel();
-    return samples * variance / (mean * mean);
-  });
-}
-
-double Film::relative_standard_error() const {
-  if (!has_variance()) return std::numeric_limits<double>::infinity();
-  return mean_where_not_black(
-      [](std::size_t, double mean, double variance) { return std::sqrt(variance) / mean; });
+  RelativeError error;
+  const double channels = static_cast<double>(std::max<std::uint64_t>(count, 1));
+  error.variance = variances / channels;
+  if (own_samples_ > 0 ? known == pixels_.size() : splatting_paths_per_pixel() >= 2.0)
+    error.standard_error = errors / channels;
+  return error;
 }
 
 double Film::samples_per_pixel() const {
-  std::uint64_t samples = 0;
-  for (const Pixel& pixel : pixels()) samples += pixel.samples;
-  if (samples == 0) return splatting_paths_per_pixel();
-  return static_cast<double>(samples) / static_cast<double>(pixels_.size());
+  if (own_samples_ == 0) return splatting_paths_per_pixel();
+  return static_cast<double>(own_samples_) / static_cast<double>(pixels_.size());
 }
 
 } // namespace phlux::film

@@ -6,12 +6,14 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "film/evidence.h"
 #include "film/paged_array.h"
+#include "film/progress.h"
 #include "film/techniques.h"
 #include "film/zeroed_memory.h"
 
@@ -78,6 +80,10 @@ public:
   [[nodiscard]] static double bytes(double pixels, int samples, int splats, int blocks, int techniques) {
     return pixels * (samples * double{sizeof(Pixel)} + splats * double{sizeof(Splats)} +
                      blocks * double{sizeof(BlockMoments)} + techniques * Techniques::bytes_per_pixel);
+  }
+  /// The same of this film, without techniques.
+  [[nodiscard]] double bytes() const {
+    return bytes(static_cast<double>(pixels_.size()), 1, splats() ? 1 : 0, dependent_samples() ? 1 : 0, 0);
   }
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
@@ -152,14 +158,20 @@ public:
     return unit_ * unit_ * variance_in_units(pixel, channel);
   }
   /// Whether every pixel has at least two samples, its own or splatting paths.
-  [[nodiscard]] bool has_variance() const;
+  [[nodiscard]] bool has_variance(const Progress& progress = {}) const;
 
-  /// Mean of variance of one sample / mean^2 over the pixels and channels that are not black; 0 if no pixel
-  /// has two samples and a mean above 0.
-  [[nodiscard]] double relative_variance() const;
-  /// Mean of standard error / mean over the pixels and channels that are not black. Infinite until every
-  /// pixel has two samples, 0 for a black image.
-  [[nodiscard]] double relative_standard_error() const;
+  /// Means over the pixels and channels that are not black.
+  struct RelativeError {
+    double variance = 0.0; ///< of one sample / mean^2; 0 if no pixel has two samples and a mean above 0
+    /// Of the mean / mean. Infinite until every pixel has two samples, 0 for a black image.
+    double standard_error = std::numeric_limits<double>::infinity();
+  };
+  [[nodiscard]] RelativeError relative_error(const Progress& progress = {}) const;
+  [[nodiscard]] double relative_variance() const { return relative_error().variance; }
+  /// RelativeError::standard_error; fast while it is infinite.
+  [[nodiscard]] double relative_standard_error() const {
+    return has_variance() ? relative_error().standard_error : RelativeError().standard_error;
+  }
   [[nodiscard]] double samples_per_pixel() const; ///< mean over the pixels
 
   /// Samples of all pixels, or splatting paths if pixels have no samples of their own.
@@ -212,11 +224,10 @@ private:
   [[nodiscard]] double squared_deviations(std::size_t pixel, std::size_t channel) const;
   [[nodiscard]] double variance_of_own(std::size_t pixel, std::size_t channel) const;
   [[nodiscard]] bool has_variance(std::size_t pixel) const;
+  void report(const Progress& progress, std::size_t pixel) const; // now and then
   [[nodiscard]] double variance_of_squares(const Pixel& own, double squares, double mean) const;
   [[nodiscard]] double mean_in_units(std::size_t pixel, std::size_t channel) const;
   [[nodiscard]] double variance_in_units(std::size_t pixel, std::size_t channel) const;
-  template<class Function>
-  [[nodiscard]] double mean_where_not_black(Function f) const;
 
   int width_, height_;
   double unit_ = 1.0;

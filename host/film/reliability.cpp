@@ -28,7 +28,10 @@ struct Noise {
   // Relative variance of error^2, at most 1: 1/k if k samples of equal light bring it.
   double concentration = 0.0;
   // Light of rare samples: that of the one that brings the error, k^(-1/4) times that of each of k.
-  [[nodiscard]] double rare() const { return error * std::pow(concentration, 0.75); }
+  [[nodiscard]] double rare() const {
+    const double root = std::sqrt(concentration);
+    return error * root * std::sqrt(root);
+  }
 };
 
 // Sums over the pixels of a tile.
@@ -52,45 +55,59 @@ struct Prediction {
   double error = 0.0; // standard error / radiance
 };
 
+// Sums of predictions over the pixels, each with its weight.
+struct Predictions {
+  double weight = 0.0, coverage = 0.0, error = 0.0;
+
+  void add(const Prediction& p, double pixels = 1.0) {
+    weight += pixels * p.weight;
+    coverage += pixels * p.weight * p.coverage;
+    error += pixels * p.weight * p.error;
+  }
+};
+
 } // namespace
 
 class Tiles {
 public:
-  explicit Tiles(const Film& film)
+  explicit Tiles(const Film& film, const Progress& progress = {})
       : film_(film), samples_(film.samples_per_pixel()), tiles_(film.evidence().tiles().count()) {
-    const std::size_t pixels = film.pixels().size();
-    for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
-      Tile& tile = tiles_[index(pixel)];
-      tile.radiance += film.spread(pixel).mean;
-      tile.pixels += 1.0;
+    const std::size_t pixels = film.pixels().size(), row_of_tiles = std::size_t{TileMeans::tile_edge} *
+                                                                    static_cast<std::size_t>(film.width());
+    double black_in_quiet_tiles = 0.0;
+    std::vector<Film::Spread> spreads;
+    for (std::size_t first = 0; first < pixels; first += row_of_tiles) {
+      if (progress) progress(static_cast<double>(first) / static_cast<double>(pixels));
+      spreads.clear();
+      for (std::size_t pixel = first; pixel < std::min(first + row_of_tiles, pixels); ++pixel) {
+        spreads.push_back(film.spread(pixel));
+        Tile& tile = tiles_[index(pixel)];
+        tile.radiance += spreads.back().mean;
+        tile.pixels += 1.0;
+      }
+      for (std::size_t i = 0; i < spreads.size(); ++i) add(tiles_[index(first + i)], spreads[i]);
+      for (std::size_t i = 0; i < spreads.size(); ++i) {
+        const Tile& tile = tiles_[index(first + i)];
+        if (!(spreads[i].mean > 0.0) && !(tile.noisy > 0.0))
+          black_in_quiet_tiles += 1.0; // their prediction depends on the whole image
+        else
+          predictions_.add(predict(tile, spreads[i]));
+      }
     }
-    for (std::size_t pixel = 0; pixel < pixels; ++pixel) add(pixel);
+    predictions_.add(predict(Tile(), Film::Spread()), black_in_quiet_tiles);
   }
 
   [[nodiscard]] const std::vector<Tile>& tiles() const { return tiles_; }
   [[nodiscard]] const Tile& all() const { return all_; }
-  // A pixel has met its own share of the rare light of its tile, and lacks the difference to the mean.
+  [[nodiscard]] const Predictions& predictions() const { return predictions_; }
   [[nodiscard]] Prediction predict(std::size_t pixel) const {
-    const Tile& tile = tiles_[index(pixel)];
-    const Noise noise = noise_of(film_.spread(pixel));
-    if (!(noise.radiance > 0.0))
-      return {.weight = probability_of_no_sample(tile), .coverage = 0.0, .error = 1.0};
-    if (!(noise.error > 0.0)) return {.weight = 1.0, .coverage = nominal_coverage, .error = 0.0};
-    const double rare = tile.rare / tile.pixels * tile.scale(noise);
-    const double missing = std::max(0.0, rare - noise.rare());
-    return {.weight = 1.0,
-            .coverage =
-                std::max(0.0, coverage_with(missing / noise.error) - lost_per_variance * noise.concentration),
-            .error =
-                std::hypot(noise.error, missing) / (std::max(0.0, noise.radiance - noise.rare()) + rare)};
+    return predict(tiles_[index(pixel)], film_.spread(pixel));
   }
 
 private:
   [[nodiscard]] std::size_t index(std::size_t pixel) const { return film_.evidence().tiles().tile_of(pixel); }
 
-  void add(std::size_t pixel) {
-    Tile& tile = tiles_[index(pixel)];
-    const Film::Spread spread = film_.spread(pixel);
+  void add(Tile& tile, const Film::Spread& spread) {
     const double scale = std::max(spread.mean, tile.radiance / tile.pixels), square = scale * scale;
     if (!(scale > 0.0)) return;
     const Noise noise = noise_of(spread);
@@ -101,6 +118,20 @@ private:
       sums->squares += spread.squares / square;
       sums->variance_of_squares += spread.variance_of_squares / (square * square);
     }
+  }
+
+  // A pixel has met its own share of the rare light of its tile, and lacks the difference to the mean.
+  [[nodiscard]] Prediction predict(const Tile& tile, const Film::Spread& spread) const {
+    const Noise noise = noise_of(spread);
+    if (!(noise.radiance > 0.0))
+      return {.weight = probability_of_no_sample(tile), .coverage = 0.0, .error = 1.0};
+    if (!(noise.error > 0.0)) return {.weight = 1.0, .coverage = nominal_coverage, .error = 0.0};
+    const double own = noise.rare(), rare = tile.rare / tile.pixels * tile.scale(noise);
+    const double missing = std::max(0.0, rare - own);
+    return {.weight = 1.0,
+            .coverage =
+                std::max(0.0, coverage_with(missing / noise.error) - lost_per_variance * noise.concentration),
+            .error = std::hypot(noise.error, missing) / (std::max(0.0, noise.radiance - own) + rare)};
   }
 
   [[nodiscard]] Noise noise_of(const Film::Spread& spread) const {
@@ -128,6 +159,7 @@ private:
   double samples_;
   std::vector<Tile> tiles_;
   Tile all_;
+  Predictions predictions_;
 };
 
 namespace {
@@ -165,19 +197,6 @@ void add_variance(Reliability& r, const Tiles& tiles, const Film& film) {
   r.worst_share = worst->squares / all.squares;
 }
 
-void add_predictions(Reliability& r, const Tiles& tiles, const Film& film) {
-  double weight = 0.0;
-  for (std::size_t pixel = 0; pixel < film.pixels().size(); ++pixel) {
-    const Prediction p = tiles.predict(pixel);
-    weight += p.weight;
-    r.coverage += p.weight * p.coverage;
-    r.relative_standard_error += p.weight * p.error;
-  }
-  if (!(weight > 0.0)) return;
-  r.coverage /= weight;
-  r.relative_standard_error /= weight;
-}
-
 std::vector<std::string> reasons_for_doubt(const Reliability& r, double samples_per_pixel) {
   if (samples_per_pixel < least_samples)
     return {fmt::format("{:.3g} samples per pixel are too few to tell", samples_per_pixel)};
@@ -198,11 +217,14 @@ std::vector<std::string> reasons_for_doubt(const Reliability& r, double samples_
 
 } // namespace
 
-Reliability reliability_of(const Film& film) {
+Reliability reliability_of(const Film& film, const Progress& progress) {
   Reliability r;
-  const Tiles tiles(film);
+  const Tiles tiles(film, progress);
   add_variance(r, tiles, film);
-  add_predictions(r, tiles, film);
+  if (const Predictions& all = tiles.predictions(); all.weight > 0.0) {
+    r.coverage = all.coverage / all.weight;
+    r.relative_standard_error = all.error / all.weight;
+  }
   r.top_share =
       film.evidence().sizes().share_of_largest(std::ceil(top_part * static_cast<double>(film.samples())));
   r.tail_index = tail_index(film);
@@ -212,7 +234,8 @@ Reliability reliability_of(const Film& film) {
   return r;
 }
 
-ReliabilityMap::ReliabilityMap(const Film& film) : tiles_(std::make_unique<const Tiles>(film)) {}
+ReliabilityMap::ReliabilityMap(const Film& film, const Progress& progress)
+    : tiles_(std::make_unique<const Tiles>(film, progress)) {}
 
 ReliabilityMap::~ReliabilityMap() = default;
 

@@ -47,12 +47,12 @@ struct Reliability {
   double worst_share = 0.0;
 };
 
-[[nodiscard]] Reliability reliability_of(const Film& film);
+[[nodiscard]] Reliability reliability_of(const Film& film, const Progress& progress = {});
 
 /// The values of reliability_map(), each computed when it is requested. The film must not change.
 class ReliabilityMap {
 public:
-  explicit ReliabilityMap(const Film& film);
+  explicit ReliabilityMap(const Film& film, const Progress& progress = {});
   ~ReliabilityMap();
   [[nodiscard]] float operator[](std::size_t pixel) const;
 

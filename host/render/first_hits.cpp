@@ -31,7 +31,8 @@ Parts parts_of_first_hits(const scene::Scene& scene, const HostScene& host, cons
 
 } // namespace
 
-std::vector<film::FirstHit> first_hits(const scene::Scene& scene, const Settings& settings) try {
+std::vector<film::FirstHit> first_hits(const scene::Scene& scene, const Settings& settings,
+                                       const film::Progress& progress) try {
   static_assert(sizeof(film::FirstHit) == FEATURE_WORDS * sizeof(float));
   const device::Device device = device::open_devices(settings.devices, settings.threads).front();
   const int lanes = lanes_for(device.info, settings);
@@ -52,6 +53,7 @@ std::vector<film::FirstHit> first_hits(const scene::Scene& scene, const Settings
              cl_uint2{{static_cast<cl_uint>(settings.seed), static_cast<cl_uint>(settings.seed >> 32)}});
   kernel.set("features", buffer);
   for (std::size_t first = 0; first < hits.size(); first += pixels_per_launch) {
+    if (progress) progress(static_cast<double>(first) / static_cast<double>(hits.size()));
     const std::size_t pixels = std::min(pixels_per_launch, hits.size() - first);
     kernel.set("first_pixel", static_cast<cl_int>(first));
     kernel.set("pixel_count", static_cast<cl_int>(pixels));

@@ -143,8 +143,8 @@ TEST_CASE("A render that needs more memory than there is says so before it begin
   CAPTURE(outcome.err);
   CHECK(outcome.exit_code == 2);
   CHECK(outcome.is_one_line_error());
-  CHECK_THAT(outcome.err, Catch::Contains("8192x8192 pixels need 8.99 GB of memory, and ") &&
-                              Catch::Contains("or --integrator path (or light), which needs 4.7 GB"));
+  CHECK_THAT(outcome.err, Catch::Contains("8192x8192 pixels need 8.59 GB of memory, and ") &&
+                              Catch::Contains("or --integrator path (or light), which needs 4.29 GB"));
 }
 
 TEST_CASE("Where memory is short, sums of samples are kept in a file, and the image is the same") {

@@ -255,6 +255,29 @@ TEST_CASE("An interrupted render writes the image so far and exits with 130") {
   CHECK(place.json("stats.json")["interrupted"] == true);
 }
 
+// The trials of --advise take seconds.
+TEST_CASE("A signal after the image ends what is left to do, and only that") {
+  const Renders place;
+  Invocation invocation{{"render", "scene.xml", "-n", "16", "--advise", "--stats", "stats.json"},
+                        place.path(),
+                        {},
+                        std::chrono::milliseconds(0)};
+  invocation.signal = SIGTERM;
+  invocation.after_write = place / "scene.png";
+  const auto start = std::chrono::steady_clock::now();
+  const Outcome outcome = run(invocation);
+  CAPTURE(outcome.out, outcome.err);
+  CHECK(outcome.exit_code == 130);
+  CHECK_THAT(outcome.err,
+             Catch::EndsWith("phlux: warning: interrupted, and left out: trials of other integrators\n"));
+  CHECK(place.image().info.samples == 16.0);
+  CHECK_THAT(outcome.out, Catch::Contains("relative standard error") && !Catch::Contains("advice"));
+  const nlohmann::json stats = place.json("stats.json");
+  CHECK(stats["interrupted"] == false); // all samples were taken
+  CHECK(stats["reliability"]["coverage"] > 0.0);
+  CHECK(std::chrono::steady_clock::now() - start < std::chrono::minutes(1)); // generous, for a busy machine
+}
+
 TEST_CASE("One sample has no variance: it is left out, not 0") {
   const Renders place;
   const Outcome outcome = place.render({"-n", "1", "--moments", "--stats", "stats.json"});

@@ -1,9 +1,11 @@
 // Detection of error estimates that cannot be trusted.
 #include "film/reliability.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <random>
+#include <vector>
 
 #include <catch2/catch.hpp>
 
@@ -71,6 +73,21 @@ double pareto(std::mt19937& random, double index) {
 }
 
 } // namespace
+
+TEST_CASE("What takes long for a large film reports its progress, and ends by what that throws") {
+  const Film film(64, 3 * TileMeans::tile_edge + 1);
+  std::vector<double> shares;
+  const auto note = [&](double done) { shares.push_back(done); };
+  static_cast<void>(reliability_of(film, note));
+  CHECK(shares.size() == 4); // rows of tiles
+  static_cast<void>(film.relative_error(note));
+  CHECK(shares.size() == 5);
+  CHECK(std::ranges::all_of(shares, [](double done) { return done >= 0.0 && done < 1.0; }));
+  struct Ended {};
+  const auto end = [](double) { throw Ended(); };
+  CHECK_THROWS_AS(reliability_of(film, end), Ended);
+  CHECK_THROWS_AS(film.relative_error(end), Ended);
+}
 
 TEST_CASE("Even noise is trusted, and its figures are those of its distribution") {
   std::mt19937 random(1);
