@@ -23,6 +23,8 @@ std::string damaged(std::string bytes, std::mt19937& random) {
 }
 
 struct Damage : Workplace {
+  // PHLUX_DAMAGE_SEED: other damages.
+  std::mt19937 random{static_cast<std::mt19937::result_type>(repetitions("PHLUX_DAMAGE_SEED", 1))};
   Outcome render(std::vector<std::string> arguments, const fs::path& cache) const {
     arguments.insert(arguments.begin(), {"render", "scene.xml", "-q", "--png", "none"});
     return run(
@@ -39,7 +41,7 @@ void print(const char* what, const std::map<std::string, int>& outcomes) {
 } // namespace
 
 TEST_CASE("Damaged kernel caches give the right image", "[.damage]") {
-  const Damage place;
+  Damage place;
   const fs::path whole = place / "whole", cache = place / "cache";
   REQUIRE(place.render({"-n", "16", "-o", "right.exr"}, whole).exit_code == 0);
   const auto right = place.image("right.exr").channels;
@@ -47,13 +49,12 @@ TEST_CASE("Damaged kernel caches give the right image", "[.damage]") {
   for (const auto& entry : fs::recursive_directory_iterator(whole))
     if (entry.is_regular_file() && entry.file_size() > 0)
       files.push_back(entry.path().lexically_relative(whole));
-  std::mt19937 random(1);
   std::map<std::string, int> outcomes;
   for (int i = 0; i < repetitions("PHLUX_DAMAGED_CACHES", 1000); ++i) {
     fs::remove_all(cache);
     fs::copy(whole, cache, fs::copy_options::recursive);
-    const fs::path file = cache / files[random() % files.size()];
-    place.write("bytes", damaged(TemporaryFolder::read(file), random));
+    const fs::path file = cache / files[place.random() % files.size()];
+    place.write("bytes", damaged(TemporaryFolder::read(file), place.random));
     fs::permissions(file, fs::perms::owner_all);
     const fs::file_time_type time = fs::last_write_time(file);
     fs::copy_file(place / "bytes", file, fs::copy_options::overwrite_existing);
@@ -71,16 +72,15 @@ TEST_CASE("Damaged kernel caches give the right image", "[.damage]") {
 }
 
 TEST_CASE("Damaged checkpoints are refused, or resume to the right image", "[.damage]") {
-  const Damage place;
+  Damage place;
   const fs::path cache = place / "cache";
   REQUIRE(place.render({"-n", "16", "-i", "bidir", "--checkpoint", "c"}, cache).exit_code == 0);
   REQUIRE(place.render({"-n", "32", "-i", "bidir", "-o", "right.exr"}, cache).exit_code == 0);
   const auto right = place.image("right.exr").channels;
   const std::string bytes = TemporaryFolder::read(place / "c");
-  std::mt19937 random(1);
   std::map<std::string, int> outcomes;
   for (int i = 0; i < repetitions("PHLUX_DAMAGED_CHECKPOINTS", 1000); ++i) {
-    place.write("d", damaged(bytes, random));
+    place.write("d", damaged(bytes, place.random));
     const Outcome outcome =
         place.render({"-n", "32", "--resume", "d", "--checkpoint", "none", "-o", "on.exr"}, cache);
     CAPTURE(i, outcome.err);
