@@ -112,11 +112,11 @@ void encode_png(const Rows& rows, std::optional<double> stops, std::ostream& to)
   const float scale = stops ? static_cast<float>(std::exp2(*stops)) : exposure(rows);
   const auto code = [scale](float value) { return srgb_code(compress_highlights(scale * value)); };
   RadianceRow radiance(rows);
-  const auto& [red, green, blue] = radiance.values;
   std::vector<Color> colors(static_cast<std::size_t>(rows.width));
   const auto row_of = [&](int y) {
     radiance.read(y);
-    for (std::size_t x = 0; x < colors.size(); ++x) colors[x] = {code(red[x]), code(green[x]), code(blue[x])};
+    for (std::size_t x = 0; x < colors.size(); ++x)
+      colors[x] = {code(radiance.values[0][x]), code(radiance.values[1][x]), code(radiance.values[2][x])};
     return colors.data();
   };
   encode(rows.width, rows.height, row_of, to);

@@ -88,8 +88,8 @@ public:
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
   /// Row by row from the top; sums are in units, see set_unit().
-  [[nodiscard]] auto pixels() const { return elements(pixels_); }
-  [[nodiscard]] auto pixels() { return elements(pixels_); }
+  [[nodiscard]] auto pixels() const { return Elements(pixels_); }
+  [[nodiscard]] auto pixels() { return Elements(pixels_); }
 
   /// The radiance that is 1 in the devices' sums; 1 by default. mean() and variance_of_mean() are in
   /// radiance.
@@ -202,7 +202,7 @@ public:
     for (Splats& splats : splats_) archive(splats);
     archive(dependent);
     if (dependent && !dependent_samples()) use_dependent_samples();
-    for (BlockMoments& blocks : elements(blocks_of_pixels_)) archive(blocks);
+    for (BlockMoments& blocks : Elements(blocks_of_pixels_)) archive(blocks);
     archive(splatting_paths_, own_samples_, blocks_, squared_block_samples_, evidence_, clamp_, clamped_,
             clamped_of_splats_, with_techniques);
     if (!with_techniques) return;

@@ -6,7 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <ranges>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "film/zeroed_memory.h"
@@ -93,9 +94,33 @@ private:
 
 /// The elements of an array that is or is not const, in order.
 template<class Array>
-[[nodiscard]] auto elements(Array& array) {
-  return std::views::iota(std::size_t{0}, array.size()) |
-         std::views::transform([&array](std::size_t i) -> decltype(auto) { return array[i]; });
-}
+class Elements {
+public:
+  struct Iterator {
+    using value_type = std::remove_cvref_t<decltype(std::declval<Array&>()[0])>;
+    using difference_type = std::ptrdiff_t;
+    Array* array = nullptr;
+    std::size_t i = 0;
+    [[nodiscard]] decltype(auto) operator*() const { return (*array)[i]; }
+    Iterator& operator++() {
+      ++i;
+      return *this;
+    }
+    Iterator operator++(int) {
+      const Iterator before = *this;
+      ++i;
+      return before;
+    }
+    bool operator==(const Iterator&) const = default;
+  };
+  explicit Elements(Array& array) : array_(&array) {}
+  [[nodiscard]] Iterator begin() const { return {array_, 0}; }
+  [[nodiscard]] Iterator end() const { return {array_, size()}; }
+  [[nodiscard]] std::size_t size() const { return array_->size(); }
+  [[nodiscard]] decltype(auto) operator[](std::size_t i) const { return (*array_)[i]; }
+
+private:
+  Array* array_;
+};
 
 } // namespace phlux::film

@@ -102,8 +102,8 @@ DeviceScene::DeviceScene(const device::Device& device, const HostScene& scene, c
 }
 
 void DeviceScene::bind(device::Kernel& kernel) const {
-  for (const auto& [name, value] : arguments_)
-    std::visit([&](const auto& of) { kernel.set(name, of); }, value);
+  for (const auto& argument : arguments_)
+    std::visit([&](const auto& of) { kernel.set(argument.first, of); }, argument.second);
 }
 
 std::size_t DeviceScene::bytes() const {

@@ -17,10 +17,8 @@ foreach(name IN LISTS files)
     string(APPEND literals "R\"phlux(${chunk})phlux\"\n")
     math(EXPR at "${at} + ${CHUNK}")
   endwhile()
-  if(NOT literals)
-    set(literals "\"\"\n")
-  endif()
-  string(APPEND entries "{\"${name}\",\n${literals}},\n")
+  # With its length: clang does not count as many characters in a constant expression.
+  string(APPEND entries "{\"${name}\",\n${literals}\"\"sv},\n")
 endforeach()
 
 file(WRITE "${OUTPUT}.tmp" "// Made by embed_files.cmake from the files of ${FOLDER_NAME}/. Do not edit.
@@ -28,6 +26,7 @@ file(WRITE "${OUTPUT}.tmp" "// Made by embed_files.cmake from the files of ${FOL
 
 namespace ${NAMESPACE} {
 namespace {
+using namespace std::literals;
 constexpr phlux::sources::EmbeddedFile files[] = {
 ${entries}{\"\", \"\"}}; // an end mark, as an array must not be empty
 } // namespace

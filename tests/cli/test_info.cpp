@@ -33,7 +33,7 @@ TEST_CASE("info says what is in a scene and how it would be rendered") {
   CHECK(json["kernel"]["name"] == "trace_bidir");
   const std::vector<std::string> parts = json["kernel"]["parts"];
   CHECK(std::ranges::count(parts, "light_sphere") == 1);
-  CHECK(json["memory"]["image"].get<double>() == 16 * 12 * (64 + 64 + 6));
+  CHECK(json["memory"]["image"].get<double>() == 16 * 12 * (64 + 64));
   CHECK(json["memory"]["device"] > 0);
 
   const std::string text = out_of({"info", "scene.xml", "-D", "radiance=3"}, place);
