@@ -23,7 +23,7 @@ TEST_CASE("an array in a file has the values of one in memory") {
     for (std::size_t i = 0; i < size; i += 1001) array[i] += static_cast<double>(i) * factor;
   const Array& as_const = array;
   std::size_t i = 0;
-  for (const double value : elements(as_const)) {
+  for (const double value : Elements(as_const)) {
     if (value != (i % 1001 == 0 ? 3.0 * static_cast<double>(i) : 0.0)) FAIL(i);
     ++i;
   }
