@@ -108,6 +108,13 @@ double seconds_of_render(const render::Settings& settings, double pixels,
   return pixels * best->trial.cost / (*settings.target_error * *settings.target_error);
 }
 
+// Samples per pixel of the render by the method of the trial `best`, the best of `tried`, as far as is known.
+double samples_of_render(const render::Settings& settings, double pixels, const std::vector<Candidate>& tried,
+                         const Candidate& best) {
+  if (!settings.time_limit && !settings.target_error) return settings.samples_per_pixel;
+  return seconds_of_render(settings, pixels, tried) / (pixels * best.sample_seconds);
+}
+
 // Other values of a setting, by its name, with which the integrator may be better than with the default.
 std::vector<std::pair<std::string, std::string>> variants_of(const std::string& integrator,
                                                              const scene::Scene& scene) {
@@ -124,7 +131,7 @@ std::vector<std::pair<std::string, std::string>> variants_of(const std::string& 
 // of a pixel.
 constexpr double fewest_for_point_sets = 128;
 void with_point_sets(Candidate& best, double samples, Trials& trials, const settings::Choices& choices) {
-  if (samples < fewest_for_point_sets || best.settings.integrator == "light" || choices.has("sampler"))
+  if (!(samples >= fewest_for_point_sets) || best.settings.integrator == "light" || choices.has("sampler"))
     return;
   Texts texts = best.texts;
   texts["sampler"] = "lattice";
@@ -197,8 +204,7 @@ MethodChoice choose_method(scene::Scene scene, const settings::Choices& choices,
   }
   std::ranges::sort(candidates, is_better);
   Candidate& chosen = candidates.front();
-  const double samples = seconds_of_render(settings, pixels, candidates) / (pixels * chosen.sample_seconds);
-  with_point_sets(chosen, samples, trials, choices);
+  with_point_sets(chosen, samples_of_render(settings, pixels, candidates, chosen), trials, choices);
   return {.texts = chosen.texts, .words = words_for(candidates)};
 }
 

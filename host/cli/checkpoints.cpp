@@ -80,8 +80,7 @@ void check_same(const checkpoint::Checkpoint& earlier, const checkpoint::Session
 Checkpoints::Checkpoints(std::filesystem::path file, const RenderOptions& options,
                          checkpoint::Session session)
     : file_(std::move(file)), session_(std::move(session)),
-      between_(std::chrono::duration_cast<Clock::duration>(
-          std::chrono::duration<double>(options.checkpoint_seconds.value_or(default_checkpoint_seconds)))),
+      between_(duration_of(options.checkpoint_seconds.value_or(default_checkpoint_seconds))),
       next_(Clock::now() + between_) {
   if (file_.empty()) return;
   if (!checkpoint::is_replaceable(file_))

@@ -1,13 +1,13 @@
 // Reads and writes the checkpoints of a render.
 #pragma once
 
-#include <chrono>
 #include <filesystem>
 #include <future>
 #include <optional>
 
 #include "checkpoint/checkpoint.h"
 #include "cli/options.h"
+#include "clock.h"
 
 namespace phlux::cli {
 
@@ -34,7 +34,6 @@ public:
   void finish(const film::Film& film, const render::RenderState& state, const film::Progress& progress);
 
 private:
-  using Clock = std::chrono::steady_clock;
   void wait();
   void write(const film::Film& film, const film::Progress& progress = {}) const;
 

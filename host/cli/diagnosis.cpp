@@ -49,8 +49,7 @@ std::string doubt(const film::Reliability& r, double stated, const film::Film& f
 } // namespace
 
 void estimate_error(const film::Film& film, LastSteps& steps, Patience& patience, Diagnosis& diagnosis) {
-  const film::Progress progress = steps.optional("computing the error", patience);
-  if (film.has_variance(progress)) diagnosis.error = film.relative_error(progress);
+  diagnosis.error = film.relative_error(steps.optional("computing the error", patience));
   diagnosis.reliability =
       film::reliability_of(film, steps.optional("computing the reliability of the error", patience));
 }

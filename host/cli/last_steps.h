@@ -2,12 +2,12 @@
 // needed.
 #pragma once
 
-#include <chrono>
 #include <functional>
 #include <optional>
 #include <string>
 
 #include "cli/progress.h"
+#include "clock.h"
 #include "film/progress.h"
 
 namespace phlux::cli {
@@ -18,7 +18,6 @@ struct StepInterrupted {};
 /// How long steps go on after a signal, beginning when one of them first notices it.
 class Patience {
 public:
-  using Clock = std::chrono::steady_clock;
   explicit Patience(Clock::duration most) : most_(most) {}
   /// To be called once there has been a signal.
   [[nodiscard]] bool is_over() {

@@ -44,11 +44,6 @@ std::string bar_line(double fraction, const std::string& text, std::size_t colum
   return fmt::format("[{:<{}}] {}", std::string(filled, '#'), width, text);
 }
 
-std::chrono::steady_clock::duration duration(double seconds) {
-  return std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-      std::chrono::duration<double>(seconds));
-}
-
 // Whether standard error is a terminal that understands escape sequences.
 bool can_erase_lines() {
   const char* terminal = std::getenv("TERM");
@@ -84,8 +79,7 @@ std::string progress_text(const render::Progress& progress, double fraction, dou
 ProgressDisplay::ProgressDisplay(bool quiet, std::optional<double> time_limit,
                                  std::optional<double> target_error)
     : quiet_(quiet), terminal_(can_erase_lines()), time_limit_(time_limit), target_error_(target_error),
-      next_update_(between_updates()), next_step_(std::chrono::steady_clock::now() + duration(next_update_)) {
-}
+      next_update_(between_updates()), next_step_(Clock::now() + duration_of(next_update_)) {}
 
 void ProgressDisplay::building_kernels() {
   if (!quiet_) show("building kernels");
@@ -101,9 +95,9 @@ void ProgressDisplay::update(const render::Progress& progress, const std::functi
 }
 
 void ProgressDisplay::step(const std::string& what, double done) {
-  const auto now = std::chrono::steady_clock::now();
+  const Clock::time_point now = Clock::now();
   if (quiet_ || now < next_step_) return;
-  next_step_ = now + duration(between_updates());
+  next_step_ = now + duration_of(between_updates());
   const std::string text = fmt::format("{:3.0f}%  {}", std::floor(100.0 * done), what);
   show(terminal_ ? bar_line(done, text, terminal_columns() - 1) : text);
 }

@@ -1,11 +1,11 @@
 // Progress of a render: one changing line on a terminal, elsewhere a new line every ten seconds.
 #pragma once
 
-#include <chrono>
 #include <functional>
 #include <optional>
 #include <string>
 
+#include "clock.h"
 #include "render/render.h"
 
 namespace phlux::cli {
@@ -41,7 +41,7 @@ private:
   bool quiet_, terminal_;
   std::optional<double> time_limit_, target_error_;
   double next_update_; // seconds of rendering
-  std::chrono::steady_clock::time_point next_step_;
+  Clock::time_point next_step_;
   bool line_is_shown_ = false;
 };
 

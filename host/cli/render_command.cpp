@@ -202,10 +202,11 @@ void write_all(const Outputs& outputs, const RenderOptions& options, const check
       hits = render::first_hits(scene, settings, steps.optional("computing the first hits", for_channels));
     });
   attempts(outputs.image, [&] {
-    if (options.moments && !film.has_variance())
+    const bool with_variances = options.moments && film.has_variance();
+    if (options.moments && !with_variances)
       spdlog::warn("--moments: variances need two samples in every pixel: their channels are left out");
-    files::Rows rows = files::rows_of(film, options.moments && film.has_variance(),
-                                      steps.needed("computing the reliability of the error"));
+    files::Rows rows =
+        files::rows_of(film, with_variances, steps.needed("computing the reliability of the error"));
     if (!hits.empty()) files::add_first_hits(rows, hits, outputs.aov);
     image_file = write_image(outputs.image, rows, info, steps, attempts);
   });

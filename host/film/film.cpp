@@ -254,10 +254,10 @@ std::string Film::contradiction(const std::function<std::uint64_t(std::size_t pi
   return {};
 }
 
-bool Film::has_variance(const Progress& progress) const {
+bool Film::has_variance() const {
   if (own_samples_ == 0) return splatting_paths_per_pixel() >= 2.0;
   std::size_t known = 0;
-  for (; known < pixels_.size() && has_variance(known); ++known) report(progress, known);
+  while (known < pixels_.size() && has_variance(known)) ++known;
   return known == pixels_.size();
 }
 

@@ -158,12 +158,13 @@ public:
     return unit_ * unit_ * variance_in_units(pixel, channel);
   }
   /// Whether every pixel has at least two samples, its own or splatting paths.
-  [[nodiscard]] bool has_variance(const Progress& progress = {}) const;
+  [[nodiscard]] bool has_variance() const;
 
   /// Means over the pixels and channels that are not black.
   struct RelativeError {
-    double variance = 0.0; ///< of one sample / mean^2; 0 if no pixel has two samples and a mean above 0
-    /// Of the mean / mean. Infinite until every pixel has two samples, 0 for a black image.
+    /// Variance of one sample / mean^2. 0 if no pixel has two samples and a mean above 0.
+    double variance = 0.0;
+    /// Standard error of the mean / mean. Infinite until every pixel has two samples; 0 for a black image.
     double standard_error = std::numeric_limits<double>::infinity();
   };
   [[nodiscard]] RelativeError relative_error(const Progress& progress = {}) const;

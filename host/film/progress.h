@@ -1,12 +1,12 @@
-// What long computations on a film report.
+// Progress of long computations on a film.
 #pragma once
 
 #include <functional>
 
 namespace phlux::film {
 
-/// Called now and then, at least once a second on any usual machine, with the share of the work that is done,
-/// in [0, 1]. What it throws ends the work. Empty: not called.
+/// Called about once a second or more often, with the share of the work that is done, in [0, 1]. An exception
+/// that it throws ends the work. Not called if empty.
 using Progress = std::function<void(double done)>;
 
 } // namespace phlux::film

@@ -68,11 +68,11 @@ static inline Int native_rank(Mask m) {
 #else
 
 static inline uint native_bits(Mask m) { return (uint)__builtin_ia32_movmskps256(LANE_NATIVE_FLOATS(m)); }
-// The lowest three bits of an index count.
+// Only the lowest three bits of an index are used.
 static inline Real native_permute(Real v, Int index) {
   return LANE_REALS(__builtin_ia32_permvarsf256(LANE_NATIVE_FLOATS(v), LANE_NATIVE_INTS(index)));
 }
-// Lane numbers are permuted as the bytes of a word; `chosen` has the bytes of the lanes in m set.
+// Lane numbers as the bytes of a word. chosen_bytes sets all bits of the bytes of the lanes in m.
 #define LANE_NUMBER_BYTES 0x0706050403020100ul
 static inline ulong chosen_bytes(Mask m) { return __builtin_ia32_pdep_di(native_bits(m), 0x0101010101010101ul) * 0xff; }
 static inline Int bytes_to_lanes(ulong bytes) { return __builtin_convertvector(__builtin_astype(bytes, uchar8), Int); }

@@ -166,10 +166,11 @@ enum VertexWords {
 // Words of a bidirectional path in addition to its vertices: the places of the vertices of both subpaths, and radiance.
 enum { SCRATCH_WORDS_PER_PATH = 8 };
 
-// One node of the hierarchy: the boxes of CHILDREN children, then the children. A child >= 0 is a node; one < 0 is a
-// leaf: ~child = first block << 5 | (blocks - 1) << 2 | kind. The kind of its primitives is one of PlanarRegions, or
-// LEAF_SPHERES; a leaf has at most 8 blocks.
+// The kind of the primitives in a leaf of the hierarchy: one of PlanarRegions, or spheres.
 enum { LEAF_SPHERES = 3 };
+
+// One node of the hierarchy: the boxes of CHILDREN children, then the children. A child >= 0 is a node; one < 0 is a
+// leaf: ~child = first block << 5 | (blocks - 1) << 2 | kind. A leaf has at most 8 blocks.
 enum NodeValues {
   NODE_LOW_X = 0,
   NODE_LOW_Y,

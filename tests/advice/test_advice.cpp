@@ -103,6 +103,8 @@ TEST_CASE("integrator auto: the method with the least error, the same each time"
   CHECK_THAT(near_light.words, Catch::StartsWith("`integrator` path `sampler` lattice: "));
   CHECK(!choice_for(shipped("stability/near-light", 64, 48), 20'000, {{"sampler", "independent"}})
              .texts.contains("sampler"));
+  CHECK(choice_for(shipped("stability/near-light", 512, 512), 128).texts.at("sampler") == "lattice");
+  CHECK(!choice_for(shipped("stability/near-light", 512, 512), 127).texts.contains("sampler"));
   CHECK(!choice_for(shipped("stability/near-light", 512, 512), 64).texts.contains("sampler")); // few samples
   const advice::MethodChoice furnace = choice_for(shipped("furnace-box", 64, 48), 20'000); // light all around
   CHECK(furnace.texts.at("connect") == "none");

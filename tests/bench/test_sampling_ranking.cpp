@@ -88,8 +88,9 @@ TEST_CASE("The interval of the ratio to the best follows from the standard error
   const double sigmas = 1.959964; // one comparison: 95%
   CHECK(std::log(second.most / 2) == Approx(sigmas * std::hypot(0.01, 0.02)));
   CHECK(std::log(2 / second.least) == Approx(sigmas * std::hypot(0.01, 0.02)));
-  // Of five rounds the expected least is 1.163 standard deviations below the median, whose standard error is
-  // 1.25 / sqrt(5). A round that another program interrupted does not count.
+  // The expected least of five times is 1.163 standard deviations below their median. The standard error of
+  // the median is 1.2533 / sqrt(5) standard deviations. The largest time is that of a launch that another
+  // program interrupted, and has no effect.
   const auto spread =
       rankings({{"exact", 4, 0.04},
                 {.strategy = "fold", .variance = 8, .standard_error = 0, .least = 9, .most = 900}});

@@ -33,7 +33,6 @@ struct SavedTable {
 [[nodiscard]] double stated(const std::string& page, const std::string& sentence);
 
 [[nodiscard]] double geometric_mean(const std::vector<double>& values);
-[[nodiscard]] double median(std::vector<double> values);
 
 /// A number in a page, rounded to two digits or to a bound.
 [[nodiscard]] inline Approx about(double value) {

@@ -9,7 +9,9 @@
 
 #include "cli/page_text.h"
 #include "cli/saved_tables.h"
+#include "measure/moments.h"
 
+using namespace phlux;
 using namespace phlux::test;
 
 TEST_CASE("Means in the pages on roulette are those of the table") {
@@ -94,9 +96,10 @@ TEST_CASE("Speed and errors in the page on precision are those of its table") {
     CAPTURE(integrator);
     CHECK(stated(page, sentence) == about(wide.front()));
   }
-  CHECK(stated(page, "times as fast as in float64 (median #)") == about(median(speeds("path", "16"))));
-  CHECK(stated(page, "times (#), and `bidir`") == about(median(speeds("light", "16"))));
-  CHECK(stated(page, "times (#). For every integrator") == about(median(speeds("bidir", "16"))));
+  CHECK(stated(page, "times as fast as in float64 (median #)") ==
+        about(measure::median(speeds("path", "16"))));
+  CHECK(stated(page, "times (#), and `bidir`") == about(measure::median(speeds("light", "16"))));
+  CHECK(stated(page, "times (#). For every integrator") == about(measure::median(speeds("bidir", "16"))));
   CHECK(stated(page, "differs from the same samples in float64 by at most # of its noise") ==
         Approx(largest(table, "difference", [&](std::size_t row) {
           return table.at(row, "scene") != "corridor";
@@ -185,7 +188,7 @@ TEST_CASE("Counts and times in the page on sampling are those of its tables") {
     for (const auto& [name, each] : cases)
       if (each.contains(strategy) && each.contains("lobe-ks"))
         ratios.push_back(each.at(strategy) / each.at("lobe-ks"));
-    return median(ratios);
+    return measure::median(ratios);
   };
   CHECK(stated(page, "A sample of `exact` takes # times as long") == about(ratio("exact")));
   CHECK(stated(page, "of `lobe-estimate` # times, of") == about(ratio("lobe-estimate")));
@@ -206,12 +209,12 @@ TEST_CASE("Errors and times of formulas in the page on sampling are those of the
   const std::vector<double> errors = values(lobe, "rms_relative");
   CHECK(stated(page, "its rms relative error is # to") == about(std::ranges::min(errors)));
   CHECK(stated(page, "to #, while") == about(std::ranges::max(errors)));
-  CHECK(stated(page, "It takes # ns, `pow`") == about(median(values(lobe, "ns_per_value"))));
-  CHECK(stated(page, "`pow` # ns.") == about(median(values("dot^n by pow", "ns_per_value"))));
+  CHECK(stated(page, "It takes # ns, `pow`") == about(measure::median(values(lobe, "ns_per_value"))));
+  CHECK(stated(page, "`pow` # ns.") == about(measure::median(values("dot^n by pow", "ns_per_value"))));
   CHECK(stated(page, "of at most # ulp") == about(std::ranges::max(values(sine, "largest_ulp"))));
   CHECK(stated(page, "the power takes # ns") ==
-        about(median(values(lobe + " by own log1p", "ns_per_value"))));
-  CHECK(stated(page, "instead of # ns") == about(median(values(sine, "ns_per_value"))));
+        about(measure::median(values(lobe + " by own log1p", "ns_per_value"))));
+  CHECK(stated(page, "instead of # ns") == about(measure::median(values(sine, "ns_per_value"))));
   CHECK(stated(page, "with a fixed offset of 1/1000, # points are") ==
         values("fixed: 1/1000", "failed").front());
 }

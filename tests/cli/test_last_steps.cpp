@@ -1,4 +1,4 @@
-// What a render does after its last sample.
+// Tests of the steps after the last sample of a render: signals, failures, and the preview.
 #include <chrono>
 #include <filesystem>
 

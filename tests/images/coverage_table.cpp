@@ -2,10 +2,10 @@
 // many 95% intervals (mean +- t standard errors) contain the true value, and what film::reliability_of()
 // predicts.
 //   PHLUX_COVERAGE_SEEDS=20 PHLUX_COVERAGE_TABLE=coverage.csv test_images "[.coverage]"
-// PHLUX_COVERAGE_SAMPLER=lattice measures path and bidir with that sampler, PHLUX_COVERAGE_SAMPLES=N up to N
-// samples. writes a line for each render and prints the share of the renders that are not trusted, for those
-// whose intervals contain the true value in 93% to 97% of the pixels and in less than 85%. Two hours on one
-// core for 50 seeds.
+// writes a line for each render and prints the share of the renders that are not trusted, for those whose
+// intervals contain the true value in 93% to 97% of the pixels and in less than 85%. Two hours on one core
+// for 50 seeds. PHLUX_COVERAGE_SAMPLER=lattice selects that sampler for path and bidir, and
+// PHLUX_COVERAGE_SAMPLES=N leaves out renders of more than N samples.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
