@@ -178,8 +178,10 @@ void measure_rays(const RaysOptions& options) {
   const int lanes = options.lanes_on(device.info);
   for (const std::uint64_t triangles : options.triangles) {
     const scene::Scene scene = knot_scene(triangles);
-    render::HostScene host = render::prepare(scene, options.traversal, lanes);
-    const render::Parts parts = render::find_parts(scene, host.geometry, host.lights, {}, lanes);
+    render::Settings settings;
+    settings.traversal = options.traversal;
+    render::HostScene host = render::prepare(scene, settings, lanes);
+    const render::Parts parts = render::find_parts(scene, host.geometry, host.lights, settings, lanes);
     DeviceRays device_rays(device, files, host, parts);
     const EmbreeRays embree_rays(scene.meshes.front(), host.geometry.origin, device.info.compute_units);
     const std::vector<Ray> camera = camera_rays(scene.camera, host.geometry.origin);

@@ -36,7 +36,9 @@ std::vector<film::FirstHit> first_hits(const scene::Scene& scene, const Settings
   static_assert(sizeof(film::FirstHit) == FEATURE_WORDS * sizeof(float));
   const device::Device device = device::open_devices(settings.devices, settings.threads).front();
   const int lanes = lanes_for(device.info, settings);
-  const HostScene host = prepare(scene, settings.traversal, lanes, settings.double_precision, false);
+  Settings without_light_tree = settings;
+  without_light_tree.light_selection = settings::LightSelection::power;
+  const HostScene host = prepare(scene, without_light_tree, lanes);
   const Parts parts = parts_of_first_hits(scene, host, settings, lanes);
   const DeviceScene tables(device, host, parts);
   device::Kernel kernel(device::build(device, sources::KernelFiles(settings.kernel_dir),

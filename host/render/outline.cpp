@@ -10,8 +10,7 @@ Outline outline(const scene::Scene& scene, const Settings& settings) try {
   const device::Device device = device::open_devices(settings.devices, settings.threads).front();
   result.device = device.info;
   const int lanes = lanes_for(result.device, settings);
-  const HostScene host =
-      prepare(scene, settings.traversal, lanes, settings.double_precision, wants_light_tree(settings));
+  const HostScene host = prepare(scene, settings, lanes);
   result.parts = find_parts(scene, host.geometry, host.lights, settings, lanes);
   result.primitives = host.geometry.primitive_count;
   result.table_bytes = DeviceScene(device, host, result.parts).bytes();

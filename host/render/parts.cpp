@@ -49,6 +49,7 @@ constexpr NamedPart named_parts[] = {
     {&Parts::hidden_emitters, "hidden_emitters", "HAS_HIDDEN_EMITTERS"},
     {&Parts::light_choice, "light_choice", "HAS_LIGHT_CHOICE"},
     {&Parts::light_tree, "light_tree", "HAS_LIGHT_TREE"},
+    {&Parts::sky_samples, "sky_samples", "HAS_SKY_SAMPLES"},
     {&Parts::ambient, "ambient", "HAS_AMBIENT"},
 };
 
@@ -189,6 +190,7 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
   parts.light_choice = lights.records.size() > 1 && chooses;
   parts.light_tree = wants_light_tree(settings) && parts.connect != Connect::none &&
                      lights.nodes.size() >= 2 * fewest_lights_of_tree;
+  parts.sky_samples = parts.connect != Connect::none && lights.samples_sky();
   parts.one_light = lights.records.size() == 1;
   parts.few_lights = lights.records.size() <= few_entries;
   parts.few_materials = scene.materials.size() <= few_entries;

@@ -36,6 +36,7 @@ struct Parts {
   bool light_choice = false;                         ///< more than one light to choose from
   bool hidden_emitters = false;                      ///< from the camera
   bool light_tree = false;                           ///< light samples choose by contribution
+  bool sky_samples = false;                          ///< light samples may choose the sky
   bool one_light = false, few_lights = false, few_materials = false,
        few_primitives = false; ///< optimizations
   Connect connect = Connect::mis;

@@ -92,9 +92,7 @@ public:
     const int lanes = lanes_for(device.info, settings_);
     const Clock::time_point begin = Clock::now();
     const bool is_first = !host_;
-    if (is_first || lanes_ != lanes)
-      host_ = prepare(scene_, settings_.traversal, lanes_ = lanes, settings_.double_precision,
-                      wants_light_tree(settings_));
+    if (is_first || lanes_ != lanes) host_ = prepare(scene_, settings_, lanes_ = lanes);
     Worker worker;
     worker.parts = find_parts(scene_, host_->geometry, host_->lights, settings_, lanes);
     if (events_.warning) warn(worker.parts);

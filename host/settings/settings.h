@@ -60,6 +60,11 @@ struct Settings {
   const IntegratorInfo& integrator = integrator_named(settings.integrator);
   return integrator.eye_paths && (integrator.light_paths || settings.connect != Connect::none);
 }
+/// Whether rays find the light that light samples find too, so that both are weighted.
+[[nodiscard]] inline bool weights_hits_and_light_samples(const Settings& settings) {
+  return samples_lights(settings) &&
+         (integrator_named(settings.integrator).light_paths || settings.connect == Connect::mis);
+}
 /// Whether light samples choose lights by contribution.
 [[nodiscard]] inline bool wants_light_tree(const Settings& settings) {
   return samples_lights(settings) && settings.light_selection == LightSelection::contribution;

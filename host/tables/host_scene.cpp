@@ -48,19 +48,19 @@ CameraRecord camera_record(const scene::Camera& camera, const scene::Vec3& origi
 
 } // namespace
 
-HostScene prepare(const scene::Scene& scene, settings::Traversal traversal, int lanes, bool double_precision,
-                  bool tree_of_lights) {
+HostScene prepare(const scene::Scene& scene, const settings::Settings& settings, int lanes) {
   const std::uint64_t primitives = accel::count_primitives(scene);
   if (primitives == 0) throw SceneError("the scene has no shapes: add at least one that the camera can see");
-  const bool brute = traversal == settings::Traversal::brute_force ||
-                     (traversal == settings::Traversal::automatic && primitives <= brute_force_limit(lanes));
+  using settings::Traversal;
+  const bool brute = settings.traversal == Traversal::brute_force ||
+                     (settings.traversal == Traversal::automatic && primitives <= brute_force_limit(lanes));
   HostScene host;
-  host.geometry =
-      brute ? accel::brute_force(scene, double_precision) : accel::hierarchy(scene, lanes, double_precision);
+  host.geometry = brute ? accel::brute_force(scene, settings.double_precision)
+                        : accel::hierarchy(scene, lanes, settings.double_precision);
   if (host.geometry.primitive_count == 0)
     throw SceneError(
         "no shape of the scene has an area that single precision can tell from 0: scale them up");
-  host.lights = light_table(scene, host.geometry, tree_of_lights);
+  host.lights = light_table(scene, host.geometry, settings);
   host.materials =
       lobes::material_table(scene.materials, lobes::models_of(used_materials(scene, host.geometry)));
   host.textures = texture_table(host.materials.textures);

@@ -10,7 +10,7 @@
 
 namespace phlux::tables {
 
-/// The tables of a scene for one WIDTH, precision and traversal.
+/// The tables of a scene for one WIDTH and these settings.
 struct HostScene {
   accel::Geometry geometry;
   LightTable lights;
@@ -20,7 +20,6 @@ struct HostScene {
 };
 
 /// @throws SceneError when the scene has no shape with an area
-[[nodiscard]] HostScene prepare(const scene::Scene& scene, settings::Traversal traversal, int lanes,
-                                bool double_precision = false, bool tree_of_lights = true);
+[[nodiscard]] HostScene prepare(const scene::Scene& scene, const settings::Settings& settings, int lanes);
 
 } // namespace phlux::tables

@@ -148,14 +148,33 @@ void add_distant(Collector& to, const scene::Scene& scene, double radius) {
   }
 }
 
-void set_probabilities(std::vector<LightRecord>& records, const std::vector<double>& chances) {
-  const AliasTable table = alias_table(chances);
-  for (std::size_t i = 0; i < records.size(); ++i) {
-    records[i].probability = static_cast<float>(chances[i]);
-    records[i].emission_density *= records[i].probability;
-    records[i].alias_threshold = static_cast<float>(table.keep[i]);
-    records[i].alias = table.alias[i];
+// `chances`: of the selection for a light path; `sky_sample_chance`: of the sky for a light sample.
+void set_selection(LightTable& table, const std::vector<double>& chances, double sky_sample_chance) {
+  const std::size_t sky = table.sky < 0 ? chances.size() : static_cast<std::size_t>(table.sky);
+  const double sky_chance = table.sky < 0 ? 0 : chances[sky];
+  std::vector<double> among_others(chances.size(), 0.0);
+  for (std::size_t i = 0; i < chances.size(); ++i) {
+    LightRecord& record = table.records[i];
+    if (i != sky && chances[i] > 0) among_others[i] = chances[i] / (1 - sky_chance);
+    record.probability = static_cast<float>(chances[i]);
+    record.emission_density *= record.probability;
+    record.sample_probability =
+        static_cast<float>(i == sky ? sky_sample_chance : among_others[i] * (1 - sky_sample_chance));
   }
+  const AliasTable others = alias_table(among_others);
+  for (std::size_t i = 0; i < chances.size(); ++i) {
+    table.records[i].alias_threshold = static_cast<float>(others.keep[i]);
+    table.records[i].alias = others.alias[i];
+  }
+}
+
+// Of the sky, for a light sample. Every path has a scattered ray, and for a constant sky that is a sample as
+// good as any: choosing it for light samples too adds more variance to the other lights than it takes from
+// the sky.
+double sky_sample_chance(const LightTable& table, double chance, bool found_by_hits) {
+  if (table.sky < 0) return 0;
+  const bool constant = table.environment.texels.empty(), other_lights = chance < 1;
+  return constant && other_lights && found_by_hits ? 0 : chance;
 }
 
 // A power of two near the largest radiance of a light, or irradiance of a point light at distance `radius`; 1
@@ -189,18 +208,27 @@ bool LightTable::shines() const {
   return std::any_of(records.begin(), records.end(), [](const LightRecord& r) { return r.probability > 0; });
 }
 
-LightTable light_table(const scene::Scene& scene, accel::Geometry& geometry, bool with_tree) {
+bool LightTable::samples_sky() const {
+  return sky >= 0 && records[static_cast<std::size_t>(sky)].sample_probability > 0;
+}
+
+LightTable light_table(const scene::Scene& scene, accel::Geometry& geometry,
+                       const settings::Settings& settings) {
   Collector collector;
   add_surfaces(collector, scene, geometry);
   add_points(collector, scene, geometry.origin);
   add_distant(collector, scene, geometry.radius);
+  LightTable& table = collector.table;
   const std::vector<double> chances = probabilities(collector);
-  if (!chances.empty()) set_probabilities(collector.table.records, chances);
-  if (with_tree) collector.table.nodes = light_tree(collector.placed, collector.table.records);
+  if (!chances.empty())
+    set_selection(
+        table, chances,
+        sky_sample_chance(table, chances.back(), settings::weights_hits_and_light_samples(settings)));
+  if (settings::wants_light_tree(settings)) table.nodes = light_tree(collector.placed, table.records);
   for (const LightBounds& light : collector.placed)
-    collector.table.tree_probability += chances[static_cast<std::size_t>(light.light)];
-  use_unit(collector.table, unit_of(collector.table.records, geometry.radius));
-  return std::move(collector.table);
+    table.tree_probability += table.records[static_cast<std::size_t>(light.light)].sample_probability;
+  use_unit(table, unit_of(table.records, geometry.radius));
+  return std::move(table);
 }
 
 } // namespace phlux::tables

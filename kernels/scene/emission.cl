@@ -45,7 +45,7 @@ static inline void emit_from_infinity(const Scene* scene, Emission* e, Vec3 dire
 // Samples a light and a point of it (choice), and a direction (aim), in all lanes.
 static inline Emission emission_sample(const Scene* scene, RandomWords choice, RandomWords aim) {
   Emission e;
-  e.light = choose_light(scene, choice.x, choice.y);
+  e.light = choose_emitting_light(scene, choice.x, choice.y);
   e.radiance = LIGHT_VEC3(scene, e.light, radiance);
   e.density = LIGHT_REAL(scene, e.light, emission_density);
   e.surface = e.sky = NO_LANES;

@@ -16,12 +16,21 @@
 
 // ---- Choosing a light
 
-// Chooses a light in proportion to its power by the alias method (Walker 1974; Vose 1991), for light paths.
-static inline Int choose_light(const Scene* scene, Uint cell_word, Uint alias_word) {
+// Chooses the sky with its probability, else another light by the alias method (Walker 1974; Vose 1991). The
+// probabilities of the other lights have the same ratios in light paths and in light samples.
+static inline Int choose_light(const Scene* scene, Uint cell_word, Uint alias_word, float sky_probability) {
   if (!HAS_LIGHT_CHOICE) return (Int)(0);
   const Int cell = uint_to_int(mul_hi(cell_word, (Uint)((uint)scene->light_count)));
-  const Mask keep = uniform_real(alias_word) < LIGHT_REAL(scene, cell, alias_threshold);
-  return keep ? cell : LIGHT_INT(scene, cell, alias);
+  const Real u = uniform_real(alias_word);
+  const Real threshold = LIGHT_REAL(scene, cell, alias_threshold);
+  const Real kept = HAS_SKY ? fma(threshold, (Real)(1.0f - sky_probability), (Real)(sky_probability)) : threshold;
+  const Int other = u < kept ? cell : LIGHT_INT(scene, cell, alias);
+  return HAS_SKY ? (u < sky_probability ? (Int)(scene->light_count - 1) : other) : other;
+}
+
+// Chooses a light for a light path, in proportion to its power.
+static inline Int choose_emitting_light(const Scene* scene, Uint cell_word, Uint alias_word) {
+  return choose_light(scene, cell_word, alias_word, scene->lights[scene->light_count - 1].probability);
 }
 
 static inline Int light_kind(const Scene* scene, Int light) {
@@ -37,14 +46,14 @@ static inline Mask is_pointlike(Int kind) { return LIGHT_IS(kind, LIGHT_POINT) |
 // Lanes whose light is the sky.
 static inline Mask is_sky(Int kind) { return LIGHT_IS(kind, LIGHT_SKY); }
 
-// The probability of choose_light.
+// The probability of choose_emitting_light.
 static inline Real light_probability(const Scene* scene, Int light) {
   return HAS_LIGHT_CHOICE ? LIGHT_REAL(scene, light, probability) : (Real)(1.0f);
 }
 
 // The probability with which light_sample chooses `light` for a point with this normal, in the lanes of m.
 static inline Real probability_for(const Scene* scene, Vec3 lit, Vec3 normal, Int light, Mask m) {
-  const Real by_power = light_probability(scene, light);
+  const Real by_power = HAS_LIGHT_CHOICE ? LIGHT_REAL(scene, light, sample_probability) : (Real)(1.0f);
   if (!HAS_LIGHT_TREE) return by_power;
   const Int leaf = LIGHT_INT(scene, light, node);
   const Mask placed = leaf >= 0;
@@ -55,7 +64,8 @@ static inline Real probability_for(const Scene* scene, Vec3 lit, Vec3 normal, In
 // Chooses a light for a point with this normal: first by power; if that light is in the tree, it is replaced with the
 // probability 1 - POWER_SHARE by one that the tree chooses.
 static inline Int choose_light_for(const Scene* scene, Vec3 lit, Vec3 normal, Uint word, Uint other_word) {
-  const Int light = choose_light(scene, word, other_word);
+  const float sky_probability = HAS_SKY_SAMPLES ? scene->lights[scene->light_count - 1].sample_probability : 0.0f;
+  const Int light = choose_light(scene, word, other_word, sky_probability);
   if (!HAS_LIGHT_TREE) return light;
   const Mask by_tree = uniform_real(further_word(word, other_word, (Uint)(1u))) >= POWER_SHARE;
   return choose_from_tree(scene, lit, normal, word, other_word, by_tree & (LIGHT_INT(scene, light, node) >= 0), light);
@@ -301,7 +311,7 @@ static inline LightSample light_sample(const Scene* scene, SurfacePoint point, R
     const Vec3 to_light = vec_scale((Real)(-1.0f), LIGHT_VEC3(scene, s.light, direction));
     aim_to_infinity(&s, lit, to_light, s.choice, LIGHT_IS(kind, LIGHT_DIRECTIONAL));
   }
-  if (HAS_SKY) sample_sky(scene, &s, point, is_sky(kind), u1, u2, random);
+  if (HAS_SKY_SAMPLES) sample_sky(scene, &s, point, is_sky(kind), u1, u2, random);
   return s;
 }
 

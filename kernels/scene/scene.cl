@@ -22,7 +22,7 @@ typedef struct {
   const __global float* nodes;    // of the bounding volume hierarchy
   int root;
   const __global LightNodeRecord* light_nodes;
-  float light_tree_probability; // with which choose_light chooses a light of the tree
+  float light_tree_probability; // with which light samples choose a light of the tree by power
   const __global EnvironmentRecord* environment;
   const __global EnvironmentTexel* environment_texels; // row by row
   const __global float* lobe_tables; // of the reflectance models

@@ -80,8 +80,9 @@ enum LightKinds {
   LIGHT_SKY = 5 // constant, or the environment map
 };
 
-// One light: an emitting primitive, or a light without a surface. Selected with the alias method (Walker 1974; Vose
-// 1991): cell i gives light i with probability `alias_threshold`, else light `alias`.
+// One light: an emitting primitive, or a light without a surface. The sky is the last. Lights other than the sky are
+// selected with the alias method (Walker 1974; Vose 1991): cell i gives light i with probability `alias_threshold`, else
+// light `alias`.
 typedef struct {
   int kind;          // enum LightKinds
   int primitive;     // planar, sphere: index of the primitive
@@ -91,7 +92,8 @@ typedef struct {
   float position[3];
   float direction[3];
   float cutoff, inv_transition; // spot: cutoff and 1 / (cutoff - beam width) in radians
-  float probability;            // of the selection
+  float probability;            // of the selection for a light path
+  float sample_probability;     // of the selection by power for a light sample
   // Density of the first edge of a light path, including the selection: per area and projected solid angle (planar,
   // sphere), per solid angle (point, spot), per area (directional, environment map), per area and solid angle
   // (constant).

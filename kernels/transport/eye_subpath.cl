@@ -91,7 +91,7 @@ static inline FoundLight hit_sky(const Scene* scene, const Subpath* s, int sky_l
   }
   if (HAS_ORTHOGRAPHIC) emitted = (Real)(0.0f); // no emitted ray has exactly the direction of the camera rays
   found.value = vec_mul(s->throughput, radiance);
-  found.weight = weight_of_hit_light(s, sky->probability * sampled, emitted * sky->probability, emission);
+  found.weight = weight_of_hit_light(s, sky->sample_probability * sampled, emitted * sky->probability, emission);
   found.found = hits_count(s, m);
   return found;
 }

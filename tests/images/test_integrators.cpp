@@ -93,14 +93,14 @@ TEST_CASE("films of any shape, and a principal point off the centre") {
   for (const auto& [width, height] : {std::pair(24, 8), std::pair(5, 31)}) {
     CAPTURE(width, height);
     scene.camera = look_at({0.3, 2, 5}, {0, 1, 0}, width > height ? 60 : 20, width, height);
-    check_against_path(scene, weighted, settings_for(64));
+    check_against_path(scene, weighted, settings_for(512));
   }
   scene.camera = look_at({0.3, 2, 5}, {0, 1, 0}, 40, 12, 18);
   scene.camera.principal_x = 0.2;
   scene.camera.principal_y = -0.15;
-  check_against_path(scene, weighted, settings_for(64));
+  check_against_path(scene, weighted, settings_for(512));
   scene.camera.left = -scene.camera.left; // mirrored
-  check_against_path(scene, weighted, settings_for(64));
+  check_against_path(scene, weighted, settings_for(512));
 }
 
 TEST_CASE("a light behind a blocker") {

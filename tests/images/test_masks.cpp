@@ -164,5 +164,5 @@ TEST_CASE("hidden emitters: the camera sees their surfaces, and what they light,
       CHECK(hidden.image.mean[i][c] + seen.image.mean[i][c] ==
             Approx(shown.image.mean[i][c]).epsilon(1e-4).margin(1e-5));
   scene.hide_emitters = true;
-  check_against_path(scene, {light, bidir}, settings_for(64), 2);
+  check_against_path(scene, {light, bidir}, settings_for(512), 2);
 }

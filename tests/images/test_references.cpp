@@ -16,6 +16,9 @@ const std::filesystem::path folder = PHLUX_SOURCE_DIR "/tests/references";
 /// Of the image's mean: where an edge of something bright shows less in a pixel, no sample may hit it. There
 /// this is the standard error.
 constexpr double visible = 0.01;
+/// Of the image's mean, the least standard error: the variance of a pixel in which few samples hit an edge is
+/// not known.
+constexpr double least_error = 0.001;
 
 /// The image, and its mean with the variance of independent pixels.
 Repeated reference(const std::string& name, int renders) {
@@ -32,9 +35,10 @@ Repeated reference(const std::string& name, int renders) {
   result.mean = tiles(result.image, file.width);
   for (std::size_t c = 0; c < 3; ++c) {
     const double least = visible * result.mean.mean[0][c];
-    for (std::size_t i = 0; i < result.image.mean.size(); ++i)
-      if (result.image.mean[i][c] < least)
-        result.image.variance[i][c] = std::max(result.image.variance[i][c], least * least);
+    for (std::size_t i = 0; i < result.image.mean.size(); ++i) {
+      const double error = result.image.mean[i][c] < least ? least : least_error * result.mean.mean[0][c];
+      result.image.variance[i][c] = std::max(result.image.variance[i][c], error * error);
+    }
   }
   return result;
 }

@@ -150,5 +150,5 @@ TEST_CASE("a coarse smooth mesh: light and bidir agree with path") {
                    square({0, 0, 3}, {1, 0, 0}, {0, -1, 0}, 0.8, {0, 0})};
   scene.constant_radiance = scene::Rgb(0.3, 0.2, 0.1);
   scene.camera = look_at({0.5, 4, 1.5}, {0.5, 0, 0}, 40, 8, 8);
-  check_against_path(scene, {path_hits, light, bidir, bidir_power, bidir_uniform}, settings_for(64, 6), 2);
+  check_against_path(scene, {path_hits, light, bidir, bidir_power, bidir_uniform}, settings_for(512, 6), 2);
 }

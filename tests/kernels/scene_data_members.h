@@ -2,8 +2,8 @@
 #define SHARED_STRUCTS(STRUCT)                                                                               \
   STRUCT(PrimitiveRecord)                                                                                    \
   STRUCT(LightRecord)                                                                                        \
-  STRUCT(LightNodeRecord) STRUCT(CameraRecord) STRUCT(TextureRecord) STRUCT(EnvironmentRecord)               \
-      STRUCT(EnvironmentTexel)
+  STRUCT(LightNodeRecord)                                                                                    \
+  STRUCT(CameraRecord) STRUCT(TextureRecord) STRUCT(EnvironmentRecord) STRUCT(EnvironmentTexel)
 
 #define SHARED_MEMBERS(MEMBER)                                                                               \
   MEMBER(PrimitiveRecord, material)                                                                          \
@@ -18,6 +18,7 @@
   MEMBER(LightRecord, cutoff)                                                                                \
   MEMBER(LightRecord, inv_transition)                                                                        \
   MEMBER(LightRecord, probability)                                                                           \
+  MEMBER(LightRecord, sample_probability)                                                                    \
   MEMBER(LightRecord, emission_density)                                                                      \
   MEMBER(LightRecord, alias_threshold)                                                                       \
   MEMBER(LightRecord, alias)                                                                                 \

@@ -19,7 +19,7 @@ public:
 
   SceneProgram(Variant variant, const std::string& file, const phlux::scene::Scene& scene,
                const phlux::render::Settings& settings)
-      : host_(phlux::render::prepare(scene, settings.traversal, variant.width)),
+      : host_(phlux::render::prepare(scene, settings, variant.width)),
         parts_(parts_of(scene, host_, settings, variant.width)), device_(test_device(), host_, parts_),
         program_(&program_with(file, variant, parts_.source(""))) {}
 

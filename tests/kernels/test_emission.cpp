@@ -61,7 +61,7 @@ double spot_solid_angle() {
 }
 
 double disk_across(const Scene& scene) {
-  const auto host = phlux::render::prepare(scene, phlux::render::Traversal::brute_force, 1);
+  const auto host = phlux::render::prepare(scene, {}, 1);
   return pi * host.geometry.radius * host.geometry.radius;
 }
 

@@ -197,8 +197,10 @@ Scene scene_of_many() {
   return scene;
 }
 
-phlux::render::Settings choosing_by(phlux::render::LightSelection selection) {
+phlux::render::Settings choosing_by(phlux::render::LightSelection selection,
+                                    phlux::render::Connect connect = phlux::render::Connect::mis) {
   phlux::render::Settings settings;
+  settings.connect = connect;
   settings.light_selection = selection;
   settings.traversal = phlux::render::Traversal::brute_force;
   return settings;
@@ -234,18 +236,20 @@ Choices choices_at_random(const SceneProgram& program, std::size_t count, double
 
 // The part of a probability that comes from the tree: a quarter of the choices is by power.
 double by_tree(const SceneProgram& program, const Choices& choices, std::size_t light, std::size_t point) {
-  return (choices.of_light[light][point] - 0.25 * program.host().lights.records[light].probability) / 0.75;
+  return (choices.of_light[light][point] - 0.25 * program.host().lights.records[light].sample_probability) /
+         0.75;
 }
 
 } // namespace
 
 TEST_CASE(
     "lights: chosen by contribution, all of them together are certain, and none with power is left out") {
+  const auto connect = GENERATE(phlux::render::Connect::light, phlux::render::Connect::mis);
   for (const Variant v : variants) {
-    CAPTURE(v);
+    CAPTURE(v, static_cast<int>(connect));
     Random random(73);
     const SceneProgram program(v, "lights.cl", scene_of_many(),
-                               choosing_by(phlux::render::LightSelection::contribution));
+                               choosing_by(phlux::render::LightSelection::contribution, connect));
     const auto& records = program.host().lights.records;
     const Choices choices = choices_at_random(program, thinned(2000), 20, random);
     for (std::size_t i = 0; i < choices.points.size(); ++i) {
@@ -253,7 +257,7 @@ TEST_CASE(
       for (std::size_t light = 0; light < records.size(); ++light) {
         const double probability = choices.of_light[light][i];
         CAPTURE(i, light, probability);
-        REQUIRE((probability > 0) == (records[light].probability > 0));
+        REQUIRE((probability > 0) == (records[light].sample_probability > 0));
         sum += probability;
       }
       REQUIRE(std::abs(sum - 1) < 2e-6);
@@ -324,13 +328,14 @@ TEST_CASE("lights: a light of another side, or that faces away, is hardly ever c
 
 TEST_CASE("lights: of many, each is chosen with its probability; densities include it") {
   using phlux::render::LightSelection;
+  const auto connect = GENERATE(phlux::render::Connect::light, phlux::render::Connect::mis);
   const Scene scene = scene_of_many();
   const double extent = 4 * 8 + 2 * size;
   for (const LightSelection selection : {LightSelection::power, LightSelection::contribution})
     for (const Variant v : variants) {
-      CAPTURE(v, static_cast<int>(selection));
+      CAPTURE(v, static_cast<int>(selection), static_cast<int>(connect));
       Random random(72);
-      const SceneProgram program(v, "lights.cl", scene, choosing_by(selection));
+      const SceneProgram program(v, "lights.cl", scene, choosing_by(selection, connect));
       const auto& records = program.host().lights.records;
       // Many samples at a few places, because the probability of a light depends on the place.
       const Choices choices = choices_at_random(program, 4, 20, random);
@@ -343,7 +348,7 @@ TEST_CASE("lights: of many, each is chosen with its probability; densities inclu
         for (std::size_t light = 0; light < records.size(); ++light) {
           const double probability = choices.of_light[light][place];
           if (selection == LightSelection::power)
-            REQUIRE(static_cast<float>(probability) == records[light].probability);
+            REQUIRE(static_cast<float>(probability) == records[light].sample_probability);
           expected.push_back(probability * static_cast<double>(count));
         }
         for (std::size_t i = 0; i < sampled.size(); ++i) {
@@ -369,7 +374,7 @@ TEST_CASE("lights: of many, each is chosen with its probability; densities inclu
             REQUIRE(std::abs(s.hit_density / s.density - 1) <= density_slack(s.distance, cosine, extent));
           }
         }
-        CHECK(chi_square_p(observed, expected) > one_of(2 * 4 * std::size(variants)));
+        CHECK(chi_square_p(observed, expected) > one_of(2 * 2 * 4 * std::size(variants)));
       }
     }
 }

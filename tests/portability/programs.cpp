@@ -135,10 +135,10 @@ constexpr char triangles[] = "hierarchy triangles smooth_normals phong light_pla
 constexpr char textured[] = "parallelograms spheres phong light_planar byte_textures";
 constexpr char textured_mesh[] = "hierarchy triangles ellipses smooth_normals anisotropicphong light_planar "
                                  "checkerboards float_textures";
-constexpr char sky[] = "spheres phong light_constant";
+constexpr char sky[] = "spheres phong light_constant sky_samples";
 constexpr char map[] =
-    "parallelograms spheres diffuse light_planar light_choice environment_map lens tent_filter";
-constexpr char parallel[] = "parallelograms diffuse light_constant orthographic gaussian_filter";
+    "parallelograms spheres diffuse light_planar light_choice environment_map sky_samples lens tent_filter";
+constexpr char parallel[] = "parallelograms diffuse light_constant sky_samples orthographic gaussian_filter";
 
 // A program for one reflectance model.
 Program of_model(const std::string& file, const std::string& model, const std::string& strategy, int width) {

@@ -182,7 +182,10 @@ bool sampled_by_shape(const std::string& strategy) {
 SceneFacts facts_of(const scene::Scene& scene) {
   SceneFacts facts;
   facts.lights_without_area = has_unhittable_lights(scene);
-  const render::HostScene host = render::prepare(scene, Traversal::brute_force, 1, true);
+  render::Settings settings;
+  settings.double_precision = true;
+  settings.traversal = Traversal::brute_force;
+  const render::HostScene host = render::prepare(scene, settings, 1);
   for (const PrimitiveRecord& p : host.geometry.primitives) {
     if (p.region == REGION_NONE) continue;
     const scene::Material& m = scene.materials[static_cast<std::size_t>(p.material)];
