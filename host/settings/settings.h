@@ -131,8 +131,9 @@ struct Settings {
       Setting(
           "light-selection", A::estimate, &Settings::light_selection, OneOf{{"power", "contribution"}},
           "NAME",
-          "path and bidir, probability of choosing a light for a light sample: in proportion to its power, "
-          "or to its estimated contribution to the point (with fewer than 8 lights always power)")
+          "path and bidir, how light samples choose a light: by power (half in proportion to power, half "
+          "uniformly over the emitters), or by the estimated contribution to the point (with fewer than 8 "
+          "lights always by power)")
           .only_where(samples_lights,
                       " is for light samples, which `integrator` light and `connect` none do not "
                       "take: leave it out"),
