@@ -19,7 +19,7 @@ double phong_exponent(double alpha) {
 }
 
 /// sigma, the area that facets show per area of the surface (kernels/lobes/microfacets.h).
-double shown_area(FacetDistribution distribution, double alpha, double cosine) {
+double projected_area(FacetDistribution distribution, double alpha, double cosine) {
   const double spread = alpha * std::sqrt(1 - cosine * cosine);
   switch (distribution) {
   case FacetDistribution::ggx:
@@ -54,7 +54,7 @@ double transmitted(FacetDistribution distribution, double alpha, double index, c
   if (cosine <= 0 || square <= 0) return 0;
   const double out = (cosine * h.z - in.z - std::sqrt(square) * h.z) / index; // z of the refracted direction
   if (out >= 0) return 0;
-  const double masking = -out / shown_area(distribution, alpha, std::min(1.0, -out));
+  const double masking = -out / projected_area(distribution, alpha, std::min(1.0, -out));
   return (1 - fresnel_reflectance(cosine, index)) * masking;
 }
 
@@ -63,7 +63,7 @@ double reflected(FacetDistribution distribution, double alpha, double index, con
                  const glm::dvec3& h) {
   const double cosine = glm::dot(in, h), out = 2 * cosine * h.z - in.z;
   if (cosine <= 0 || out <= 0) return 0;
-  return fresnel_reflectance(cosine, index) * out / shown_area(distribution, alpha, std::min(1.0, out));
+  return fresnel_reflectance(cosine, index) * out / projected_area(distribution, alpha, std::min(1.0, out));
 }
 
 } // namespace
@@ -100,7 +100,7 @@ double mean_over_facets(FacetDistribution distribution, double alpha, double cos
       sum += std::max(0.0, glm::dot(in, h)) / z * part(in, h);
     }
   }
-  return sum / (steps * turns * shown_area(distribution, alpha, cosine));
+  return sum / (steps * turns * projected_area(distribution, alpha, cosine));
 }
 
 } // namespace

@@ -16,17 +16,17 @@ namespace {
 constexpr std::size_t pixels_per_launch = 1U << 16;
 
 // Without what only the transport of light needs.
-Parts parts_of_first_hits(const scene::Scene& scene, const HostScene& host, const Settings& settings,
-                          int lanes) {
+Settings without_transport(const Settings& settings) {
   Settings path = settings;
   path.integrator = "path";
-  path.connect = Connect::none;
+  path.connect = Connect::light; // `none` is refused if rays can hit no light
+  path.light_selection = settings::LightSelection::power;
   path.sampler = Sampler::independent;
   path.roulette = Roulette::strategy;
   path.techniques = false;
   path.ambient.reset();
   path.clamp.reset();
-  return find_parts(scene, host.geometry, host.lights, path, lanes);
+  return path;
 }
 
 } // namespace
@@ -36,10 +36,9 @@ std::vector<film::FirstHit> first_hits(const scene::Scene& scene, const Settings
   static_assert(sizeof(film::FirstHit) == FEATURE_WORDS * sizeof(float));
   const device::Device device = device::open_devices(settings.devices, settings.threads).front();
   const int lanes = lanes_for(device.info, settings);
-  Settings without_light_tree = settings;
-  without_light_tree.light_selection = settings::LightSelection::power;
-  const HostScene host = prepare(scene, without_light_tree, lanes);
-  const Parts parts = parts_of_first_hits(scene, host, settings, lanes);
+  const Settings path = without_transport(settings);
+  const HostScene host = prepare(scene, path, lanes);
+  const Parts parts = find_parts(scene, host.geometry, host.lights, path, lanes);
   const DeviceScene tables(device, host, parts);
   device::Kernel kernel(device::build(device, sources::KernelFiles(settings.kernel_dir),
                                       parts.source("transport/first_hit.cl")),

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <utility>
 
 #include "tables/alias_table.h"
 #include "tables/light_tree.h"
@@ -59,21 +60,21 @@ private:
 // Half of the samples in proportion to power, half uniformly over the emitters (and by power within one), so
 // that a sky or sun, whose power grows with the scene, leaves samples to lights near the camera. A light
 // without power is never chosen.
-std::vector<double> probabilities(const Collector& lights) {
+std::vector<double> selection_probabilities(const Collector& lights) {
   double total = 0;
   std::map<int, double> power_of_group;
   for (std::size_t i = 0; i < lights.powers.size(); ++i) {
     total += lights.powers[i];
     if (lights.powers[i] > 0) power_of_group[lights.groups[i]] += lights.powers[i];
   }
-  std::vector<double> chances;
+  std::vector<double> list;
   for (std::size_t i = 0; i < lights.powers.size() && total > 0; ++i) {
     const double power = lights.powers[i];
-    chances.push_back(power <= 0 ? 0
-                                 : 0.5 * power / total + 0.5 * power / power_of_group[lights.groups[i]] /
-                                                             static_cast<double>(power_of_group.size()));
+    list.push_back(power <= 0 ? 0
+                              : 0.5 * power / total + 0.5 * power / power_of_group[lights.groups[i]] /
+                                                          static_cast<double>(power_of_group.size()));
   }
-  return chances;
+  return list;
 }
 
 void add_surfaces(Collector& to, const scene::Scene& scene, accel::Geometry& geometry) {
@@ -148,33 +149,30 @@ void add_distant(Collector& to, const scene::Scene& scene, double radius) {
   }
 }
 
-// `chances`: of the selection for a light path; `sky_sample_chance`: of the sky for a light sample.
-void set_selection(LightTable& table, const std::vector<double>& chances, double sky_sample_chance) {
-  const std::size_t sky = table.sky < 0 ? chances.size() : static_cast<std::size_t>(table.sky);
-  const double sky_chance = table.sky < 0 ? 0 : chances[sky];
-  std::vector<double> among_others(chances.size(), 0.0);
-  for (std::size_t i = 0; i < chances.size(); ++i) {
+// `probabilities`: for light paths; `sky_sample`: that of the sky for a light sample.
+void set_selection(LightTable& table, const std::vector<double>& probabilities, double sky_sample) {
+  std::vector<double> others = probabilities; // given that the sky is not chosen
+  const double without_sky = table.sky < 0 ? 1 : 1 - std::exchange(others.back(), 0.0);
+  for (double& p : others)
+    if (p > 0) p /= without_sky;
+  const AliasTable cells = alias_table(others);
+  for (std::size_t i = 0; i < others.size(); ++i) {
     LightRecord& record = table.records[i];
-    if (i != sky && chances[i] > 0) among_others[i] = chances[i] / (1 - sky_chance);
-    record.probability = static_cast<float>(chances[i]);
+    record.probability = static_cast<float>(probabilities[i]);
     record.emission_density *= record.probability;
-    record.sample_probability =
-        static_cast<float>(i == sky ? sky_sample_chance : among_others[i] * (1 - sky_sample_chance));
+    record.sample_probability = static_cast<float>(others[i] * (1 - sky_sample));
+    record.alias_threshold = static_cast<float>(cells.keep[i]);
+    record.alias = cells.alias[i];
   }
-  const AliasTable others = alias_table(among_others);
-  for (std::size_t i = 0; i < chances.size(); ++i) {
-    table.records[i].alias_threshold = static_cast<float>(others.keep[i]);
-    table.records[i].alias = others.alias[i];
-  }
+  if (table.sky >= 0) table.records.back().sample_probability = static_cast<float>(sky_sample);
 }
 
-// Of the sky, for a light sample. Every path has a scattered ray, and for a constant sky that is a sample as
-// good as any: choosing it for light samples too adds more variance to the other lights than it takes from
-// the sky.
-double sky_sample_chance(const LightTable& table, double chance, bool found_by_hits) {
-  if (table.sky < 0) return 0;
-  const bool constant = table.environment.texels.empty(), other_lights = chance < 1;
-  return constant && other_lights && found_by_hits ? 0 : chance;
+// The probability of the sky for a light sample. At every vertex a scattered ray samples a constant sky about
+// as well as a light sample would; light samples are left to the other lights, whose variance they reduce
+// more.
+double sky_sample_probability(const LightTable& table, double probability, bool found_by_hits) {
+  const bool constant = table.environment.texels.empty(), other_lights = probability < 1;
+  return constant && other_lights && found_by_hits ? 0 : probability;
 }
 
 // A power of two near the largest radiance of a light, or irradiance of a point light at distance `radius`; 1
@@ -219,11 +217,11 @@ LightTable light_table(const scene::Scene& scene, accel::Geometry& geometry,
   add_points(collector, scene, geometry.origin);
   add_distant(collector, scene, geometry.radius);
   LightTable& table = collector.table;
-  const std::vector<double> chances = probabilities(collector);
-  if (!chances.empty())
-    set_selection(
-        table, chances,
-        sky_sample_chance(table, chances.back(), settings::weights_hits_and_light_samples(settings)));
+  const std::vector<double> probabilities = selection_probabilities(collector);
+  if (!probabilities.empty()) {
+    const bool found_by_hits = settings::weights_hits_and_light_samples(settings);
+    set_selection(table, probabilities, sky_sample_probability(table, probabilities.back(), found_by_hits));
+  }
   if (settings::wants_light_tree(settings)) table.nodes = light_tree(collector.placed, table.records);
   for (const LightBounds& light : collector.placed)
     table.tree_probability += table.records[static_cast<std::size_t>(light.light)].sample_probability;

@@ -1,4 +1,4 @@
-// A table of all lights of a scene, with their probabilities for light samples.
+// A table of all lights of a scene, with the probabilities with which light paths and light samples choose them.
 #pragma once
 
 #include <vector>

@@ -8,7 +8,7 @@ namespace phlux::verify {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double largest_survival = 0.999; // PHONG_LARGEST_SURVIVAL
+constexpr double largest_survival = 0.999; // LARGEST_SURVIVAL of kernels/lobes/material.cl
 
 double largest(const Rgb& rgb) {
   return std::max({rgb.r, rgb.g, rgb.b});
@@ -52,7 +52,10 @@ const std::vector<Strategy>& strategies() {
 double density(const Strategy& strategy, const Situation& at, const Direction& w) {
   const Model& m = at.model;
   if (strategy.family == Family::smooth) return smooth_density(strategy.name, w);
-  const double guess = strategy.guess == Guess::certain ? 1 : at.reflectivity;
+  // The mean of an estimate.
+  const double guess = strategy.guess == Guess::certain     ? 1
+                       : strategy.guess == Guess::estimated ? 0.5 + 0.5 * at.reflectivity
+                                                            : at.reflectivity;
   const double diffuse = m.diffuse_max(), specular = m.specular_max() * guess, total = diffuse + specular;
   if (strategy.family == Family::whole)
     return cosine_density(w) * (diffuse + m.specular_max() * lobe(m.exponent, at.fixed, w)) / total;

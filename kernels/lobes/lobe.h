@@ -1,5 +1,5 @@
 // The interface of a reflectance model. A model NAME (struct Name) is one file, NAME.cl, that declares its parameters
-// and defines four functions of them:
+// and defines three functions of them:
 //
 //   LobeValue NAME_evaluate(Name m, Vec3 fixed, Vec3 generated)     f_r and both sampling densities
 //   LobeSample NAME_sample(Name m, Vec3 fixed, Real choice, RandomDraws random, Mask active)

@@ -73,7 +73,7 @@ static inline Real facet_density(Facets f, Vec3 h) {
 // sigma(v): for GGX by Heitz 2014, equation 72, for Beckmann by his equation 65. For Phong it is an integral of the
 // same form as the reflectivity of the modified Phong lobe. (Walter et al. 2007 approximate it by Beckmann's masking,
 // and with alpha = 1 reflect a third more light than arrives.)
-static inline Real shown_area(Facets f, Vec3 v) {
+static inline Real projected_area(Facets f, Vec3 v) {
   const Real cosine = fabs(v.z), sine = sqrt(fma(v.x, v.x, v.y * v.y));
   Real spread = f.alpha * sine;
   if (f.anisotropic) {
@@ -90,9 +90,9 @@ static inline Real shown_area(Facets f, Vec3 v) {
 }
 
 // The density of h by sample_facet for `fixed`, per solid angle of h: that of visible normals, or for Phong of all
-// normals. `density` is D(h), `shown` is sigma(fixed).
-static inline Real facet_sample_density(Facets f, Real density, Real shown, Vec3 h, Real fixed_h) {
-  return density * (f.phong ? larger(h.z, (Real)(0.0f)) : fixed_h / shown);
+// normals. `density` is D(h), `projected` is sigma(fixed).
+static inline Real facet_sample_density(Facets f, Real density, Real projected, Vec3 h, Real fixed_h) {
+  return density * (f.phong ? larger(h.z, (Real)(0.0f)) : fixed_h / projected);
 }
 
 // Samples visible normals of GGX (Heitz 2018): those of a hemisphere, after the surface is stretched by 1 / alpha.
@@ -192,7 +192,7 @@ static inline FacetReflection facet_reflection(Facets f, Vec3 fixed, Vec3 genera
   const Real length2 = vec_dot(sum, sum), length = sqrt(larger(length2, (Real)(1e-30f)));
   const Vec3 h = vec_scale(1.0f / length, sum);
   const Real density = facet_density(f, h);
-  const Real by_fixed = shown_area(f, fixed), by_generated = shown_area(f, generated);
+  const Real by_fixed = projected_area(f, fixed), by_generated = projected_area(f, generated);
   FacetReflection r;
   r.cosine = 0.5f * length; // fixed.h = generated.h, computed symmetrically
   const Real jacobian = 0.25f / r.cosine; // dh / d(generated)

@@ -36,7 +36,7 @@ static inline LobeValue rough_dielectric_through(RoughDielectric d, Vec3 fixed, 
   const Mask possible = (fixed_h > LEAST_FACET_COSINE) & (generated_h > LEAST_FACET_COSINE) & (h.z > 0.0f);
   const Real reflectance = fresnel_reflectance(fixed_h, generated_h, index);
   const Real density = facet_density(d.facets, h);
-  const Real by_fixed = shown_area(d.facets, fixed), by_generated = shown_area(d.facets, generated);
+  const Real by_fixed = projected_area(d.facets, fixed), by_generated = projected_area(d.facets, generated);
   const Real share = 1.0f - reflected_share(d, reflectance);
   LobeValue v;
   const Real value =

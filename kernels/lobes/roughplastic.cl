@@ -25,7 +25,7 @@
 #define ROUGHPLASTIC_REFLECTIVITY_IS_ESTIMATE 1
 LOBE_STRUCT(Roughplastic, ROUGHPLASTIC)
 
-static inline Real passing_surface(Roughplastic m, Real cosine) {
+static inline Real surface_transmittance(Roughplastic m, Real cosine) {
   const Real position = fabs(cosine) * (float)ROUGHPLASTIC_INTERVALS;
   const Real below = smaller(floor(position), (Real)(ROUGHPLASTIC_INTERVALS - 1));
   const Int index = m.table_row + to_int(below);
@@ -43,7 +43,7 @@ static inline LobeValue roughplastic_evaluate(Roughplastic m, Vec3 fixed, Vec3 g
   const FacetReflection r = facet_reflection(f, fixed, generated);
   const Real fresnel = refraction(in_plane(r.cosine), m.int_ior / m.ext_ior).reflectance;
   const Vec3 base = coated_base(m.diffuse_reflectance, m.internal, m.nonlinear);
-  const Real by_fixed = passing_surface(m, fixed.z), by_generated = passing_surface(m, generated.z);
+  const Real by_fixed = surface_transmittance(m, fixed.z), by_generated = surface_transmittance(m, generated.z);
   const Real outside_over_inside = m.ext_ior / m.int_ior;
   const Real from_fixed = roughplastic_share(m, base, by_fixed), from_generated = roughplastic_share(m, base, by_generated);
   LobeValue v;
@@ -56,14 +56,14 @@ static inline LobeValue roughplastic_evaluate(Roughplastic m, Vec3 fixed, Vec3 g
 
 // An estimate: as if the surface reflected all light that it does not transmit.
 static inline Vec3 roughplastic_reflectivity(Roughplastic m, Vec3 fixed) {
-  const Real passing = passing_surface(m, fixed.z);
+  const Real passing = surface_transmittance(m, fixed.z);
   return vec_along(vec_scale(1.0f - passing, m.specular_reflectance), passing * (1.0f - m.internal),
                    coated_base(m.diffuse_reflectance, m.internal, m.nonlinear));
 }
 
 static inline LobeSample roughplastic_sample(Roughplastic m, Vec3 fixed, Real choice, RandomDraws random, Mask active) {
   const Vec3 base = coated_base(m.diffuse_reflectance, m.internal, m.nonlinear);
-  const Mask by_surface = choice < roughplastic_share(m, base, passing_surface(m, fixed.z));
+  const Mask by_surface = choice < roughplastic_share(m, base, surface_transmittance(m, fixed.z));
   const Real u1 = uniform_real(random.words.y), u2 = uniform_real(random.words.z);
   const Vec3 h = sample_facet(facets_of(m.alpha, m.distribution), fixed, u1, u2);
   const Vec3 direction = vec_select(by_surface, reflected_by_facet(fixed, h), cosine_direction(u1, u2));

@@ -72,7 +72,7 @@ static inline Emission emission_sample(const Scene* scene, RandomWords choice, R
     Vec3 direction = sphere_direction(v1, v2);
     if (HAS_SPOT_LIGHTS) {
       const Mask spot = LIGHT_IS(kind, LIGHT_SPOT);
-      const Real cap = (0.5f * INV_PI) * light_probability(scene, e.light) / e.density; // 1 - cos(cutoff)
+      const Real cap = (0.5f * INV_PI) * LIGHT_REAL(scene, e.light, probability) / e.density; // 1 - cos(cutoff)
       const Real drop = v1 * cap; // 2 sin^2 of half the angle to the axis
       const Real sine = sqrt(drop * (2.0f - drop));
       const Frame about_axis = frame_about(LIGHT_VEC3(scene, e.light, direction));

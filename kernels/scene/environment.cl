@@ -4,9 +4,9 @@
 // proportion to its mean over the channels times the solid angle of its weight in the interpolation; then an offset
 // from the centre of the texel by these weights, which decrease linearly to 0 at the centres of the neighbours.
 //
-// Rows are interpolated as sin(theta_j) texel_j / sin(theta), so that the density of the offset is linear in rows and
-// columns. In the cap between the centre of the last row and the pole, the radiance does not depend on theta, and the
-// density is uniform in solid angle.
+// The density interpolates rows as sin(theta_j) texel_j / sin(theta), so that it is linear in rows and columns for the
+// offset; the radiance interpolates the texels themselves. In the cap between the centre of the last row and the pole,
+// the radiance does not depend on theta, and the density is uniform in solid angle.
 #ifndef PHLUX_ENVIRONMENT_CL
 #define PHLUX_ENVIRONMENT_CL
 

@@ -25,10 +25,13 @@ static inline Int choose_light(const Scene* scene, Uint cell_word, Uint alias_wo
   const Real threshold = LIGHT_REAL(scene, cell, alias_threshold);
   const Real kept = HAS_SKY ? fma(threshold, (Real)(1.0f - sky_probability), (Real)(sky_probability)) : threshold;
   const Int other = u < kept ? cell : LIGHT_INT(scene, cell, alias);
-  return HAS_SKY ? (u < sky_probability ? (Int)(scene->light_count - 1) : other) : other;
+  if (!HAS_SKY) return other;
+  // By all 32 bits: the spacing of u, 2^-23, is not small compared with the probability if there are many lights.
+  const Mask sky = sky_probability < 1.0f ? (Mask)(alias_word < (Uint)((uint)(4294967296.0f * sky_probability))) : ALL_LANES;
+  return sky ? (Int)(scene->light_count - 1) : other;
 }
 
-// Chooses a light for a light path, in proportion to its power.
+// Chooses a light for a light path, with the probability LightRecord.probability.
 static inline Int choose_emitting_light(const Scene* scene, Uint cell_word, Uint alias_word) {
   return choose_light(scene, cell_word, alias_word, scene->lights[scene->light_count - 1].probability);
 }
@@ -45,11 +48,6 @@ static inline Mask is_pointlike(Int kind) { return LIGHT_IS(kind, LIGHT_POINT) |
 
 // Lanes whose light is the sky.
 static inline Mask is_sky(Int kind) { return LIGHT_IS(kind, LIGHT_SKY); }
-
-// The probability of choose_emitting_light.
-static inline Real light_probability(const Scene* scene, Int light) {
-  return HAS_LIGHT_CHOICE ? LIGHT_REAL(scene, light, probability) : (Real)(1.0f);
-}
 
 // The probability with which light_sample chooses `light` for a point with this normal, in the lanes of m.
 static inline Real probability_for(const Scene* scene, Vec3 lit, Vec3 normal, Int light, Mask m) {
@@ -158,6 +156,12 @@ typedef struct {
   Mask valid;    // the light faces the point
 } LightSample;
 
+// The density per solid angle, at the lit point, of a point that is uniform over the area of the light; `cosine` is that
+// of the normal of the light with the direction to the lit point.
+static inline Real density_by_area(const Scene* scene, Int light, Real distance, Real cosine) {
+  return distance * distance / (cosine * LIGHT_REAL(scene, light, area));
+}
+
 // 1 - cos of the half angle of the cone that a sphere subtends from outside, without cancellation.
 static inline Real one_minus_cone_cosine(SphereShape sphere, Real distance2) {
   const Real sine2 = sphere.radius * sphere.radius / distance2;
@@ -168,7 +172,7 @@ static inline Real one_minus_cone_cosine(SphereShape sphere, Real distance2) {
 // light at `distance`, where `cosine` is that of the normal of the light with the direction to `lit`. Undefined in
 // lanes whose light has no surface.
 static inline Real light_density(const Scene* scene, Vec3 lit, Int light, Real choice, Real distance, Real cosine) {
-  Real density = choice * distance * distance / (cosine * LIGHT_REAL(scene, light, area));
+  Real density = choice * density_by_area(scene, light, distance, cosine);
   if (HAS_SPHERE_LIGHTS) {
     const Mask is_sphere = LIGHT_IS(light_kind(scene, light), LIGHT_SPHERE);
     const Int primitive = sphere_primitive(scene, light, is_sphere);
@@ -197,8 +201,8 @@ static inline void sample_planar_light(const Scene* scene, LightSample* s, Surfa
   Real distance;
   const Ray ray = ray_between(lit, place, &distance);
   const Real cosine = -vec_dot(place.normal, ray.direction);
-  const Real by_area = distance * distance / (cosine * LIGHT_REAL(scene, s->light, area));
-  keep_surface_sample(s, ray, distance, cosine, s->choice * by_area, m);
+  const Real density = s->choice * density_by_area(scene, s->light, distance, cosine);
+  keep_surface_sample(s, ray, distance, cosine, density, m);
 }
 
 // A point of a sphere: uniform in solid angle if seen from outside, else uniform over its area.
@@ -228,7 +232,7 @@ static inline void sample_sphere_light(const Scene* scene, LightSample* s, Surfa
   Real distance;
   const Ray ray = ray_between(lit, place, &distance);
   const Real cosine = -vec_dot(place.normal, ray.direction);
-  const Real by_area = distance * distance / (cosine * LIGHT_REAL(scene, s->light, area));
+  const Real by_area = density_by_area(scene, s->light, distance, cosine);
   const Real density = in_cone ? (0.5f * INV_PI) / cone : by_area;
   keep_surface_sample(s, ray, distance, cosine, s->choice * density, m);
 }
@@ -277,7 +281,7 @@ static inline void sample_sky(const Scene* scene, LightSample* s, SurfacePoint p
   const SurfacePosition lit = surface_position(point);
   if (HAS_ENVIRONMENT_MAP) {
     if (!any_lane(m)) return;
-    const Vec3 direction = sample_environment(scene, draw_again(random, 1));
+    const Vec3 direction = sample_environment(scene, HAS_LIGHT_CHOICE ? draw_again(random, 1) : random.words);
     const Environment sky = environment_towards(scene, direction);
     aim_to_infinity(s, lit, direction, s->choice * sky.density, m & (sky.density > 0.0f));
     s->radiance = vec_select(m, sky.radiance, s->radiance);

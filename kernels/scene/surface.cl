@@ -139,7 +139,7 @@ static inline TextureCoordinates texture_coordinates(const Scene* scene, Int pri
   return at;
 }
 
-// The point of `hit` along `ray`; in lanes without a hit some valid point.
+// The point of `hit` along `ray`. In lanes without a hit its indices are valid, but its position may not be finite.
 static inline SurfacePoint surface_point(const Scene* scene, Ray ray, Hit hit) {
   const Int primitive = max(hit.primitive, (Int)(0));
   const PrimitivePoint p = primitive_point(scene, primitive, vec_along(ray.origin, hit.distance, ray.direction));

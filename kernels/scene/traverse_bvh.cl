@@ -73,12 +73,13 @@ static inline int push_children(const __global float* node, const BoxRay* b, Sca
   return top;
 }
 
-// The primitives of one block that the ray hits before `limit`, and their distances.
+// Three consecutive values of the flat primitives of a block.
 static inline Vec3 load_planar(const __global Scalar* block, int value) {
   return vec3(load_scalars(block + value * LANES), load_scalars(block + (value + 1) * LANES),
               load_scalars(block + (value + 2) * LANES));
 }
 
+// The primitives of one block that the ray hits before `limit`, and their distances.
 static inline Mask meet_planars(const Scene* scene, int block, int kind, Ray ray, Scalar limit, Real* distance) {
   const __global Scalar* values = scene->planars + block * (PLANAR_FLOATS * LANES);
   Planar p;

@@ -159,11 +159,11 @@ static inline void connect(WorkItem* work, const Pair* pair, StoredVertex eye, S
   const LobeValue at_light = material_evaluate(light.vertex.material, light.vertex.fixed, to_eye);
   const Vec3 reflected =
       vec_mul(vec_mul(eye.throughput, at_eye.value), vec_mul(light.throughput, at_light.value));
-  Real geometry = size_of_cosine(to_light.z) * adjoint_cosine(light.vertex, to_eye, light_cosine) / distance2;
+  Real geometry = abs_cosine(to_light.z) * adjoint_cosine(light.vertex, to_eye, light_cosine) / distance2;
   if (HAS_TRANSMISSION) geometry *= radiance_scale(eye.vertex.material, to_light);
   const Vec3 value = vec_scale(geometry / connection_probability(pair), reflected);
-  const Real light_side = connection_side(light.mis, at_eye.density, at_light.reverse, distance2, size_of_cosine(light_cosine));
-  const Real eye_side = connection_side(eye.mis, at_light.density, at_eye.reverse, distance2, size_of_cosine(eye_cosine));
+  const Real light_side = connection_side(light.mis, at_eye.density, at_light.reverse, distance2, abs_cosine(light_cosine));
+  const Real eye_side = connection_side(eye.mis, at_light.density, at_eye.reverse, distance2, abs_cosine(eye_cosine));
   add_if_unoccluded(work->scene, &work->queue, &work->output, ray, distance,
               to_own_pixel(pair->path, pair->pixel, value, weight_of_connection(light_side, eye_side),
                            TECHNIQUE(pair->light_index + 2, pair->eye_index + 2)),

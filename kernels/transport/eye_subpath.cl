@@ -46,7 +46,8 @@ static inline Mask light_sample_possible(const Subpath* s) {
 static inline Real weight_of_hit_light(const Subpath* s, Real light_sample, Real from_camera, Real emission) {
   if (IS_BIDIR) return weight_of_hit(s->mis, s->edges == 1 ? from_camera : light_sample, emission);
   if (CONNECT != CONNECT_MIS) return (Real)(1.0f);
-  return light_sample_possible(s) ? s->density / (s->density + light_sample) : (Real)(1.0f);
+  const Mask found_twice = light_sample_possible(s) & (light_sample > 0.0f);
+  return found_twice ? s->density / (s->density + light_sample) : (Real)(1.0f);
 }
 
 // Lanes of m whose hits count: those that may show lights; with CONNECT_LIGHT only where no light sample is possible.
@@ -91,7 +92,8 @@ static inline FoundLight hit_sky(const Scene* scene, const Subpath* s, int sky_l
   }
   if (HAS_ORTHOGRAPHIC) emitted = (Real)(0.0f); // no emitted ray has exactly the direction of the camera rays
   found.value = vec_mul(s->throughput, radiance);
-  found.weight = weight_of_hit_light(s, sky->sample_probability * sampled, emitted * sky->probability, emission);
+  const Real light_sample = HAS_SKY_SAMPLES ? sky->sample_probability * sampled : (Real)(0.0f);
+  found.weight = weight_of_hit_light(s, light_sample, emitted * sky->probability, emission);
   found.found = hits_count(s, m);
   return found;
 }
@@ -124,9 +126,9 @@ static inline FoundLight sampled_light(const Scene* scene, const Subpath* s, Ver
   const LobeValue lobe = material_evaluate(v.material, v.fixed, generated);
   const Vec3 scattered = vec_mul(s->throughput, lobe.value);
   FoundLight found;
-  found.value = vec_scale(size_of_cosine(generated.z) / light.density, vec_mul(light.radiance, scattered));
+  found.value = vec_scale(abs_cosine(generated.z) / light.density, vec_mul(light.radiance, scattered));
   if (HAS_TRANSMISSION) found.value = vec_scale(radiance_scale(v.material, generated), found.value);
-  found.weight = weight_of_sampled_light(scene, s, light, lobe, size_of_cosine(cosine));
+  found.weight = weight_of_sampled_light(scene, s, light, lobe, abs_cosine(cosine));
   found.found = m;
   return found;
 }

@@ -66,7 +66,7 @@ static inline void see_sky(const Scene* scene, const Subpath* s, Emission* e, Ca
   view->film = select_film(sky, film, view->film);
   ray->origin = vec_select(sky, eye, ray->origin);
   ray->direction = vec_select(sky, from_camera, ray->direction);
-  *density = sky ? sky_density * light_probability(scene, e->light) : *density;
+  *density = sky ? sky_density * LIGHT_REAL(scene, e->light, probability) : *density;
 }
 
 // Connects the camera to the point on the light itself (s = 1, t = 1) in the lanes of m.
@@ -108,7 +108,7 @@ static inline void connect_to_camera(WorkItem* work, const Subpath* s, Vertex v,
   const Real arriving = adjoint_cosine(v, generated, cosine) * view.film.density / view.distance2;
   const Vec3 value = vec_scale(HAS_FILTER ? view.film.share * arriving : arriving, reflected);
   Real weight = (Real)(1.0f);
-  if (IS_BIDIR) weight = weight_of_seen_vertex(s->mis, view.film.density, lobe.reverse, view.distance2, size_of_cosine(cosine));
+  if (IS_BIDIR) weight = weight_of_seen_vertex(s->mis, view.film.density, lobe.reverse, view.distance2, abs_cosine(cosine));
   Real distance;
   const Ray ray = ray_to_point(surface_position(v.point), view.eye, &distance);
   add_if_unoccluded(scene, &work->queue, &work->output, ray, distance,
@@ -146,7 +146,7 @@ static inline Real density_of_start(const Scene* scene, const Subpath* s, Vertex
     density = surface ? light_density(scene, lit, s->light, choice, distance, s->light_cosine) : density;
   }
   if (HAS_POINTLIKE_LIGHTS) density = is_pointlike(kind) ? choice * distance * distance : density;
-  if (HAS_SKY) {
+  if (HAS_SKY_SAMPLES) {
     const Real by_sky = HAS_ENVIRONMENT_MAP ? choice * s->light_cosine : choice * sky_sample_density(v.point, v.fixed.z);
     density = is_sky(kind) ? by_sky : density;
   }

@@ -70,10 +70,10 @@ static inline Mask shadow_ray_blocked(const Scene* scene, Ray ray, Real distance
     const SurfacePoint point = surface_point(scene, ray, hit);
     const Vec3 transmittance = vec_sub(vec_all((Real)(1.0f)), opacity_at(scene, point, passing));
     *light = vec_select(passing, vec_mul(transmittance, *light), *light);
-    passing &= vec_max(*light) > 0.0f;
+    passing &= !(vec_max(*light) <= 0.0f); // NaN passes, so that it is counted
     distance -= pass_point(&ray, point, passing);
   }
-  return asking & !(vec_max(*light) > 0.0f);
+  return asking & (vec_max(*light) <= 0.0f);
 }
 
 #endif

@@ -94,14 +94,14 @@ static inline Arrival next_vertex(const Scene* scene, Subpath* s, int adjoint, P
 }
 
 // |cosine| if directions that count may have negative cosines.
-static inline Real size_of_cosine(Real cosine) { return HAS_SIGNED_COSINES ? fabs(cosine) : cosine; }
+static inline Real abs_cosine(Real cosine) { return HAS_SIGNED_COSINES ? fabs(cosine) : cosine; }
 
 // The factor of f_r at the vertex of a light subpath that arrives along `fixed` and leaves along `generated` (in the
 // shading frame; with its cosine to the geometric normal): Veach's adjoint BSDF (1997, 5.3) times cosine, divided by
 // f_r. Without interpolated normals it is the cosine of `generated`. Cosines are not negative.
 static inline Real adjoint_cosine(Vertex v, Vec3 generated, Real geometric_cosine) {
-  if (!HAS_SMOOTH_NORMALS) return size_of_cosine(generated.z);
-  return v.fixed.z * size_of_cosine(geometric_cosine) / vec_dot(v.point.normal, from_frame(v.point.frame, v.fixed));
+  if (!HAS_SMOOTH_NORMALS) return abs_cosine(generated.z);
+  return v.fixed.z * abs_cosine(geometric_cosine) / vec_dot(v.point.normal, from_frame(v.point.frame, v.fixed));
 }
 
 // Lanes whose direction is above the surface by both normals, so that no light leaks through; by the shading normal
@@ -126,12 +126,12 @@ static inline Mask scatter(Subpath* s, Vertex v, int adjoint, Uint dimension, Pa
   s->throughput = vec_mul(s->throughput, sample->weight);
   if (HAS_SMOOTH_NORMALS && adjoint)
     s->throughput =
-        vec_scale(adjoint_cosine(v, sample->direction, cosine) / size_of_cosine(sample->direction.z), s->throughput);
+        vec_scale(adjoint_cosine(v, sample->direction, cosine) / abs_cosine(sample->direction.z), s->throughput);
   if (HAS_TRANSMISSION && !adjoint)
     s->throughput = vec_scale(radiance_scale(v.material, sample->direction), s->throughput);
   if (IS_BIDIR) {
     const Real reverse = material_evaluate(v.material, v.fixed, sample->direction).reverse;
-    s->mis = mis_scattered(s->mis, sample->density, reverse, size_of_cosine(cosine), sample->delta);
+    s->mis = mis_scattered(s->mis, sample->density, reverse, abs_cosine(cosine), sample->delta);
   }
   const Mask continues = m & sample->survives & leaves(sample->direction, cosine) & (vec_max(s->throughput) > 0.0f);
   s->normal = lit_normal(v.point);

@@ -130,3 +130,16 @@ TEST_CASE("Variances of first hits are those of renders with different seeds") {
     CHECK(squares * 100 < stated * stated); // and one is below a tenth of the variance
   }
 }
+
+TEST_CASE("First hits need no light that rays can hit, nor any light") {
+  scene::Scene scene = three_squares();
+  const std::vector<film::FirstHit> under_sky = render::first_hits(scene, settings_for(1));
+  scene.constant_radiance.reset();
+  for (const bool has_light : {false, true}) {
+    CAPTURE(has_light);
+    if (has_light) scene.point_lights = {{{0, 0, 1}, scene::Rgb(1.0)}};
+    const std::vector<film::FirstHit> hits = render::first_hits(scene, settings_for(1));
+    REQUIRE(hits.size() == under_sky.size());
+    for (std::size_t i = 0; i < hits.size(); ++i) REQUIRE(hits[i].mean.depth == under_sky[i].mean.depth);
+  }
+}

@@ -77,3 +77,44 @@ TEST_CASE("texels seen head-on, in a row across the view") {
     return Rgb(.1 * (left + (x - below) * (right - left)), .5, .8);
   });
 }
+
+namespace {
+
+// The plane under a square lamp, seen vertically from above. The squares of the checkerboard are black and
+// grey in every reflectance of the material.
+scene::Scene black_and_grey(scene::Material material) {
+  scene::Texture squares;
+  squares.colors = {Rgb(0), Rgb(0.4)};
+  squares.to_uv = {20, 0, 0, 0, 20, 0};
+  scene::Scene scene = plane_of(squares);
+  const scene::TexturePointer texture = scene.materials[0].textures[0];
+  for (const std::size_t reflectance : {0, 1}) material.set_texture(reflectance, texture);
+  scene.materials = {material};
+  scene.constant_radiance.reset();
+  scene.area_emitters = {{Rgb(20)}};
+  scene.patches.push_back(square({1, 0.5, 2.5}, {0, 1, 0}, {1, 0, 0}, 0.5, {0, 0}));
+  scene.camera = look_at({0, 0, 2}, {0, 0, 0}, 50, 8, 8);
+  scene.camera.orthographic = true;
+  return scene;
+}
+
+} // namespace
+
+TEST_CASE("squares that are black in every part of a model scatter nothing, and no sample is not finite") {
+  for (const std::string integrator : {"path", "bidir"}) {
+    for (const std::string& strategy : render::strategy_names()) {
+      CAPTURE(integrator, strategy);
+      render::Settings settings = settings_for(16, 3);
+      settings.integrator = integrator;
+      settings.strategy = strategy;
+      const Render image = render_of(black_and_grey(phong(Rgb(0.4), Rgb(0.4), 20)), settings);
+      CHECK(image.statistics.nonfinite == 0);
+      CHECK(image.film.relative_error().variance > 0); // the grey squares are lit
+    }
+    render::Settings settings = settings_for(16, 3);
+    settings.integrator = integrator;
+    const Render image =
+        render_of(black_and_grey(lobes::anisotropic_phong(Rgb(0.4), Rgb(0.4), 20, 200)), settings);
+    CHECK(image.statistics.nonfinite == 0);
+  }
+}

@@ -32,7 +32,7 @@ __kernel void sample_emission(SCENE_PARAMETERS, uint2 seed, __global const Uint*
   const Vec3 way = vec_sub(e.origin.position, lit[i]);
   const Real distance = sqrt(vec_dot(way, way));
   const Real cosine = -vec_dot(e.origin.normal, way) / distance;
-  const Real choice = light_probability(&scene, e.light);
+  const Real choice = LIGHT_REAL(&scene, e.light, probability);
   const Real per_angle = light_density(&scene, lit[i], e.light, choice, distance, cosine);
   const Real density = per_angle * cosine / (distance * distance);
   to.found = (e.surface & (cosine > 0.0f)) ? density : (Real)(0.0f);

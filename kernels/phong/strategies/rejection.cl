@@ -11,7 +11,7 @@ static inline LobeSample phong_sample(Phong m, Vec3 fixed, Real choice, RandomDr
     const Vec3 proposal = cosine_direction(uniform_real(words.y), uniform_real(words.z));
     direction = vec_select(drawing, proposal, direction);
     const Real value = fma(phong_lobe(m, fixed, proposal), m.specular_max, m.diffuse_max);
-    drawing &= uniform_real(words.w) * bound >= value;
+    drawing &= (uniform_real(words.w) * bound >= value) & (bound > 0.0f);
     if (!any_lane(drawing)) break;
     draws += drawing ? (Int)(1) : (Int)(0);
     words = draw_again(random, draw);
