@@ -63,8 +63,8 @@ static inline Vec3 anisotropicphong_reflectivity(Anisotropicphong m, Vec3 fixed)
   return vec_add(specular, vec_mul(m.diffuse_reflectance, vec_sub(one, specular)));
 }
 
-// The density of the mixture; `specular` is the density of the lobe, that of the half vector divided by 4 h.k. It is 0 if
-// both shares are 0, as where textures make the material black.
+// The density of the mixture; `specular` is the density of the lobe, that of the half vector divided by 4 h.k. It is 0
+// if both shares are 0, as where textures make the material black.
 static inline Real mixture_density(Anisotropicphong m, Real fixed_cosine, Real generated_cosine, Real specular) {
   const PartShares shares = part_shares(m, fixed_cosine);
   const Real sum = shares.diffuse * larger(generated_cosine, (Real)(0.0f)) * INV_PI + shares.specular * specular;

@@ -77,7 +77,8 @@ MODELS(LOAD_MODEL)
 static inline Material material_at(const Scene* scene, Int index, TextureCoordinates at, Mask front) {
   Material m;
   m.model_number = MODEL_COUNT > 1 ? material_int(scene, index, MATERIAL_MODEL) : (Int)(0);
-#define LOAD_MATERIAL(number, model, Model, MODEL) m.model = load_##model(scene, index, at, front, has_model(m, number));
+#define LOAD_MATERIAL(number, model, Model, MODEL)                                                                     \
+  m.model = load_##model(scene, index, at, front, has_model(m, number));
   MODELS(LOAD_MATERIAL)
   return m;
 }

@@ -66,7 +66,8 @@ static inline Real facet_density(Facets f, Vec3 h) {
   if (all_lanes(f.ggx)) return ggx;
   const Real beckmann = INV_PI * exp(-sine2 / (alpha2 * cosine2)) / (alpha2 * cosine2 * cosine2);
   const Real exponent = facet_exponent(f.alpha);
-  const Real phong = (exponent + 2.0f) * (0.5f * INV_PI) * exp(0.5f * exponent * log1p(-smaller(sine2, (Real)(ONE_MINUS_EPSILON))));
+  const Real phong =
+      (exponent + 2.0f) * (0.5f * INV_PI) * exp(0.5f * exponent * log1p(-smaller(sine2, (Real)(ONE_MINUS_EPSILON))));
   return f.ggx ? ggx : f.phong ? phong : beckmann;
 }
 
@@ -166,8 +167,7 @@ static inline Vec3 sample_beckmann_facet(Facets f, Vec3 fixed, Real u1, Real u2)
 static inline Vec3 sample_facet(Facets f, Vec3 fixed, Real u1, Real u2) {
   if (all_lanes(f.ggx)) return sample_ggx_facet(f, fixed, u1, u2);
   if (all_lanes(f.phong)) return cosine_power_direction(facet_exponent(f.alpha) + 1.0f, u1, u2);
-  const Vec3 visible =
-      vec_select(f.ggx, sample_ggx_facet(f, fixed, u1, u2), sample_beckmann_facet(f, fixed, u1, u2));
+  const Vec3 visible = vec_select(f.ggx, sample_ggx_facet(f, fixed, u1, u2), sample_beckmann_facet(f, fixed, u1, u2));
   if (f.anisotropic) return visible;
   return vec_select(f.phong, cosine_power_direction(facet_exponent(f.alpha) + 1.0f, u1, u2), visible);
 }
@@ -194,7 +194,7 @@ static inline FacetReflection facet_reflection(Facets f, Vec3 fixed, Vec3 genera
   const Real density = facet_density(f, h);
   const Real by_fixed = projected_area(f, fixed), by_generated = projected_area(f, generated);
   FacetReflection r;
-  r.cosine = 0.5f * length; // fixed.h = generated.h, computed symmetrically
+  r.cosine = 0.5f * length;               // fixed.h = generated.h, computed symmetrically
   const Real jacobian = 0.25f / r.cosine; // dh / d(generated)
   r.value = 0.25f * density / (by_fixed * by_generated);
   r.density = jacobian * facet_sample_density(f, density, by_fixed, h, r.cosine);

@@ -35,7 +35,8 @@ static inline LobeValue plastic_evaluate(Plastic m, Vec3 fixed, Vec3 generated) 
   const Real by_fixed = plastic_fresnel(m, fabs(fixed.z)), by_generated = plastic_fresnel(m, fabs(generated.z));
   const Real outside_over_inside = m.ext_ior / m.int_ior;
   LobeValue v;
-  v.value = vec_scale(INV_PI * outside_over_inside * outside_over_inside * (1.0f - by_fixed) * (1.0f - by_generated), base);
+  v.value =
+      vec_scale(INV_PI * outside_over_inside * outside_over_inside * (1.0f - by_fixed) * (1.0f - by_generated), base);
   v.density = (1.0f - plastic_share(m, base, by_fixed)) * larger(generated.z, (Real)(0.0f)) * INV_PI;
   v.reverse = (1.0f - plastic_share(m, base, by_generated)) * larger(fixed.z, (Real)(0.0f)) * INV_PI;
   return v;

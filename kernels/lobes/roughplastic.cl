@@ -45,7 +45,8 @@ static inline LobeValue roughplastic_evaluate(Roughplastic m, Vec3 fixed, Vec3 g
   const Vec3 base = coated_base(m.diffuse_reflectance, m.internal, m.nonlinear);
   const Real by_fixed = surface_transmittance(m, fixed.z), by_generated = surface_transmittance(m, generated.z);
   const Real outside_over_inside = m.ext_ior / m.int_ior;
-  const Real from_fixed = roughplastic_share(m, base, by_fixed), from_generated = roughplastic_share(m, base, by_generated);
+  const Real from_fixed = roughplastic_share(m, base, by_fixed),
+             from_generated = roughplastic_share(m, base, by_generated);
   LobeValue v;
   v.value = vec_along(vec_scale(fresnel * r.value, m.specular_reflectance),
                       INV_PI * outside_over_inside * outside_over_inside * by_fixed * by_generated, base);

@@ -17,7 +17,9 @@
 #define THINDIELECTRIC_INDEX(m) (Real)(1.0f)
 LOBE_STRUCT(Thindielectric, THINDIELECTRIC)
 
-static inline LobeValue thindielectric_evaluate(Thindielectric m, Vec3 fixed, Vec3 generated) { return no_lobe_value(); }
+static inline LobeValue thindielectric_evaluate(Thindielectric m, Vec3 fixed, Vec3 generated) {
+  return no_lobe_value();
+}
 
 static inline Real plate_reflectance(Thindielectric m, Vec3 fixed) {
   const Real r = refraction(fixed, m.int_ior / m.ext_ior).reflectance;
@@ -31,8 +33,8 @@ static inline Vec3 thindielectric_reflectivity(Thindielectric m, Vec3 fixed) {
 
 static inline LobeSample thindielectric_sample(Thindielectric m, Vec3 fixed, Real choice, RandomDraws random,
                                                Mask active) {
-  const DeltaChoice c = reflect_or_transmit(plate_reflectance(m, fixed), m.specular_reflectance,
-                                            m.specular_transmittance, choice);
+  const DeltaChoice c =
+      reflect_or_transmit(plate_reflectance(m, fixed), m.specular_reflectance, m.specular_transmittance, choice);
   return delta_sample(vec_select(c.reflects, mirrored(fixed), vec_scale((Real)(-1.0f), fixed)), c.weight);
 }
 

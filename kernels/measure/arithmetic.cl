@@ -1,7 +1,7 @@
 // Formulas that the kernels use, and alternatives: `phlux bench arithmetic` measures their errors and times. Each is a
 // kernel with the same arguments (MEASURE below).
-#include "math/frames.h"
 #include "math/directions.h"
+#include "math/frames.h"
 #include "math/vectors.h"
 
 #define TWO_PI 6.2831853f

@@ -1,7 +1,7 @@
 // Data of the figures of CW 197, from the functions of the path tracer: lane i computes element i. Arrays of vectors
 // have three floats per vector.
-#include "measure/only_material.cl"
 #include "math/directions.h"
+#include "measure/only_material.cl"
 
 // The parameters of the hemisphere of CW 197, section 4.
 #define SPACE_THETA_PHI 0
@@ -62,9 +62,8 @@ static inline Real measure_of(int space, Vec3 v) {
 
 // The integrand of the reflectivity over a grid of a parameter space, first parameter slowest. `parameters` has two
 // floats per element, in [0, 1] (x, y: in the unit disk); `values` gets five: the direction, f_r and the integrand.
-__kernel void evaluate_parameters(const __global float* materials, const __global float* lobe_tables,
-                                  float4 fixed, int space, const __global float* parameters, int count,
-                                  __global float* values) {
+__kernel void evaluate_parameters(const __global float* materials, const __global float* lobe_tables, float4 fixed,
+                                  int space, const __global float* parameters, int count, __global float* values) {
   const Int element = elements_of_item();
   const Mask inside = element < count;
   const Int index = inside ? element : (Int)(0);
@@ -87,9 +86,8 @@ __kernel void sample_squares(const __global float* materials, const __global flo
   sequence.pixel = int_to_uint(element);
   sequence.sample = (Uint)(0u);
   sequence.seed = seed;
-  const MaterialSample s =
-      material_sample(m, all_lanes_of(fixed), random_draws(sequence, (Uint)(2u)), vec_all((Real)(1.0f)), ALL_LANES,
-                      inside);
+  const MaterialSample s = material_sample(m, all_lanes_of(fixed), random_draws(sequence, (Uint)(2u)),
+                                           vec_all((Real)(1.0f)), ALL_LANES, inside);
   const Mask goes_on = s.survives & (s.direction.z > 0.0f);
   scatter_real(values, 3 * element, s.direction.x, inside);
   scatter_real(values, 3 * element + 1, s.direction.y, inside);
@@ -98,8 +96,8 @@ __kernel void sample_squares(const __global float* materials, const __global flo
 
 // values[i]: the partial reflectivity through square i of side x side squares over [-1, 1]^2 in (x, y), rows of equal y
 // first, estimated from `samples` points that are uniform in the square (CW 197, section 5).
-__kernel void evaluate_squares(const __global float* materials, const __global float* lobe_tables,
-                               float4 fixed, uint2 seed, int side, int samples, __global float* values) {
+__kernel void evaluate_squares(const __global float* materials, const __global float* lobe_tables, float4 fixed,
+                               uint2 seed, int side, int samples, __global float* values) {
   const Int element = elements_of_item();
   const Mask inside = element < side * side;
   const Int row = element / side, column = element - row * side;

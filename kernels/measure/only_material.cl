@@ -5,7 +5,8 @@
 #include "lobes/material.cl"
 
 // `front` as in material_at.
-static inline Material only_material_from(const __global float* materials, const __global float* lobe_tables, Mask front) {
+static inline Material only_material_from(const __global float* materials, const __global float* lobe_tables,
+                                          Mask front) {
   Scene scene;
   scene.materials = materials;
   scene.lobe_tables = lobe_tables;

@@ -1,8 +1,8 @@
 // Only rays, for measuring traversal: each lane traces the rays lane, lane + stride, ... of an array of eight floats
 // each (origin, direction, distance, unused).
+#include "math/vectors.h"
 #include "scene/scene.cl"
 #include "scene/traverse.cl"
-#include "math/vectors.h"
 
 static inline Ray ray_at(const __global float* rays, Int index, Real* distance) {
   const Int words = index * 8;

@@ -25,8 +25,8 @@ static inline Vec3 seen_from(Vec3 fixed, Vec3 v) {
 }
 
 static inline MaterialSample sample_on_its_side(Material m, Vec3 fixed, RandomDraws random, int roulette) {
-  MaterialSample s =
-      material_sample(m, seen_from(fixed, fixed), random, vec_all((Real)(1.0f)), roulette ? ALL_LANES : NO_LANES, ALL_LANES);
+  MaterialSample s = material_sample(m, seen_from(fixed, fixed), random, vec_all((Real)(1.0f)),
+                                     roulette ? ALL_LANES : NO_LANES, ALL_LANES);
   s.direction = seen_from(fixed, s.direction);
   return s;
 }

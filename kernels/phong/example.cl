@@ -6,8 +6,7 @@
 // of all get_global_size(0) * WIDTH lanes. table: one row, for this exponent.
 __kernel void mean_weight(float kd, float ks, float exponent, const __global float* table, float cosine, uint2 seed,
                           int samples, __global float* means) {
-  const Phong model =
-      phong_from(vec_all((Real)(kd)), vec_all((Real)(ks)), (Real)(exponent), table, (Int)(0));
+  const Phong model = phong_from(vec_all((Real)(kd)), vec_all((Real)(ks)), (Real)(exponent), table, (Int)(0));
   const Vec3 fixed = vec3((Real)(sqrt((1.0f - cosine) * (1.0f + cosine))), (Real)(0.0f), (Real)(cosine));
   const Int lane = (int)get_global_id(0) * LANES + LANE_NUMBERS;
   RandomSequence sequence;

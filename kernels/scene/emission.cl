@@ -13,8 +13,8 @@ typedef struct {
   Real density;
   SurfacePosition origin; // of lights with a surface
   Int light;
-  Mask surface; // the light has one
-  Mask sky;     // the light is a point at infinity of the sky
+  Mask surface;     // the light has one
+  Mask sky;         // the light is a point at infinity of the sky
   Real sky_density; // of the direction to it, per solid angle
 } Emission;
 

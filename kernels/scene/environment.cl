@@ -91,8 +91,8 @@ static inline Vec3 sample_environment(const Scene* scene, RandomWords words) {
 
   Real cos_phi, sin_phi;
   cos_sin_turns(around < 0.0f ? around + 1.0f : (around > 1.0f ? around - 1.0f : around), &cos_phi, &sin_phi);
-  const Vec3 horizontal = vec_along(vec_scale(sine * sin_phi, broadcast_vec(map->x)), -sine * cos_phi,
-                                    broadcast_vec(map->z));
+  const Vec3 horizontal =
+      vec_along(vec_scale(sine * sin_phi, broadcast_vec(map->x)), -sine * cos_phi, broadcast_vec(map->z));
   return vec_along(horizontal, south ? -cosine : cosine, broadcast_vec(map->y));
 }
 

@@ -3,8 +3,8 @@
 #ifndef PHLUX_INTERSECT_CL
 #define PHLUX_INTERSECT_CL
 
-#include "scene/scene_data.h"
 #include "math/vectors.h"
+#include "scene/scene_data.h"
 
 typedef struct {
   Vec3 origin, direction; // unit direction
@@ -62,7 +62,6 @@ static inline Mask crosses_before(PlaneCrossing c, ClosestHit hit) {
   return (c.distance > 0.0f) & (c.distance * hit.denominator < hit.numerator * c.facing);
 }
 
-
 // ---- Spheres
 
 typedef struct {
@@ -86,6 +85,5 @@ static inline Real cross_sphere(Ray ray, SphereShape s) {
   const Real distance = near > 0.0f ? near : far;
   return ((discriminant >= 0.0f) & (distance > 0.0f)) ? distance : (Real)(0.0f);
 }
-
 
 #endif

@@ -6,9 +6,9 @@
 
 #include "math/constants.h"
 #include "math/directions.h"
+#include "math/random.h"
 #include "scene/environment.cl"
 #include "scene/light_tree.cl"
-#include "math/random.h"
 #include "scene/surface.cl"
 
 // Lanes whose light is of this kind; all lanes if the scene has a single kind.
@@ -27,7 +27,8 @@ static inline Int choose_light(const Scene* scene, Uint cell_word, Uint alias_wo
   const Int other = u < kept ? cell : LIGHT_INT(scene, cell, alias);
   if (!HAS_SKY) return other;
   // By all 32 bits: the spacing of u, 2^-23, is not small compared with the probability if there are many lights.
-  const Mask sky = sky_probability < 1.0f ? (Mask)(alias_word < (Uint)((uint)(4294967296.0f * sky_probability))) : ALL_LANES;
+  const Mask sky =
+      sky_probability < 1.0f ? (Mask)(alias_word < (Uint)((uint)(4294967296.0f * sky_probability))) : ALL_LANES;
   return sky ? (Int)(scene->light_count - 1) : other;
 }
 
@@ -156,8 +157,8 @@ typedef struct {
   Mask valid;    // the light faces the point
 } LightSample;
 
-// The density per solid angle, at the lit point, of a point that is uniform over the area of the light; `cosine` is that
-// of the normal of the light with the direction to the lit point.
+// The density per solid angle, at the lit point, of a point that is uniform over the area of the light; `cosine` is
+// that of the normal of the light with the direction to the lit point.
 static inline Real density_by_area(const Scene* scene, Int light, Real distance, Real cosine) {
   return distance * distance / (cosine * LIGHT_REAL(scene, light, area));
 }
@@ -196,7 +197,8 @@ static inline void keep_surface_sample(LightSample* s, Ray ray, Real distance, R
   s->valid = s->valid | (m & (cosine > 0.0f));
 }
 
-static inline void sample_planar_light(const Scene* scene, LightSample* s, SurfacePosition lit, Mask m, Real u1, Real u2) {
+static inline void sample_planar_light(const Scene* scene, LightSample* s, SurfacePosition lit, Mask m, Real u1,
+                                       Real u2) {
   const SurfacePosition place = planar_light_point(scene, s->light, m, u1, u2);
   Real distance;
   const Ray ray = ray_between(lit, place, &distance);
@@ -206,7 +208,8 @@ static inline void sample_planar_light(const Scene* scene, LightSample* s, Surfa
 }
 
 // A point of a sphere: uniform in solid angle if seen from outside, else uniform over its area.
-static inline void sample_sphere_light(const Scene* scene, LightSample* s, SurfacePosition lit, Mask m, Real u1, Real u2) {
+static inline void sample_sphere_light(const Scene* scene, LightSample* s, SurfacePosition lit, Mask m, Real u1,
+                                       Real u2) {
   const Int primitive = sphere_primitive(scene, s->light, m);
   const SphereShape sphere = sphere_of_light(scene, primitive);
   const Mask front_inside = PRIMITIVE_INT(scene, primitive, region) != 0;

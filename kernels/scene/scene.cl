@@ -25,12 +25,12 @@ typedef struct {
   float light_tree_probability; // with which light samples choose a light of the tree by power
   const __global EnvironmentRecord* environment;
   const __global EnvironmentTexel* environment_texels; // row by row
-  const __global float* lobe_tables; // of the reflectance models
+  const __global float* lobe_tables;                   // of the reflectance models
   const __global int* corners;          // three per flat primitive: indices into vertex_normals, -1: flat
   const __global float* vertex_normals; // three floats each
-  const __global int* texture_numbers;    // like `materials`: 1 + a colour's texture at its first word, else 0
+  const __global int* texture_numbers;  // like `materials`: 1 + a colour's texture at its first word, else 0
   const __global TextureRecord* textures;
-  const __global float* texels; // values of bytes, and texels
+  const __global float* texels;  // values of bytes, and texels
   const __global float* uv_maps; // UV_FLOATS per primitive
   // Copies of tables with few entries, member by member.
   float material_members[MEMBERS_IN_REGISTERS(MATERIALS_IN_REGISTERS, MATERIAL_WORDS)][TABLE_ENTRIES];
@@ -86,15 +86,14 @@ static inline void keep_small_tables(Scene* scene) {
 
 // The parameters of a kernel for the scene, and statements that copy them to a Scene named `scene`.
 #define SCENE_PARAMETERS                                                                                               \
-  const __global CameraRecord *camera, const __global PrimitiveRecord *primitives,                                     \
-      const __global float *materials, const __global LightRecord *lights, int light_count,                   \
-      const __global Scalar *planars, int triangle_end, int parallelogram_end, int ellipse_end,                        \
-      const __global Scalar *spheres, int first_sphere, int sphere_count, const __global float *nodes, int root,       \
-      const __global LightNodeRecord *light_nodes, float light_tree_probability,                                       \
-      const __global EnvironmentRecord *environment, const __global EnvironmentTexel *environment_texels,              \
-      const __global float *lobe_tables, const __global int *corners, const __global float *vertex_normals,            \
-      const __global int *texture_numbers, const __global TextureRecord *textures, const __global float *texels,       \
-      const __global float *uv_maps
+  const __global CameraRecord *camera, const __global PrimitiveRecord *primitives, const __global float *materials,    \
+      const __global LightRecord *lights, int light_count, const __global Scalar *planars, int triangle_end,           \
+      int parallelogram_end, int ellipse_end, const __global Scalar *spheres, int first_sphere, int sphere_count,      \
+      const __global float *nodes, int root, const __global LightNodeRecord *light_nodes,                              \
+      float light_tree_probability, const __global EnvironmentRecord *environment,                                     \
+      const __global EnvironmentTexel *environment_texels, const __global float *lobe_tables,                          \
+      const __global int *corners, const __global float *vertex_normals, const __global int *texture_numbers,          \
+      const __global TextureRecord *textures, const __global float *texels, const __global float *uv_maps
 #define SCENE_FROM_PARAMETERS                                                                                          \
   Scene scene;                                                                                                         \
   scene.camera = camera;                                                                                               \
@@ -115,7 +114,7 @@ static inline void keep_small_tables(Scene* scene) {
   scene.light_tree_probability = light_tree_probability;                                                               \
   scene.environment = environment;                                                                                     \
   scene.environment_texels = environment_texels;                                                                       \
-  scene.lobe_tables = lobe_tables;                                                                                   \
+  scene.lobe_tables = lobe_tables;                                                                                     \
   scene.corners = corners;                                                                                             \
   scene.vertex_normals = vertex_normals;                                                                               \
   scene.texture_numbers = texture_numbers;                                                                             \

@@ -81,8 +81,8 @@ enum LightKinds {
 };
 
 // One light: an emitting primitive, or a light without a surface. The sky is the last. Lights other than the sky are
-// selected with the alias method (Walker 1974; Vose 1991): cell i gives light i with probability `alias_threshold`, else
-// light `alias`.
+// selected with the alias method (Walker 1974; Vose 1991): cell i gives light i with probability `alias_threshold`,
+// else light `alias`.
 typedef struct {
   int kind;          // enum LightKinds
   int primitive;     // planar, sphere: index of the primitive
@@ -149,7 +149,13 @@ typedef struct {
 enum SumWords { SUM_RADIANCE = 0, SUM_SQUARES = 3, SUM_NONFINITE = 6, SUM_CLAMPED = 7, SUM_WORDS = 8 };
 
 // The result of the first hits of a pixel (film::FirstHit): means, then the variances of these means.
-enum FeatureWords { FEATURE_ALBEDO = 0, FEATURE_NORMAL = 3, FEATURE_DEPTH = 6, FEATURE_VARIANCES = 7, FEATURE_WORDS = 14 };
+enum FeatureWords {
+  FEATURE_ALBEDO = 0,
+  FEATURE_NORMAL = 3,
+  FEATURE_DEPTH = 6,
+  FEATURE_VARIANCES = 7,
+  FEATURE_WORDS = 14
+};
 
 // A record of a splat, with one array for each word. The last two words exist only if techniques are recorded
 // separately: the technique s << 16 | t, or its complement if the path adds to its own pixel, and the weight, which the

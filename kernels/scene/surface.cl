@@ -9,13 +9,13 @@
 #include "scene/uv.cl"
 
 typedef struct {
-  Vec3 position; // on the primitive, to a few ulp
-  Vec3 normal;   // geometric, unit, on the side that the ray came from
-  Frame frame;   // shading frame on the side from which the ray came; z is the interpolated normal if there is one
-  Real error;    // bound on the rounding error of `position`, and of the intersection of a ray near it
-  Mask front;    // the ray came from the front
+  Vec3 position;     // on the primitive, to a few ulp
+  Vec3 normal;       // geometric, unit, on the side that the ray came from
+  Frame frame;       // shading frame on the side from which the ray came; z is the interpolated normal if there is one
+  Real error;        // bound on the rounding error of `position`, and of the intersection of a ray near it
+  Mask front;        // the ray came from the front
   Mask shaded_front; // the ray came from the front, by the shading normal
-  Mask transmits; // the material transmits light
+  Mask transmits;    // the material transmits light
   Int material, light;
   TextureCoordinates uv; // HAS_TEXTURES; only if the material has a texture
 } SurfacePoint;
@@ -88,8 +88,7 @@ static inline PrimitivePoint planar_point(const Scene* scene, Int primitive, Vec
     p.place.x = vec_dot(p.normal, vec_cross(from_origin, gather_planar(scene, words, PLANAR_EDGE_V)));
     p.place.y = vec_dot(p.normal, vec_cross(from_origin, gather_planar(scene, words, PLANAR_MINUS_U)));
   }
-  if (HAS_SMOOTH_NORMALS)
-    p.shading_normal = interpolated_normal(scene, primitive, p.place.x, p.place.y, p.normal);
+  if (HAS_SMOOTH_NORMALS) p.shading_normal = interpolated_normal(scene, primitive, p.place.x, p.place.y, p.normal);
   p.tangent = HAS_TANGENTS ? flat_tangent(scene, primitive, from_origin) : p.normal;
   return p;
 }

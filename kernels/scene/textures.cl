@@ -67,11 +67,11 @@ static inline Vec3 bitmap_colour(const Scene* scene, Int texture, Int kind, Text
   const int corners = any_lane(m & !nearest) ? 4 : 1;
   for (int corner = 0; corner < corners; ++corner) {
     const Int x = corner & 1 ? column.after : column.before, y = corner & 2 ? row.after : row.before;
-    const Real weight =
-        (corner & 1 ? column.along : 1.0f - column.along) * (corner & 2 ? row.along : 1.0f - row.along);
+    const Real weight = (corner & 1 ? column.along : 1.0f - column.along) * (corner & 2 ? row.along : 1.0f - row.along);
     const Int index = m ? y * width + x : (Int)(0);
     Vec3 texel = vec_all((Real)(0.0f));
-    if (HAS_BYTE_TEXTURES) texel = byte_texel(scene, of_bytes ? first : (Int)(0), of_bytes ? index : (Int)(0), decoding);
+    if (HAS_BYTE_TEXTURES)
+      texel = byte_texel(scene, of_bytes ? first : (Int)(0), of_bytes ? index : (Int)(0), decoding);
     if (HAS_FLOAT_TEXTURES) {
       const Vec3 of_floats = float_texel(scene, of_bytes ? (Int)(0) : first, of_bytes ? (Int)(0) : index);
       texel = HAS_BYTE_TEXTURES ? vec_select(of_bytes, texel, of_floats) : of_floats;

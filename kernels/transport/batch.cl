@@ -4,8 +4,8 @@
 #define PHLUX_BATCH_CL
 
 #include "lanes/lanes.h"
-#include "transport/launch.h"
 #include "math/random.h"
+#include "transport/launch.h"
 
 typedef struct {
   int job, jobs;    // first job in the launch, and number of jobs

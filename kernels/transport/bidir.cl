@@ -66,8 +66,7 @@ static inline int trace_eye_subpaths(WorkItem* work, Batch batch) {
                         reaches & brings_light(sampled.value));
     }
     MaterialSample sample;
-    alive =
-        scatter(&s, arrival.vertex, 0, DIMENSION_SCATTERING(s.edges), work->limits, &sample, arrival.scattered);
+    alive = scatter(&s, arrival.vertex, 0, DIMENSION_SCATTERING(s.edges), work->limits, &sample, arrival.scattered);
     set_stored(&work->eye, s.path, stored, tracing & !alive);
   }
 }
@@ -157,17 +156,17 @@ static inline void connect(WorkItem* work, const Pair* pair, StoredVertex eye, S
   const Real distance2 = distance * distance;
   const LobeValue at_eye = material_evaluate(eye.vertex.material, eye.vertex.fixed, to_light);
   const LobeValue at_light = material_evaluate(light.vertex.material, light.vertex.fixed, to_eye);
-  const Vec3 reflected =
-      vec_mul(vec_mul(eye.throughput, at_eye.value), vec_mul(light.throughput, at_light.value));
+  const Vec3 reflected = vec_mul(vec_mul(eye.throughput, at_eye.value), vec_mul(light.throughput, at_light.value));
   Real geometry = abs_cosine(to_light.z) * adjoint_cosine(light.vertex, to_eye, light_cosine) / distance2;
   if (HAS_TRANSMISSION) geometry *= radiance_scale(eye.vertex.material, to_light);
   const Vec3 value = vec_scale(geometry / connection_probability(pair), reflected);
-  const Real light_side = connection_side(light.mis, at_eye.density, at_light.reverse, distance2, abs_cosine(light_cosine));
+  const Real light_side =
+      connection_side(light.mis, at_eye.density, at_light.reverse, distance2, abs_cosine(light_cosine));
   const Real eye_side = connection_side(eye.mis, at_light.density, at_eye.reverse, distance2, abs_cosine(eye_cosine));
   add_if_unoccluded(work->scene, &work->queue, &work->output, ray, distance,
-              to_own_pixel(pair->path, pair->pixel, value, weight_of_connection(light_side, eye_side),
-                           TECHNIQUE(pair->light_index + 2, pair->eye_index + 2)),
-              faces & brings_light(value));
+                    to_own_pixel(pair->path, pair->pixel, value, weight_of_connection(light_side, eye_side),
+                                 TECHNIQUE(pair->light_index + 2, pair->eye_index + 2)),
+                    faces & brings_light(value));
 }
 
 static inline void connect_subpaths(WorkItem* work, Batch batch) {
@@ -180,7 +179,8 @@ static inline void connect_subpaths(WorkItem* work, Batch batch) {
   while (true) {
     pairing = take_pairs(work, &batch, &pair, pairing);
     if (!any_lane(pairing)) return;
-    const StoredVertex eye = stored_vertex(work->scene, &work->eye, pairing ? pair.eye.first + pair.eye_index * ROW_WORDS : (Int)(0));
+    const StoredVertex eye =
+        stored_vertex(work->scene, &work->eye, pairing ? pair.eye.first + pair.eye_index * ROW_WORDS : (Int)(0));
     const StoredVertex light =
         stored_vertex(work->scene, &work->light, pairing ? pair.light.first + pair.light_index * ROW_WORDS : (Int)(0));
     connect(work, &pair, eye, light, pairing);
@@ -206,10 +206,10 @@ static inline void divide_scratch(WorkItem* work, __global Scalar* scratch, int 
 }
 
 __kernel void trace_bidir(SCENE_PARAMETERS, int pixel_count, int first_pixel, int job_count, int first_sample,
-                          int block_samples, uint2 seed, uint2 point_sets, int max_edges, int roulette_edges, __global uint* counters,
-                          int batch_jobs, int record_words, int record_capacity, __global float* records,
-                          __global int* record_counts, int sky_light, int rows, __global Scalar* scratch,
-                          __global float* sums) {
+                          int block_samples, uint2 seed, uint2 point_sets, int max_edges, int roulette_edges,
+                          __global uint* counters, int batch_jobs, int record_words, int record_capacity,
+                          __global float* records, __global int* record_counts, int sky_light, int rows,
+                          __global Scalar* scratch, __global float* sums) {
   SCENE_FROM_PARAMETERS
   WorkItem work;
   const JobList list = {pixel_count, first_pixel, job_count, first_sample, block_samples};

@@ -4,8 +4,8 @@
 #ifndef PHLUX_CONTRIBUTIONS_CL
 #define PHLUX_CONTRIBUTIONS_CL
 
-#include "scene/scene_data.h"
 #include "math/vectors.h"
+#include "scene/scene_data.h"
 
 // A contribution of `path` to `pixel`: value x weight, by the technique of s light and t eye vertices (s << 16 | t).
 // The radiance of a pixel is the sum of its contributions over all paths, divided by the number of paths per pixel.

@@ -3,9 +3,9 @@
 #ifndef PHLUX_FILM_CL
 #define PHLUX_FILM_CL
 
-#include "transport/launch.h"
-#include "scene/scene_data.h"
 #include "math/vectors.h"
+#include "scene/scene_data.h"
+#include "transport/launch.h"
 
 // The current job of each lane.
 typedef struct {

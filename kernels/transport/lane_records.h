@@ -28,7 +28,9 @@ static inline void put_vector(LaneWords* words, int* word, int at, Vec3 v, Mask 
 }
 
 // Reads the records from `at` on, one in each lane.
-static inline Real number_at(const LaneWords* words, int* word, int at) { return lanes_from_array(words[(*word)++] + at); }
+static inline Real number_at(const LaneWords* words, int* word, int at) {
+  return lanes_from_array(words[(*word)++] + at);
+}
 static inline Vec3 vector_at(const LaneWords* words, int* word, int at) {
   Vec3 v;
   v.x = number_at(words, word, at);

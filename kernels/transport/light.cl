@@ -3,9 +3,9 @@
 #include "transport/light_subpath.cl"
 
 __kernel void trace_light(SCENE_PARAMETERS, int pixel_count, int first_pixel, int job_count, int first_sample,
-                          int block_samples, uint2 seed, uint2 point_sets, int max_edges, int roulette_edges, __global uint* counters,
-                          int batch_jobs, int record_words, int record_capacity, __global float* records,
-                          __global int* record_counts) {
+                          int block_samples, uint2 seed, uint2 point_sets, int max_edges, int roulette_edges,
+                          __global uint* counters, int batch_jobs, int record_words, int record_capacity,
+                          __global float* records, __global int* record_counts) {
   SCENE_FROM_PARAMETERS
   WorkItem work;
   const JobList list = {pixel_count, first_pixel, job_count, first_sample, block_samples};

@@ -61,7 +61,8 @@ static inline void see_sky(const Scene* scene, const Subpath* s, Emission* e, Ca
     film.pixel = uint_to_int(s->sequence.pixel);
     film.share = (Real)(1.0f);
     sky_density = film.density;
-    if (HAS_ENVIRONMENT_MAP) e->radiance = vec_select(sky, environment_towards(scene, from_camera).radiance, e->radiance);
+    if (HAS_ENVIRONMENT_MAP)
+      e->radiance = vec_select(sky, environment_towards(scene, from_camera).radiance, e->radiance);
   }
   view->film = select_film(sky, film, view->film);
   ray->origin = vec_select(sky, eye, ray->origin);
@@ -108,7 +109,8 @@ static inline void connect_to_camera(WorkItem* work, const Subpath* s, Vertex v,
   const Real arriving = adjoint_cosine(v, generated, cosine) * view.film.density / view.distance2;
   const Vec3 value = vec_scale(HAS_FILTER ? view.film.share * arriving : arriving, reflected);
   Real weight = (Real)(1.0f);
-  if (IS_BIDIR) weight = weight_of_seen_vertex(s->mis, view.film.density, lobe.reverse, view.distance2, abs_cosine(cosine));
+  if (IS_BIDIR)
+    weight = weight_of_seen_vertex(s->mis, view.film.density, lobe.reverse, view.distance2, abs_cosine(cosine));
   Real distance;
   const Ray ray = ray_to_point(surface_position(v.point), view.eye, &distance);
   add_if_unoccluded(scene, &work->queue, &work->output, ray, distance,
@@ -147,7 +149,8 @@ static inline Real density_of_start(const Scene* scene, const Subpath* s, Vertex
   }
   if (HAS_POINTLIKE_LIGHTS) density = is_pointlike(kind) ? choice * distance * distance : density;
   if (HAS_SKY_SAMPLES) {
-    const Real by_sky = HAS_ENVIRONMENT_MAP ? choice * s->light_cosine : choice * sky_sample_density(v.point, v.fixed.z);
+    const Real by_sky =
+        HAS_ENVIRONMENT_MAP ? choice * s->light_cosine : choice * sky_sample_density(v.point, v.fixed.z);
     density = is_sky(kind) ? by_sky : density;
   }
   return density;

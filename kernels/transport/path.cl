@@ -9,7 +9,8 @@ static inline Vec3 add_found(Vec3 radiance, FoundLight light, Mask m) {
 }
 
 // Starts the next sample of the job in the lanes of `starting`.
-static inline void start_paths(const Scene* scene, Subpath* path, Vec3* radiance, JobList list, Job job, Mask starting) {
+static inline void start_paths(const Scene* scene, Subpath* path, Vec3* radiance, JobList list, Job job,
+                               Mask starting) {
   Subpath first = *path;
   first.sequence.pixel = int_to_uint(job.pixel);
   first.sequence.sample = int_to_uint(sample_number(list, job));
@@ -34,8 +35,8 @@ static inline Vec3 ambient_variate(Vertex v, MaterialSample sample, Vec3 through
 }
 
 __kernel void trace_paths(SCENE_PARAMETERS, int pixel_count, int first_pixel, int job_count, int first_sample,
-                          int block_samples, uint2 seed, uint2 point_sets, int max_edges, int roulette_edges, __global uint* counters,
-                          int sky_light, float ambient, __global float* sums) {
+                          int block_samples, uint2 seed, uint2 point_sets, int max_edges, int roulette_edges,
+                          __global uint* counters, int sky_light, float ambient, __global float* sums) {
   SCENE_FROM_PARAMETERS
   const JobList list = {pixel_count, first_pixel, job_count, first_sample, block_samples};
   const PathLimits limits = {max_edges, roulette_edges};
@@ -64,9 +65,9 @@ __kernel void trace_paths(SCENE_PARAMETERS, int pixel_count, int first_pixel, in
       LightSample light;
       const Mask reaches = draw_light(&scene, &path, arrival.vertex, &light, arrival.scattered);
       if (any_lane(reaches)) {
-        const Mask lit =
-            reaches & !shadow_ray_blocked(&scene, light.ray, light.distance, &light.radiance, reaches);
-        if (any_lane(lit)) radiance = add_found(radiance, sampled_light(&scene, &path, arrival.vertex, light, lit), lit);
+        const Mask lit = reaches & !shadow_ray_blocked(&scene, light.ray, light.distance, &light.radiance, reaches);
+        if (any_lane(lit))
+          radiance = add_found(radiance, sampled_light(&scene, &path, arrival.vertex, light, lit), lit);
         shadow_rays += reaches ? (Uint)(1u) : (Uint)(0u);
       }
     }

@@ -9,8 +9,8 @@
 
 typedef struct {
   Ray ray;
-  Real distance; // up to which the ray must be unoccluded
-  Vec3 value;    // of the contribution; without RECORD_TECHNIQUES it includes the weight
+  Real distance;   // up to which the ray must be unoccluded
+  Vec3 value;      // of the contribution; without RECORD_TECHNIQUES it includes the weight
   Int path, pixel; // pixel: its complement if it is the path's own pixel
   Real weight;
   Int technique;

@@ -85,8 +85,7 @@ static inline Arrival next_vertex(const Scene* scene, Subpath* s, int adjoint, P
   a.distance = hit.distance;
   a.hits = alive & (hit.primitive >= 0);
   a.vertex.point = surface_point(scene, s->ray, hit);
-  a.vertex.material =
-      material_at(scene, a.vertex.point.material, a.vertex.point.uv, a.vertex.point.shaded_front);
+  a.vertex.material = material_at(scene, a.vertex.point.material, a.vertex.point.uv, a.vertex.point.shaded_front);
   a.vertex.fixed = to_frame(a.vertex.point.frame, vec_scale((Real)(-1.0f), s->ray.direction));
   a.scattered = a.hits & (s->edges < limits.longest) & (a.vertex.fixed.z > 0.0f) &
                 reflects(scene, a.vertex.point.material, a.vertex.point.shaded_front);

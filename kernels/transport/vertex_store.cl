@@ -15,8 +15,8 @@ typedef struct {
   Real error;
   Int material; // its complement if the vertex is on the back of a surface (HAS_TRANSMISSION)
   MisQuantities mis;
-  Vec3 normal;  // HAS_SMOOTH_NORMALS
-  Vec3 tangent; // HAS_TANGENTS
+  Vec3 normal;           // HAS_SMOOTH_NORMALS
+  Vec3 tangent;          // HAS_TANGENTS
   TextureCoordinates uv; // HAS_TEXTURES
 } VertexRecord;
 #define VERTEX_FIELDS(VECTOR, NUMBER, INTEGER, UNSIGNED)                                                               \

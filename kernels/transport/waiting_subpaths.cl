@@ -13,8 +13,7 @@
 #define WAITING_FIELDS_OF_ROULETTE(VECTOR, NUMBER, INTEGER, UNSIGNED) NUMBER(begin)
 #define WAITING_FIELDS_OF_BIDIR(VECTOR, NUMBER, INTEGER, UNSIGNED) NUMBER(mis.d_vcm) NUMBER(light_cosine) INTEGER(light)
 #define WAITING_WORDS                                                                                                  \
-  (RECORD_WORDS_OF(WAITING_FIELDS) +                                                                                   \
-   (ROULETTE_BY_THROUGHPUT ? RECORD_WORDS_OF(WAITING_FIELDS_OF_ROULETTE) : 0) +                                        \
+  (RECORD_WORDS_OF(WAITING_FIELDS) + (ROULETTE_BY_THROUGHPUT ? RECORD_WORDS_OF(WAITING_FIELDS_OF_ROULETTE) : 0) +      \
    (IS_BIDIR ? RECORD_WORDS_OF(WAITING_FIELDS_OF_BIDIR) : 0))
 
 typedef struct {
@@ -27,8 +26,8 @@ static inline int wants_subpaths(const WaitingSubpaths* waiting, const Batch* ba
   return waiting->count < min(idle, LANES) && batch->next < batch->path_count;
 }
 
-// Where the next subpath is put and the last one taken. With one lane none waits in between, and a constant index needs no
-// private memory.
+// Where the next subpath is put and the last one taken. With one lane none waits in between, and a constant index needs
+// no private memory.
 #define WAITING_PLACE (LANES == 1 ? 0 : waiting->count)
 
 #define PUT_VECTOR(member) put_vector(waiting->words, &word, WAITING_PLACE, s->member, m);
