@@ -171,6 +171,7 @@ void set_selection(LightTable& table, const std::vector<double>& probabilities, 
 // as well as a light sample would; light samples are left to the other lights, whose variance they reduce
 // more.
 double sky_sample_probability(const LightTable& table, double probability, bool found_by_hits) {
+  if (table.sky < 0) return 0;
   const bool constant = table.environment.texels.empty(), other_lights = probability < 1;
   return constant && other_lights && found_by_hits ? 0 : probability;
 }

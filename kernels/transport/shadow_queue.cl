@@ -89,7 +89,7 @@ static inline void add_if_unoccluded(const Scene* scene, ShadowQueue* queue, Out
   shadow.pixel = c.own ? ~c.pixel : c.pixel;
   shadow.weight = c.weight;
   shadow.technique = c.technique;
-  put_shadow_rays(queue, LANES == 1 ? 0 : queue->count, shadow, m); // 0 then; a constant index needs no private memory
+  put_shadow_rays(queue, queue->count, shadow, m);
   queue->count += count_lanes(m);
   if (queue->count < LANES) return;
   trace_shadow_rays(scene, queue, output);

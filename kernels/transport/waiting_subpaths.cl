@@ -26,14 +26,10 @@ static inline int wants_subpaths(const WaitingSubpaths* waiting, const Batch* ba
   return waiting->count < min(idle, LANES) && batch->next < batch->path_count;
 }
 
-// Where the next subpath is put and the last one taken. With one lane none waits in between, and a constant index needs
-// no private memory.
-#define WAITING_PLACE (LANES == 1 ? 0 : waiting->count)
-
-#define PUT_VECTOR(member) put_vector(waiting->words, &word, WAITING_PLACE, s->member, m);
-#define PUT_NUMBER(member) put_number(waiting->words, &word, WAITING_PLACE, s->member, m);
-#define PUT_INTEGER(member) put_number(waiting->words, &word, WAITING_PLACE, carry_int(s->member), m);
-#define PUT_UNSIGNED(member) put_number(waiting->words, &word, WAITING_PLACE, carry_int(uint_to_int(s->member)), m);
+#define PUT_VECTOR(member) put_vector(waiting->words, &word, waiting->count, s->member, m);
+#define PUT_NUMBER(member) put_number(waiting->words, &word, waiting->count, s->member, m);
+#define PUT_INTEGER(member) put_number(waiting->words, &word, waiting->count, carry_int(s->member), m);
+#define PUT_UNSIGNED(member) put_number(waiting->words, &word, waiting->count, carry_int(uint_to_int(s->member)), m);
 
 // Adds the subpaths of the lanes of m.
 static inline void put_subpaths(WaitingSubpaths* waiting, const Subpath* s, Mask m) {
@@ -48,13 +44,13 @@ static inline void put_subpaths(WaitingSubpaths* waiting, const Subpath* s, Mask
   waiting->count += count_lanes(m);
 }
 
-#define TAKE_VECTOR(member) s->member = take_vector(waiting->words, &word, WAITING_PLACE, s->member, starting);
-#define TAKE_NUMBER(member) s->member = take_number(waiting->words, &word, WAITING_PLACE, s->member, starting);
+#define TAKE_VECTOR(member) s->member = take_vector(waiting->words, &word, waiting->count, s->member, starting);
+#define TAKE_NUMBER(member) s->member = take_number(waiting->words, &word, waiting->count, s->member, starting);
 #define TAKE_INTEGER(member)                                                                                           \
-  s->member = carried_int(take_number(waiting->words, &word, WAITING_PLACE, carry_int(s->member), starting));
+  s->member = carried_int(take_number(waiting->words, &word, waiting->count, carry_int(s->member), starting));
 #define TAKE_UNSIGNED(member)                                                                                          \
   s->member = int_to_uint(                                                                                             \
-      carried_int(take_number(waiting->words, &word, WAITING_PLACE, carry_int(uint_to_int(s->member)), starting)));
+      carried_int(take_number(waiting->words, &word, waiting->count, carry_int(uint_to_int(s->member)), starting)));
 
 // Gives waiting subpaths to lanes of `idle`, as many as there are; returns these lanes.
 static inline Mask take_subpaths(WaitingSubpaths* waiting, Subpath* s, Mask idle) {

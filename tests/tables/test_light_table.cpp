@@ -64,6 +64,16 @@ TEST_CASE("light samples leave a constant sky to hits, if hits count and there i
   }
 }
 
+TEST_CASE("without a sky, light samples choose as light paths do") {
+  scene::Scene scene = lamp_over_floor(10);
+  scene.point_lights.push_back({{0, 0, 1}, Rgb(20)});
+  for (const Connect connect : {Connect::light, Connect::mis}) {
+    const tables::LightTable table = table_of(scene, "path", connect);
+    for (const LightRecord& record : table.records) CHECK(record.sample_probability == record.probability);
+    check_sums(table);
+  }
+}
+
 TEST_CASE("light samples choose a sky that hits do not find, that is a map, or that is the only light") {
   scene::Scene constant = lamp_over_floor(10), map = constant;
   constant.constant_radiance = Rgb(0.5);
