@@ -60,8 +60,7 @@ Connect possible_connect(const Settings& settings, const tables::LightTable& lig
     throw UsageError(
         "`connect` none: no path can hit the point, spot and directional lights, which are all that the "
         "scene has: use `connect` light or mis");
-  if (settings.integrator == "light" || !lights.shines()) return Connect::none;
-  return settings.integrator == "bidir" ? Connect::mis : settings.connect;
+  return lights.shines() ? connect_of(settings) : Connect::none;
 }
 
 // Expected number of proposals of rejection sampling per sample, at grazing incidence, where it is largest.
@@ -188,8 +187,7 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
   parts.light_constant = lights.has(LIGHT_SKY) && !parts.environment_map;
   const bool chooses = parts.connect != Connect::none || parts.integrator == Integrator::light;
   parts.light_choice = lights.records.size() > 1 && chooses;
-  parts.light_tree = wants_light_tree(settings) && parts.connect != Connect::none &&
-                     lights.nodes.size() >= 2 * fewest_lights_of_tree;
+  parts.light_tree = parts.connect != Connect::none && lights.nodes.size() >= 2 * fewest_lights_of_tree;
   parts.sky_samples = parts.connect != Connect::none && lights.samples_sky();
   parts.one_light = lights.records.size() == 1;
   parts.few_lights = lights.records.size() <= few_entries;

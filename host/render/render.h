@@ -25,7 +25,7 @@ using settings::Sampler;
 using settings::Settings;
 using settings::strategy_names;
 using settings::Traversal;
-using settings::wants_light_tree;
+using settings::connect_of;
 using settings::Weights;
 using settings::weights_names;
 

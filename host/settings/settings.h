@@ -55,15 +55,16 @@ struct Settings {
   double pause_seconds = 1.0;       ///< until a device that failed is tried again
 };
 
+/// How eye subpaths find light, if there are lights: by hits and light samples in bidir, `connect` in path.
+/// Light tracing, which has no eye subpaths, takes no light samples.
+[[nodiscard]] inline Connect connect_of(const Settings& settings) {
+  const IntegratorInfo& integrator = integrator_named(settings.integrator);
+  if (!integrator.eye_paths) return Connect::none;
+  return integrator.light_paths ? Connect::mis : settings.connect;
+}
 /// Whether eye subpaths take light samples, if there are lights.
 [[nodiscard]] inline bool samples_lights(const Settings& settings) {
-  const IntegratorInfo& integrator = integrator_named(settings.integrator);
-  return integrator.eye_paths && (integrator.light_paths || settings.connect != Connect::none);
-}
-/// Whether rays find the light that light samples find too, so that both are weighted.
-[[nodiscard]] inline bool weights_hits_and_light_samples(const Settings& settings) {
-  return samples_lights(settings) &&
-         (integrator_named(settings.integrator).light_paths || settings.connect == Connect::mis);
+  return connect_of(settings) != Connect::none;
 }
 /// Whether light samples choose lights by contribution.
 [[nodiscard]] inline bool wants_light_tree(const Settings& settings) {

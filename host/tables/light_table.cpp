@@ -220,7 +220,7 @@ LightTable light_table(const scene::Scene& scene, accel::Geometry& geometry,
   LightTable& table = collector.table;
   const std::vector<double> probabilities = selection_probabilities(collector);
   if (!probabilities.empty()) {
-    const bool found_by_hits = settings::weights_hits_and_light_samples(settings);
+    const bool found_by_hits = settings::connect_of(settings) == settings::Connect::mis;
     set_selection(table, probabilities, sky_sample_probability(table, probabilities.back(), found_by_hits));
   }
   if (settings::wants_light_tree(settings)) table.nodes = light_tree(collector.placed, table.records);

@@ -1,4 +1,4 @@
-// A table of all lights of a scene, with the probabilities with which light paths and light samples choose them.
+// A table of all lights of a scene, with their probabilities for light paths and for light samples.
 #pragma once
 
 #include <vector>

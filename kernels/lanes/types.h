@@ -78,6 +78,8 @@ static inline Int carried_int(Real x) { return real_bits(x); }
 // fmax and fmin without their treatment of NaN, which takes two more instructions.
 static inline Real larger(Real a, Real b) { return a > b ? a : b; }
 static inline Real smaller(Real a, Real b) { return a < b ? a : b; }
+// a / b; 0 where b is not above 0.
+static inline Real ratio_or_zero(Real a, Real b) { return b > 0.0f ? a / b : (Real)(0.0f); }
 
 // x multiplied by the sign of `sign`, by two bit operations.
 static inline Real times_sign(Real x, Real sign) {

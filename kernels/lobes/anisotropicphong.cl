@@ -68,8 +68,7 @@ static inline Vec3 anisotropicphong_reflectivity(Anisotropicphong m, Vec3 fixed)
 static inline Real mixture_density(Anisotropicphong m, Real fixed_cosine, Real generated_cosine, Real specular) {
   const PartShares shares = part_shares(m, fixed_cosine);
   const Real sum = shares.diffuse * larger(generated_cosine, (Real)(0.0f)) * INV_PI + shares.specular * specular;
-  const Real total = shares.diffuse + shares.specular;
-  return total > 0.0f ? sum / total : (Real)(0.0f);
+  return ratio_or_zero(sum, shares.diffuse + shares.specular);
 }
 
 static inline LobeValue anisotropicphong_evaluate(Anisotropicphong m, Vec3 fixed, Vec3 generated) {

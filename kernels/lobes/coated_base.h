@@ -15,6 +15,6 @@ static inline Vec3 coated_base(Vec3 reflectance, Real internal, Real nonlinear) 
 }
 
 // a / (a + b), or 0 if both are 0.
-static inline Real part_of(Real a, Real b) { return a + b > 0.0f ? a / (a + b) : (Real)(0.0f); }
+static inline Real part_of(Real a, Real b) { return ratio_or_zero(a, a + b); }
 
 #endif

@@ -28,7 +28,7 @@ static inline Real phong_density(Phong m, Vec3 fixed, Vec3 generated, Real lobe)
   Real density = lobe * (m.exponent + 1.0f) / (m.exponent + 2.0f); // times pi
   if (PHONG_FOLD) density = folded_density(fixed, generated, density);
   const Real sum = fma(larger(generated.z, (Real)(0.0f)), shares.diffuse, density * shares.specular);
-  return by_shares(sum * INV_PI, shares);
+  return ratio_or_zero(sum * INV_PI, shares.diffuse + shares.specular);
 }
 
 static inline LobeSample phong_sample(Phong m, Vec3 fixed, Real choice, RandomDraws random, Mask active) {

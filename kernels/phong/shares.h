@@ -9,12 +9,6 @@ typedef struct {
   Real diffuse, specular; // proportional to the probabilities of sampling the parts
 } PhongShares;
 
-// sum / (shares.diffuse + shares.specular); 0 if both are 0, as where textures make the material black.
-static inline Real by_shares(Real sum, PhongShares shares) {
-  const Real total = shares.diffuse + shares.specular;
-  return total > 0.0f ? sum / total : (Real)(0.0f);
-}
-
 // lobe_reflectivity: rho_s / ks, or an estimate of it.
 static inline PhongShares phong_shares(Phong m, Real lobe_reflectivity) {
   PhongShares shares;

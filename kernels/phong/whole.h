@@ -12,7 +12,7 @@ static inline Real phong_survival(Phong m, Vec3 fixed, RandomDraws random) {
 static inline Real phong_density(Phong m, Vec3 fixed, Vec3 generated, Real lobe) {
   const PhongShares shares = phong_shares(m, phong_lobe_reflectivity(m, fixed.z));
   const Real value = fma(lobe, m.specular_max, m.diffuse_max);
-  return by_shares(larger(generated.z, (Real)(0.0f)) * INV_PI * value, shares);
+  return ratio_or_zero(larger(generated.z, (Real)(0.0f)) * INV_PI * value, shares.diffuse + shares.specular);
 }
 
 // The sample `direction`, with the density for these shares.
@@ -23,7 +23,7 @@ static inline LobeSample whole_sample(Phong m, Vec3 fixed, Vec3 direction, Phong
   const Vec3 colour = vec_along(m.diffuse_reflectance, lobe, m.specular_reflectance);
   LobeSample s;
   s.direction = direction;
-  s.density = by_shares(larger(direction.z, (Real)(0.0f)) * INV_PI * value, shares);
+  s.density = ratio_or_zero(larger(direction.z, (Real)(0.0f)) * INV_PI * value, total);
   s.weight = vec_scale(total, vec3(colour.x / value, colour.y / value, colour.z / value));
   s.weight = vec_select(value > 0.0f, s.weight, vec_all((Real)(0.0f)));
   s.delta = NO_LANES;

@@ -284,6 +284,7 @@ static inline void sample_sky(const Scene* scene, LightSample* s, SurfacePoint p
   const SurfacePosition lit = surface_position(point);
   if (HAS_ENVIRONMENT_MAP) {
     if (!any_lane(m)) return;
+    // Without a choice among lights, none of the words of the draw has been used.
     const Vec3 direction = sample_environment(scene, HAS_LIGHT_CHOICE ? draw_again(random, 1) : random.words);
     const Environment sky = environment_towards(scene, direction);
     aim_to_infinity(s, lit, direction, s->choice * sky.density, m & (sky.density > 0.0f));

@@ -67,9 +67,8 @@ TEST_CASE("What the pages say of methods is in the table of scenes") {
       table.variances.at("caustic").at("path mis") / table.variances.at("caustic").at("bidir balance");
   const double cost =
       table.seconds.at("caustic").at("bidir balance") / table.seconds.at("caustic").at("path mis");
-  CHECK(
-      stated("README.md", "it takes at most # times as long to the same error as the best method") ==
-      about(bidir));
+  CHECK(stated("README.md", "it takes at most # times as long to the same error as the best method") ==
+        about(bidir));
   CHECK(stated("README.md", "on a caustic a #th of the time of") == about(caustic));
   CHECK(stated("bench/CHOOSING.md", "`path` takes at most # times as long") == about(path));
   CHECK(stated("bench/CHOOSING.md", "except the caustic, where it takes # times") == about(caustic));

@@ -13,11 +13,11 @@ namespace {
 
 const std::filesystem::path folder = PHLUX_SOURCE_DIR "/tests/references";
 
-/// Of the image's mean: where an edge of something bright shows less in a pixel, no sample may hit it. There
-/// this is the standard error.
+/// Pixels darker than this fraction of the image's mean get it as their standard error: perhaps no sample
+/// hits an edge of something bright that shows in them.
 constexpr double visible = 0.01;
-/// Of the image's mean, the least standard error: the variance of a pixel in which few samples hit an edge is
-/// not known.
+/// Lower bound on the standard error of all other pixels, as a fraction of the image's mean: if only a few
+/// samples hit an edge that shows in a pixel, the estimate of its variance is unreliable.
 constexpr double least_error = 0.001;
 
 /// The image, and its mean with the variance of independent pixels.

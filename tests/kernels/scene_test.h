@@ -38,8 +38,7 @@ private:
                                        const phlux::render::Settings& settings, int lanes) {
     phlux::render::Parts parts =
         phlux::render::find_parts(scene, host.geometry, host.lights, settings, lanes);
-    parts.light_tree = phlux::render::wants_light_tree(settings) && !host.lights.nodes.empty() &&
-                       parts.connect != phlux::render::Connect::none;
+    parts.light_tree = !host.lights.nodes.empty() && parts.connect != phlux::render::Connect::none;
     return parts;
   }
 
