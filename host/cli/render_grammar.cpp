@@ -1,5 +1,6 @@
 // The grammar of `phlux render` and `phlux info`.
 #include <algorithm>
+#include <initializer_list>
 #include <memory>
 #include <set>
 #include <sstream>
@@ -19,9 +20,12 @@ namespace {
 
 using settings::Affects;
 
-void add_settings(CLI::App& app, RenderOptions& options, const std::function<bool(Affects)>& wanted) {
+// Adds the settings of these kinds, without those that another group of the help has.
+void add_settings(CLI::App& app, RenderOptions& options, std::initializer_list<Affects> kinds) {
   for (const settings::Setting& setting : settings::all())
-    if (wanted(setting.affects) && !setting.help.empty()) add_setting(app, setting, options);
+    if (std::ranges::find(kinds, setting.affects) != kinds.end() && !setting.help.empty() &&
+        setting.name != "crop" && setting.name != "precision")
+      add_setting(app, setting, options);
 }
 
 void add_method(CLI::App& app, RenderOptions& options) {
@@ -30,15 +34,14 @@ void add_method(CLI::App& app, RenderOptions& options) {
             "kernel file with a reflectance model of your own, which the scene refers to by <bsdf "
             "type=\"NAME\">; may be repeated",
             options.lobes);
-  add_settings(app, options, [](Affects affects) {
-    return affects == Affects::expectation || affects == Affects::estimate;
-  });
+  add_settings(app, options, {Affects::expectation, Affects::estimate});
 }
 
 void add_scene_options(CLI::App& app, RenderOptions& options) {
   add_value(app, "--size", "WxH",
             "image size in pixels; the field of view along fovAxis does not change; default: the scene's",
             [&](const std::string& text) { options.size = settings::size("--size", text); });
+  add_setting(app, settings::named("crop"), options);
   add_values(app, "-D", "NAME=VALUE", "replaces $NAME in the scene; may be repeated",
              [&](const std::string& text) {
                auto [name, value] = settings::definition("-D", text);
@@ -48,9 +51,9 @@ void add_scene_options(CLI::App& app, RenderOptions& options) {
 
 void add_amount(CLI::App& app, RenderOptions& options) {
   app.option_defaults()->group("Samples and size");
-  add_settings(app, options, [](Affects affects) { return affects == Affects::amount; });
+  add_settings(app, options, {Affects::amount});
   add_scene_options(app, options);
-  add_settings(app, options, [](Affects affects) { return affects == Affects::samples; });
+  add_settings(app, options, {Affects::samples});
 }
 
 void add_device(CLI::App& app, RenderOptions& options) {
@@ -61,7 +64,8 @@ void add_device(CLI::App& app, RenderOptions& options) {
       "platform or device; may be repeated. If two drivers offer the same CPU, cpu and names choose the "
       "first driver's",
       [&](const std::string& text) { options.devices.push_back(text); });
-  add_settings(app, options, [](Affects affects) { return affects == Affects::execution; });
+  add_settings(app, options, {Affects::execution});
+  add_setting(app, settings::named("precision"), options);
   add_kernel_dir(app, options.kernel_dir);
 }
 

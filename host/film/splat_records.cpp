@@ -60,8 +60,7 @@ void SplatFolder::merge(const SplatRecords& records) {
   }
 }
 
-std::vector<std::size_t> SplatFolder::fold(const SplatRecords& records, Film& film, bool merged) {
-  if (!merged) merge(records);
+std::vector<std::size_t> SplatFolder::fold(const SplatRecords& records, Film& film) {
   std::vector<std::size_t> not_finite;
   const auto* const pixels =
       reinterpret_cast<const std::int32_t*>(records.words + RECORD_PIXEL * records.capacity);

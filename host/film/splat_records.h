@@ -20,13 +20,12 @@ struct SplatRecords {
 /// Sums the splats of each path to each pixel and adds the sums to the film, which needs their squares.
 class SplatFolder {
 public:
-  /// The sums, in the first record of each path and pixel, which fold() then needs not compute. Not before
-  /// fold_techniques().
+  /// Sums the records of each path and pixel, in the first of them. After fold_techniques().
   void merge(const SplatRecords& records);
 
-  /// Changes the records, which are merged by merge() unless they are `merged`. The film must use splats.
-  /// Sums that are not finite are left out; returns their paths.
-  std::vector<std::size_t> fold(const SplatRecords& records, Film& film, bool merged = false);
+  /// Adds records that merge() has summed to a film that uses splats. Sums that are not finite are left out;
+  /// returns their paths.
+  static std::vector<std::size_t> fold(const SplatRecords& records, Film& film);
 
   /// For records with techniques, before fold(): adds each to the film's techniques, multiplies it by its
   /// weight, and removes those of the paths' own pixels, which the film already has. Values that are not

@@ -65,7 +65,7 @@ std::vector<film::FirstHit> first_hits(const scene::Scene& scene, const Settings
   }
   return hits;
 } catch (const cl::Error& error) {
-  throw DeviceError(fmt::format("{} failed: {}", error.what(), device::error_name(error.err())));
+  throw DeviceError(device::describe(error));
 }
 
 } // namespace phlux::render

@@ -54,7 +54,8 @@ void ResultFolder::fold_batch(LaunchResult& result, std::size_t batch, film::Fil
   const film::SplatRecords& records = result.batches[batch];
   film.add_splatting_paths(jobs * samples);
   if (techniques_) film::SplatFolder::fold_techniques(records, film);
-  for (const std::size_t path : splats_.fold(records, film, result.merged))
+  if (!result.merged) splats_.merge(records);
+  for (const std::size_t path : film::SplatFolder::fold(records, film))
     count_nonfinite(result.launch, first_job + path / samples, 1, static_cast<int>(path % samples), 1);
 }
 

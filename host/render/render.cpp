@@ -162,7 +162,7 @@ template<class Work>
 auto reporting_device_errors(const Work& work) try {
   return work();
 } catch (const cl::Error& error) {
-  throw DeviceError(fmt::format("{} failed: {}", error.what(), device::error_name(error.err())));
+  throw DeviceError(device::describe(error));
 }
 
 } // namespace

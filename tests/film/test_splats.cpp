@@ -62,7 +62,8 @@ void fold(SplatFolder& folder, const Records& records, std::size_t paths, Film& 
   handed.capacity = records.capacity;
   handed.count = records.list.size();
   handed.paths = paths;
-  folder.fold(handed, film);
+  folder.merge(handed);
+  SplatFolder::fold(handed, film);
 }
 
 } // namespace
