@@ -12,8 +12,9 @@ namespace phlux::cli {
 /// The settings that options other than those of settings::all() give.
 [[nodiscard]] render::Settings defaults_of(const RenderOptions& options);
 
-/// Makes the camera's image the part that the settings name. @throws UsageError if it is no part
-void crop(scene::Camera& camera, const render::Settings& settings);
+/// Makes the camera's image the part that the choices or else the scene name. @throws UsageError if it is no
+/// part
+void crop(scene::Scene& scene, const settings::Choices& choices);
 
 /// 0.
 [[nodiscard]] int info(const InfoOptions& options);

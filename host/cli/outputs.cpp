@@ -136,6 +136,7 @@ void reject_inputs(const Outputs& outputs, const RenderOptions& options, const s
 
 void check_writable(const Outputs& outputs) {
   for (const fs::path& file : outputs.files()) files::check_writable(file);
+  if (!outputs.contributions.empty()) files::check_contributions_writable(outputs.contributions);
 }
 
 void PreviewRefresher::update(const film::Film& film, double seconds,

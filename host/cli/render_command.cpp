@@ -112,8 +112,15 @@ render::Statistics run(const scene::Scene& scene, const render::Settings& settin
   return statistics;
 }
 
+std::string missed_light(const scene::Scene& scene, const render::Settings& settings) {
+  const settings::IntegratorInfo& integrator = settings::integrator_named(settings.integrator);
+  if (!advice::misses_light(scene, integrator)) return {};
+  return integrator.eye_paths ? "light of point, spot and directional emitters by mirrors or glass"
+                              : "light that mirrors or glass bring to the camera";
+}
+
 files::RenderInfo info_of(const checkpoint::Session& session, const std::string& choice,
-                          const scene::Camera& camera, const film::Film& film,
+                          const scene::Scene& scene, const film::Film& film,
                           const render::Statistics& statistics) {
   const render::Settings& settings = session.settings;
   return {
@@ -129,8 +136,9 @@ files::RenderInfo info_of(const checkpoint::Session& session, const std::string&
       .driver = statistics.driver,
       .seconds = statistics.seconds_render,
       .clamped_share = film.clamped_share(),
-      .origin = camera.origin,
-      .whole = camera.whole};
+      .missed_light = missed_light(scene, settings),
+      .origin = scene.camera.origin,
+      .whole = scene.camera.whole};
 }
 
 // Writes the image where it can. Returns its path, empty if it cannot be written.
@@ -194,7 +202,7 @@ void write_all(const Outputs& outputs, const RenderOptions& options, const check
   LastSteps steps(options.quiet, [&] { return interrupt.requested(); });
   Patience for_channels(10s), for_rest(1s); // image and checkpoint are written in any case
   const render::Settings& settings = session.settings;
-  const files::RenderInfo info = info_of(session, options.choice, scene.camera, film, statistics);
+  const files::RenderInfo info = info_of(session, options.choice, scene, film, statistics);
   std::filesystem::path image_file, checkpoint_file;
   std::vector<film::FirstHit> hits;
   if (!outputs.aov.empty())
@@ -250,11 +258,16 @@ render::Settings defaults_of(const RenderOptions& options) {
   return defaults;
 }
 
-void crop(scene::Camera& camera, const render::Settings& settings) {
+void crop(scene::Scene& scene, const settings::Choices& choices) {
+  const settings::Setting& setting = settings::named("crop");
+  render::Settings settings;
+  setting.from_scene(scene.defaults, settings);
+  if (choices.has("crop")) setting.read(choices.texts.at("crop"), settings);
   if (!settings.crop) return;
+  scene::Camera& camera = scene.camera;
   if (!scene::is_within(*settings.crop, camera))
-    throw UsageError(fmt::format("--crop {}: is not within the image of {}x{} pixels",
-                                 settings::named("crop").text(settings), camera.width, camera.height));
+    throw UsageError(fmt::format("--crop {}: is not within the image of {}x{} pixels", setting.text(settings),
+                                 camera.width, camera.height));
   scene::crop_image(camera, *settings.crop);
 }
 
@@ -271,15 +284,16 @@ int render(const RenderOptions& given) {
   scene::Scene scene =
       scene_file::load(options.scene_file, options.definitions, options.size, lobes::Library(options.lobes));
   reject_inputs(outputs, options, scene);
-  const scene::Camera& camera = scene.camera;
+  const std::string digest = scene::digest(scene); // of the whole image
+  crop(scene, options);
   choose_integrator(options, scene, group);
   const checkpoint::Session session{
       .scene = options.scene_file.string(),
-      .scene_digest = scene::digest(scene),
+      .scene_digest = digest,
       .choices = options,
       .settings = settings::settings_of(options, scene.defaults, defaults_of(options, group)),
       .state = {}};
-  crop(scene.camera, session.settings);
+  const scene::Camera& camera = scene.camera;
   if (earlier) check_same(*earlier, session, camera, options.resume);
   film::Film film = earlier ? std::move(earlier->film)
                             : film::Film(camera.width, camera.height,

@@ -141,15 +141,14 @@ void require_own_files(const RenderOptions& options, const std::vector<std::file
   if (const cluster::Started started = cluster::started(); started.processes > 1)
     throw UsageError(fmt::format("{} has started {} processes, which can render only one scene: {} are given",
                                  started.by, started.processes, scenes.size()));
-  const std::pair<const char*, std::filesystem::path> files[] = {
-      {"--output", options.output},
-      {"--stats", options.statistics},
-      {"--contributions", options.contributions},
-      {"--resume", options.resume},
-      {"--checkpoint", options.checkpoint},
-      {"--png", options.preview == "none" ? std::filesystem::path() : options.preview}};
+  const std::pair<const char*, std::filesystem::path> files[] = {{"--output", options.output},
+                                                                 {"--stats", options.statistics},
+                                                                 {"--contributions", options.contributions},
+                                                                 {"--resume", options.resume},
+                                                                 {"--checkpoint", options.checkpoint},
+                                                                 {"--png", options.preview}};
   for (const auto& [option, file] : files)
-    if (!file.empty())
+    if (!file.empty() && file != "none")
       throw UsageError(fmt::format("{} {}: can be used with one scene only: {} are given", option,
                                    file.string(), scenes.size()));
   std::set<std::string> names;
@@ -163,6 +162,11 @@ void require_own_files(const RenderOptions& options, const std::vector<std::file
 
 // The first exit code that is not 0, which ends it.
 int render_all(RenderOptions options, const std::vector<std::filesystem::path>& scenes) {
+  std::error_code none;
+  for (const std::filesystem::path& scene : scenes) // before the first is rendered
+    if (!std::filesystem::is_regular_file(scene, none))
+      throw SceneError(
+          fmt::format("{}: cannot be read: an existing Mitsuba scene file is needed", scene.string()));
   for (const std::filesystem::path& scene : scenes) {
     options.scene_file = scene;
     if (const int exit_code = render(options); exit_code != 0) return exit_code;
@@ -188,7 +192,12 @@ void add_render(CLI::App& program, std::optional<Command>& command) {
   app.final_callback([&command, options, scenes] {
     if (options->has("spp") && (options->has("time") || options->has("error")))
       throw UsageError("--spp: excludes --time and --error, which determine the number of samples");
-    if (options->checkpoint_seconds && options->checkpoint.empty() && options->resume.empty())
+    if (options->exposure && options->preview == "none")
+      throw UsageError("--exposure: is for the preview, and --png none makes none: leave out one of the two");
+    if (options->advise && options->quiet && options->statistics.empty())
+      throw UsageError("--advise: --quiet silences it: leave out one of the two, or give --stats FILE.json");
+    if (options->checkpoint_seconds &&
+        (options->checkpoint == "none" || (options->checkpoint.empty() && options->resume.empty())))
       throw UsageError("--checkpoint-every: no checkpoint is written: give --checkpoint FILE too");
     require_own_files(*options, *scenes);
     command = [options, scenes] { return render_all(*options, *scenes); };

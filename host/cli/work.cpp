@@ -20,7 +20,7 @@ void work_on(const RenderOptions& options, cluster::Group& group) {
   const render::Settings settings =
       settings::settings_of(options, scene.defaults, defaults_of(options, group));
   const std::string digest = scene::digest(scene); // of the whole image
-  crop(scene.camera, settings);
+  crop(scene, options);
   if (!cluster::wait_for_kernels(group)) return;
   const render::Renderer renderer(scene, settings, {});
   cluster::serve(group, *renderer.processors().front(), settings, digest);

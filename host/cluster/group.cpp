@@ -134,7 +134,7 @@ struct Group::Connection {
 
 Group::Group() {
   const Started start = started();
-  if (start.by.empty()) return;
+  if (start.processes == 1) return;
   int threads = 0;
   MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &threads);
   MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN);
@@ -168,7 +168,7 @@ Group::Group() {
 }
 
 Group::~Group() {
-  if (started().by.empty()) return;
+  if (size_ == 1) return;
   bool lost = false;
   for (int other = 0; other < size_; ++other) lost = lost || is_lost(other);
   connection_.reset();

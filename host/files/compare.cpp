@@ -117,6 +117,10 @@ Comparison compare(const Image& a, const Image& b, const std::string& name_a, co
     throw FileError(
         fmt::format("{}: is {}x{} pixels, but {} is {}x{}: only images of one size can be compared", name_a,
                     a.width, a.height, name_b, b.width, b.height));
+  if (a.info.origin != b.info.origin || a.info.whole != b.info.whole)
+    throw FileError(fmt::format("{} and {}: are different parts of an image (`crop`), which have no pixels "
+                                "in common places: only images of one part can be compared",
+                                name_a, name_b));
   std::vector<Channels> groups = {channels_of(a, radiance_names, name_a),
                                   channels_of(b, radiance_names, name_b)};
   const bool with_z = a.has(variance_names) && b.has(variance_names);

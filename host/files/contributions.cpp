@@ -112,6 +112,32 @@ private:
   std::vector<Tile> tiles_;
 };
 
+constexpr const char* sheet_name = "contributions.png";
+
+bool has_name_of_contribution(const std::filesystem::path& file) {
+  static const std::regex image(R"(s\d+-t\d+(-unweighted)?\.exr)");
+  const std::string name = file.filename().string();
+  return name == sheet_name || std::regex_match(name, image);
+}
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code failure;
+  std::filesystem::create_directories(folder, failure);
+  if (failure)
+    throw WriteError(
+        fmt::format("{}: cannot be made: {}: name another folder", folder.string(), failure.message()));
+}
+
+// Removes the images of an earlier render, which may have had techniques that this one has not.
+void remove_earlier(const std::filesystem::path& folder) {
+  std::error_code none;
+  std::vector<std::filesystem::path> earlier;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, none))
+    if (has_name_of_contribution(entry.path()) && entry.is_regular_file(none))
+      earlier.push_back(entry.path());
+  for (const std::filesystem::path& file : earlier) std::filesystem::remove(file, none);
+}
+
 } // namespace
 
 Canvas contact_sheet(film::Film& film) {
@@ -125,13 +151,15 @@ Canvas contact_sheet(film::Film& film) {
   return sheet.picture();
 }
 
+void check_contributions_writable(const std::filesystem::path& folder) {
+  make_folder(folder);
+  check_writable(folder / sheet_name);
+}
+
 NonFinite write_contributions(const std::filesystem::path& folder, film::Film& film, const RenderInfo& info,
                               const film::Progress& progress) {
-  std::error_code failure;
-  std::filesystem::create_directories(folder, failure);
-  if (failure)
-    throw WriteError(
-        fmt::format("{}: cannot be made: {}: name another folder", folder.string(), failure.message()));
+  make_folder(folder);
+  remove_earlier(folder);
   NonFinite not_finite;
   const auto& all = film.techniques()->sums();
   double done = 0.0;
@@ -145,16 +173,16 @@ NonFinite write_contributions(const std::filesystem::path& folder, film::Film& f
         not_finite[channel] += count;
     }
   }
-  write_file(folder / "contributions.png", encode_png(contact_sheet(film)));
+  write_file(folder / sheet_name, encode_png(contact_sheet(film)));
   return not_finite;
 }
 
 bool is_contribution(const std::filesystem::path& folder, const std::filesystem::path& file) {
-  static const std::regex name(R"(s\d+-t\d+(-unweighted)?\.exr|contributions\.png)");
-  std::error_code error;
-  const std::filesystem::path there = std::filesystem::canonical(file, error);
-  return !error && std::regex_match(there.filename().string(), name) &&
-         std::filesystem::equivalent(folder, there.parent_path(), error);
+  std::error_code error; // of weakly_canonical, which follows links as far as there are files
+  const std::filesystem::path there =
+      std::filesystem::weakly_canonical(std::filesystem::absolute(file), error);
+  return !error && has_name_of_contribution(there) &&
+         there.parent_path() == std::filesystem::weakly_canonical(std::filesystem::absolute(folder), error);
 }
 
 } // namespace phlux::files

@@ -125,6 +125,7 @@ void for_each_attribute(Info&& info, const Use& use) {
   use("driver", info.driver);
   use("seconds", info.seconds);
   use("clampedShare", info.clamped_share);
+  use("missedLight", info.missed_light);
 }
 constexpr const char *seed_name = "seed", *ranges_name = "sampleRanges", *digest_name = "digest";
 
@@ -204,7 +205,7 @@ RenderInfo find_attributes(const Imf::Header& header) {
 constexpr int largest_side = 1 << 28; // of a whole image
 
 std::vector<const char*> known_channels() {
-  std::vector<const char*> names = {"reliability"};
+  std::vector<const char*> names = {reliability_name};
   for (const ChannelNames& three : {radiance_names, variance_names})
     names.insert(names.end(), three.begin(), three.end());
   for (const auto& seven : {first_hit_channels, first_hit_variance_channels})
@@ -284,9 +285,10 @@ Image read_pixels(Imf::MultiPartInputFile& file, double file_bytes) {
 } // namespace
 
 NonFinite encode_exr(const Rows& rows, const RenderInfo& info, std::ostream& to) {
-  constexpr int strip_lines = 16; // those that ZIP compresses together
-  const auto width = static_cast<std::size_t>(rows.width);
-  std::vector<float> strip(strip_lines * width * rows.channels.size());
+  const int strip_lines = std::min(16, rows.height); // 16: those that ZIP compresses together
+  const auto width = static_cast<std::size_t>(rows.width),
+             strip_values = width * static_cast<std::size_t>(strip_lines);
+  std::vector<float> strip(strip_values * rows.channels.size());
   const auto [left, top] = info.origin;
   const Imath::Box2i data = box(left, top, rows.width, rows.height);
   Imf::Header header(info.whole[0] > 0 ? box(0, 0, info.whole[0], info.whole[1]) : data, data);
@@ -302,7 +304,7 @@ NonFinite encode_exr(const Rows& rows, const RenderInfo& info, std::ostream& to)
     const int lines = std::min(strip_lines, rows.height - first);
     Imf::FrameBuffer frame;
     for (std::size_t channel = 0; channel < rows.channels.size(); ++channel) {
-      float* const values = strip.data() + channel * strip_lines * width;
+      float* const values = strip.data() + channel * strip_values;
       for (int line = 0; line < lines; ++line)
         rows.fill(first + line, channel, values + static_cast<std::size_t>(line) * width);
       const auto count = std::count_if(values, values + static_cast<std::size_t>(lines) * width,

@@ -71,7 +71,7 @@ Rows rows_of(const film::Film& film, bool moments, const film::Progress& progres
   std::shared_ptr<const film::ReliabilityMap> reliability;
   if (moments) {
     rows.channels.insert(rows.channels.end(), variance_names.begin(), variance_names.end());
-    rows.channels.emplace_back("reliability");
+    rows.channels.emplace_back(reliability_name);
     reliability = std::make_shared<film::ReliabilityMap>(film, progress);
   }
   rows.fill = [&film, reliability](int row, std::size_t channel, float* to) {

@@ -38,6 +38,7 @@ struct RenderInfo {
   std::string device, driver;
   double seconds = 0.0;       ///< of rendering
   double clamped_share = 0.0; ///< share of the light that clamping removed
+  std::string missed_light{}; ///< of the scene, that the integrator cannot find; empty: none
   /// Column and row of its upper left pixel in the image of which it is a part, and the size of that image;
   /// 0: it is whole.
   std::array<int, 2> origin{}, whole{};
@@ -58,6 +59,7 @@ struct RenderInfo {
 using ChannelNames = std::array<const char*, 3>;
 inline constexpr ChannelNames radiance_names = {"R", "G", "B"};
 inline constexpr ChannelNames variance_names = {"variance.R", "variance.G", "variance.B"};
+inline constexpr const char* reliability_name = "reliability";
 
 struct Image {
   int width = 0, height = 0;

@@ -66,6 +66,11 @@ std::string bias_of(const RenderInfo& info) {
   return "is unbiased";
 }
 
+std::string found_light(const RenderInfo& info) {
+  return fmt::format("`integrator` {} finds {}", info.text("integrator"),
+                     info.missed_light.empty() ? "all light" : "no " + info.missed_light);
+}
+
 std::string method_of(const RenderInfo& info) {
   return info.text("integrator") + " " + info.text("strategy");
 }
@@ -119,12 +124,18 @@ void Merger::check(const Source& source, const Image& image) const {
     throw FileError(fmt::format("{}: is of another scene ({}) than {} ({}): only images of one scene can be "
                                 "merged",
                                 name, info.scene, first, other.scene));
+  const bool clamped = !info.text("clamp").empty(); // what it removes depends on the method
   for (const settings::Setting& setting : settings::all())
-    if (setting.affects == settings::Affects::expectation &&
+    if ((setting.affects == settings::Affects::expectation ||
+         (clamped && setting.affects == settings::Affects::estimate)) &&
         value_in(setting, info) != value_in(setting, other))
       throw FileError(
-          fmt::format("{}: was rendered {}, but {} {}: only images of the same light can be merged", name,
-                      given(setting, info), first, given(setting, other)));
+          fmt::format("{}: was rendered {}, but {} {}: only images of the same light{} can be merged", name,
+                      given(setting, info), first, given(setting, other),
+                      clamped ? ", and with `clamp` by the same method," : ""));
+  if (info.missed_light != other.missed_light)
+    throw FileError(fmt::format("{}: {}, but {}: {}: only images of the same light can be merged", name,
+                                found_light(info), first, found_light(other)));
   if (bias_of(info) != bias_of(other))
     throw FileError(fmt::format("{}: {}, but {} {}: only images with the same bias, or none, can be merged",
                                 name, bias_of(info), first, bias_of(other)));
@@ -141,6 +152,10 @@ void Merger::add(const std::string& name, const Image& image) {
   const double samples = image.info.samples;
   add_weighted(image, radiance_names, samples, radiance_);
   if (source.variance) add_weighted(image, variance_names, samples * samples, variance_);
+  for (const auto& [channel, values] : image.channels)
+    if (std::ranges::find(radiance_names, channel) == radiance_names.end() &&
+        std::ranges::find(variance_names, channel) == variance_names.end() && channel != reliability_name)
+      left_out_.insert(channel);
   sources_.push_back(source);
 }
 
@@ -167,6 +182,9 @@ std::vector<std::string> Merger::notes() const {
           source.name, method_of(source.info), first.name, method_of(first.info)));
       break;
     }
+  std::string left_out;
+  for (const std::string& name : left_out_) left_out += (left_out.empty() ? "" : ", ") + name;
+  if (!left_out.empty()) notes.push_back(fmt::format("the merged image has no channels {}", left_out));
   const auto without = std::ranges::find(sources_, false, &Source::variance);
   if (without != sources_.end() && !std::ranges::none_of(sources_, &Source::variance))
     notes.push_back(fmt::format("{} has no variance channels: the merged image has none: `moments` adds them",

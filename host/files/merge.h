@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -14,11 +15,12 @@ namespace phlux::files {
 class Merger {
 public:
   /// @throws FileError for an image without the attributes of a render; and for one that differs from those
-  /// before in size, scene, bias or a setting that affects the expectation, or shares samples with them
+  /// before in size, scene, light that is found, bias (with `clamp`: in the method) or a setting that affects
+  /// the expectation, or shares samples with them
   void add(const std::string& name, const Image& image);
   /// The merged image of at least one. Attributes that differ become lists; samples and seconds are added.
   [[nodiscard]] Image result() const;
-  /// Warnings about a result that is correct but not as good as it could be.
+  /// Warnings about a result that is correct but not as good, or not as complete, as it could be.
   [[nodiscard]] std::vector<std::string> notes() const;
 
 private:
@@ -44,6 +46,7 @@ private:
 
   int width_ = 0, height_ = 0;
   std::vector<Source> sources_;
+  std::set<std::string> left_out_; // channels
   TakenSamples taken_;
   std::array<std::vector<double>, 3> radiance_, variance_; // weighted sums
 };

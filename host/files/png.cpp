@@ -50,6 +50,7 @@ public:
     size_ = fmt::format("{}x{}", width, height);
     call([&] {
       png_set_write_fn(png_, this, write_bytes, nullptr);
+      png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
       png_set_IHDR(png_, info_, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), 8,
                    PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_BASE, PNG_FILTER_TYPE_BASE);
       png_set_sRGB(png_, info_, PNG_sRGB_INTENT_PERCEPTUAL);

@@ -267,7 +267,16 @@ void Film::report(const Progress& progress, std::size_t pixel) const {
     progress(static_cast<double>(pixel) / static_cast<double>(pixels_.size()));
 }
 
+double Film::least_scale() const {
+  if (!signed_) return 0.0;
+  double sum = 0.0;
+  for (std::size_t pixel = 0; pixel < pixels_.size(); ++pixel)
+    for (std::size_t channel = 0; channel < channel_count; ++channel) sum += mean_in_units(pixel, channel);
+  return std::max(0.0, sum / (channel_count * static_cast<double>(pixels_.size())));
+}
+
 Film::RelativeError Film::relative_error(const Progress& progress) const {
+  const double least = least_scale();
   double variances = 0.0, errors = 0.0;
   std::uint64_t count = 0; // of channels that are not black
   std::size_t known = 0;   // pixels of whose own samples there are enough
@@ -280,8 +289,8 @@ Film::RelativeError Film::relative_error(const Progress& progress) const {
     const std::uint64_t own = pixels_[pixel].samples;
     const double samples = own > 0 ? static_cast<double>(own) : splatting_paths_per_pixel();
     for (std::size_t channel = 0; channel < channel_count; ++channel) {
-      const double mean = mean_in_units(pixel, channel);
-      if (!(mean > 0.0)) continue;
+      const double radiance = mean_in_units(pixel, channel), mean = std::max(radiance, least);
+      if (radiance == 0.0 || !(mean > 0.0)) continue;
       const double variance = variance_in_units(pixel, channel);
       variances += samples * variance / (mean * mean);
       errors += std::sqrt(variance) / mean;

@@ -81,9 +81,10 @@ public:
     return pixels * (samples * double{sizeof(Pixel)} + splats * double{sizeof(Splats)} +
                      blocks * double{sizeof(BlockMoments)} + techniques * Techniques::bytes_per_pixel);
   }
-  /// The same of this film, without techniques.
+  /// The same of this film.
   [[nodiscard]] double bytes() const {
-    return bytes(static_cast<double>(pixels_.size()), 1, splats() ? 1 : 0, dependent_samples() ? 1 : 0, 0);
+    return bytes(static_cast<double>(pixels_.size()), 1, splats() ? 1 : 0, dependent_samples() ? 1 : 0,
+                 techniques_ ? static_cast<int>(techniques_->sums().size()) : 0);
   }
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
@@ -138,6 +139,12 @@ public:
   }
   [[nodiscard]] bool dependent_samples() const { return !blocks_of_pixels_.empty(); }
 
+  /// Contributions may be negative, by a control variate. The mean of a pixel of radiance 0 then has either
+  /// sign, so that errors are relative to at least least_scale().
+  void use_signed_contributions() { signed_ = true; }
+  /// The mean radiance of the image, in units; 0 if no contribution is negative.
+  [[nodiscard]] double least_scale() const;
+
   /// Also records the contributions of each technique from here on.
   void use_techniques() {
     if (!techniques_) techniques_.emplace(pixels_.size());
@@ -160,7 +167,7 @@ public:
   /// Whether every pixel has at least two samples, its own or splatting paths.
   [[nodiscard]] bool has_variance() const;
 
-  /// Means over the pixels and channels that are not black.
+  /// Means over the pixels and channels that are not black. See also use_signed_contributions().
   struct RelativeError {
     /// Variance of one sample / mean^2. 0 if no pixel has two samples and a mean above 0.
     double variance = 0.0;
@@ -243,6 +250,7 @@ private:
   double clamped_ = 0.0;        ///< of blocks, in units, sum over channels
   double clamped_of_splats_ = 0.0;
   std::optional<Techniques> techniques_;
+  bool signed_ = false; ///< contributions may be negative
 };
 
 } // namespace phlux::film

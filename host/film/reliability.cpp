@@ -71,7 +71,8 @@ struct Predictions {
 class Tiles {
 public:
   explicit Tiles(const Film& film, const Progress& progress = {})
-      : film_(film), samples_(film.samples_per_pixel()), tiles_(film.evidence().tiles().count()) {
+      : film_(film), samples_(film.samples_per_pixel()), least_scale_(film.least_scale()),
+        tiles_(film.evidence().tiles().count()) {
     const std::size_t pixels = film.pixels().size(), row_of_tiles = std::size_t{TileMeans::tile_edge} *
                                                                     static_cast<std::size_t>(film.width());
     double black_in_quiet_tiles = 0.0;
@@ -80,7 +81,7 @@ public:
       if (progress) progress(static_cast<double>(first) / static_cast<double>(pixels));
       spreads.clear();
       for (std::size_t pixel = first; pixel < std::min(first + row_of_tiles, pixels); ++pixel) {
-        spreads.push_back(film.spread(pixel));
+        spreads.push_back(spread(pixel));
         Tile& tile = tiles_[index(pixel)];
         tile.radiance += spreads.back().mean;
         tile.pixels += 1.0;
@@ -101,10 +102,17 @@ public:
   [[nodiscard]] const Tile& all() const { return all_; }
   [[nodiscard]] const Predictions& predictions() const { return predictions_; }
   [[nodiscard]] Prediction predict(std::size_t pixel) const {
-    return predict(tiles_[index(pixel)], film_.spread(pixel));
+    return predict(tiles_[index(pixel)], spread(pixel));
   }
 
 private:
+  // With a radiance to which errors are relative.
+  [[nodiscard]] Film::Spread spread(std::size_t pixel) const {
+    Film::Spread spread = film_.spread(pixel);
+    if (spread.mean != 0.0) spread.mean = std::max(spread.mean, least_scale_);
+    return spread;
+  }
+
   [[nodiscard]] std::size_t index(std::size_t pixel) const { return film_.evidence().tiles().tile_of(pixel); }
 
   void add(Tile& tile, const Film::Spread& spread) {
@@ -156,7 +164,7 @@ private:
   }
 
   const Film& film_;
-  double samples_;
+  double samples_, least_scale_;
   std::vector<Tile> tiles_;
   Tile all_;
   Predictions predictions_;

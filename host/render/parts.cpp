@@ -124,8 +124,6 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
   parts.weights = settings.weights;
   parts.techniques = settings.techniques;
   parts.roulette = settings.roulette;
-  if (parts.techniques && parts.integrator == Integrator::path)
-    throw UsageError("`contributions`: path tracing has only one technique: use `integrator` bidir or light");
   // Images of techniques need every connection.
   if (parts.integrator == Integrator::bidir && !parts.techniques) parts.connections = settings.connections;
   if (settings.clamp) parts.clamp = in_units("clamp", *settings.clamp, lights.unit);

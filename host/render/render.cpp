@@ -231,6 +231,7 @@ Statistics Renderer::render(const Settings& settings, film::Film& film, const Ev
     check_samples(settings);
     set_unit(film, ready_->unit);
     if (settings.clamp) film.set_clamp(*settings.clamp);
+    if (settings.ambient) film.use_signed_contributions();
     if (settings.techniques) film.use_techniques();
     if (samples_point_sets(settings)) film.use_dependent_samples();
     std::vector<Processor*> all = processors();

@@ -110,8 +110,8 @@ Spectrum read_tabulated(Properties& properties, const std::string& type) {
 
 class ColorReader {
 public:
-  ColorReader(const Element& property, const Document& document, bool emission)
-      : property_(property), document_(document), emission_(emission) {}
+  ColorReader(const Element& property, const Document& document, bool emission, double most)
+      : property_(property), document_(document), emission_(emission), most_(most) {}
 
   [[nodiscard]] Rgb read() const {
     if (property_.tag == "blackbody") return black_body_color(kelvin(property_["temperature"])) * scale();
@@ -125,6 +125,9 @@ public:
     const auto pieces = split(text);
     const bool hexadecimal = pieces.size() == 1 && pieces[0].starts_with('#');
     Rgb color = hexadecimal ? read_hexadecimal(property_, pieces[0].substr(1)) : read_numbers(property_);
+    if (property_.tag == "spectrum" && emission_ && document_.major_version > 0 && !hexadecimal &&
+        pieces.size() == 1)
+      return color_of_xyz(color); // of equal energy, which is not white in sRGB
     if (property_.tag == "srgb")
       for (int i = 0; i < 3; ++i) color[i] = decode_srgb(color[i]);
     return property_.tag == "xyz" ? in_gamut(color_of_xyz(color)) : color;
@@ -133,14 +136,15 @@ public:
 private:
   /// The colour with channels that Mitsuba does not clamp to the nearest valid value clamped.
   [[nodiscard]] Rgb in_gamut(const Rgb& color) const {
-    const Rgb clamped = glm::clamp(color, 0.0, emission_ ? HUGE_VAL : 1.0);
+    const Rgb clamped = glm::clamp(color, 0.0, most_);
     if (glm::compMax(glm::abs(clamped - color)) > 0.01 * glm::compMax(glm::abs(color)))
       warn(property_.where,
            "the colour of '" + property_["name"] + "' is outside the gamut of sRGB: clamped");
     return clamped;
   }
 
-  [[nodiscard]] Rgb of_spectrum(const Spectrum& spectrum) const {
+  [[nodiscard]] Rgb of_spectrum(Spectrum spectrum) const {
+    if (document_.major_version == 0) extend_to_zero(spectrum);
     document_.note_once(property_.where,
                         std::string("spectra become colours by a fit of the CIE 1931 functions, ") +
                             spectrum_error);
@@ -193,6 +197,7 @@ private:
   const Element& property_;
   const Document& document_;
   bool emission_;
+  double most_;
 };
 
 } // namespace
@@ -201,8 +206,8 @@ double decode_srgb(double encoded) {
   return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
 }
 
-scene::Rgb read_color(const Element& property, const Document& document, bool emission) {
-  return ColorReader(property, document, emission).read();
+scene::Rgb read_color(const Element& property, const Document& document, bool emission, double most) {
+  return ColorReader(property, document, emission, most).read();
 }
 
 } // namespace phlux::scene_file

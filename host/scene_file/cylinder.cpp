@@ -5,20 +5,21 @@
 
 #include <glm/geometric.hpp>
 
+#include "scene_file/coordinate_system.h"
+
 namespace phlux::scene_file {
 
 namespace {
 
-constexpr std::uint32_t facets = 256;
+constexpr std::uint32_t facets = facets_of_cylinder;
 /// Angle of half a facet.
 constexpr double half_angle = std::numbers::pi / facets;
 
 } // namespace
 
-MeshPart cylinder(const scene::Vec3& p0, const scene::Vec3& p1, double radius) {
+MeshPart cylinder(const scene::Vec3& p0, const scene::Vec3& p1, double radius, int major_version) {
   const scene::Vec3 axis = glm::normalize(p1 - p0);
-  const scene::Vec3 other = std::abs(axis.x) < 0.5 ? scene::Vec3(1, 0, 0) : scene::Vec3(0, 1, 0);
-  const scene::Vec3 u = glm::normalize(glm::cross(other, axis)), v = glm::cross(axis, u);
+  const scene::Vec3 u = first_tangent(axis, major_version), v = glm::cross(axis, u);
   // The polygon through these points is as long as the circle: 2 facets r' sin(half_angle) = 2 pi r.
   const double corner_radius = radius * half_angle / std::sin(half_angle);
   MeshPart part;

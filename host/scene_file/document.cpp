@@ -112,7 +112,7 @@ std::filesystem::path Document::find(const std::string& name) const {
   for (const auto& folder : folders)
     for (const auto& spelling : {name, portable})
       if (std::filesystem::exists(folder / spelling, ignored)) return files.emplace_back(folder / spelling);
-  return files.emplace_back(folders.front() / name);
+  return files.emplace_back(folders.back() / name);
 }
 
 void Document::note_once(const Location& where, const std::string& message) const {

@@ -36,7 +36,8 @@ struct Document {
   int major_version = 0;                         ///< 0: the names are Mitsuba 0.5's and 0.6's
   std::map<std::string, const Element*> objects; ///< by id; they point into `scene`
   std::set<const Element*> referred_to;          ///< objects that a <ref> names
-  std::vector<std::filesystem::path> folders;    ///< in which other files are sought, the scene's own first
+  std::vector<std::filesystem::path>
+      folders; ///< in which other files are sought in this order, the scene's own last
   /// What has been found wrong so far; also readers to whom the document is const add to it.
   const std::unique_ptr<Problems> problems = std::make_unique<Problems>();
 

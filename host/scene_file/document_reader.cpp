@@ -92,13 +92,15 @@ public:
     return {name_, static_cast<int>(line) + 1};
   }
 
-  /// The outermost element. @throws SceneError unless it is <scene>
-  pugi::xml_node parse(pugi::xml_document& xml) const {
+  /// The outermost element. @throws SceneError unless it is <scene>, or an object in an included file
+  pugi::xml_node parse(pugi::xml_document& xml, bool is_included) const {
     const auto result = xml.load_buffer(text_.data(), text_.size(), pugi::parse_default, pugi::encoding_utf8);
     if (!result)
       fail(at(result.offset), std::string("malformed XML (") + result.description() + ")", "well-formed XML");
-    const pugi::xml_node root = xml.document_element();
-    if (std::string(root.name()) != "scene" || root.next_sibling())
+    pugi::xml_node root = xml.document_element();
+    const bool is_object = is_included && is_object_tag(root.name());
+    if (is_object) root.remove_attribute("version"); // that of the scene counts
+    if ((std::string(root.name()) != "scene" && !is_object) || root.next_sibling())
       fail(at(root.offset_debug()), "the file's only outermost element must be <scene>",
            "<scene version=\"0.6.0\">...</scene>");
     return root;
@@ -132,11 +134,14 @@ private:
       fail(named_at, "'" + path.string() + "' includes itself", "a file may not contain itself");
     if (++included_ > most_includes)
       fail(named_at, "too many files are included", "at most " + std::to_string(most_includes));
-    open_.push_back(canonical);
     pugi::xml_document xml;
-    const pugi::xml_node root = file.parse(xml);
-    for (const auto& found : root.select_nodes(".//default")) set_default(file, found.node());
-    Element element = convert(file, root, 0);
+    const pugi::xml_node root = file.parse(xml, !open_.empty());
+    open_.push_back(canonical);
+    Element element;
+    if (std::string(root.name()) == "scene")
+      element = convert(file, root, 0);
+    else
+      element.children.push_back(convert(file, root, 0)); // an included object
     open_.pop_back();
     return element;
   }
@@ -169,14 +174,15 @@ private:
     const Location where = file.at(child.offset_debug());
     if (child.type() == pugi::node_pcdata || child.type() == pugi::node_cdata)
       fail(where, "text inside <" + element.tag + ">", "only elements and comments may stand there");
-    if (child.type() != pugi::node_element || std::string_view(child.name()) == "default") return;
+    if (child.type() != pugi::node_element) return;
+    if (std::string_view(child.name()) == "default") return set_default(file, child);
     if (!is_container(element.tag))
       fail(where, "element inside <" + element.tag + ">", "it contains nothing");
     Element converted = convert(file, child, depth + 1);
     if (converted.tag == "include")
       include(element, converted);
     else if (converted.tag == "path")
-      document_.folders.push_back(document_.find(converted["value"]));
+      add_folder(converted);
     else
       element.children.push_back(std::move(converted));
   }
@@ -184,8 +190,23 @@ private:
   void include(Element& element, const Element& statement) {
     if (statement["filename"].empty())
       fail(statement.where, "<include> without a filename", "<include filename=\"...\"/>");
-    Element included = read_file(document_.find(statement["filename"]), statement.where);
+    // As in Mitsuba 3, first beside the file that includes it.
+    std::error_code ignored;
+    const std::filesystem::path beside = open_.back().parent_path() / statement["filename"];
+    Element included =
+        read_file(std::filesystem::exists(beside, ignored) ? document_.files.emplace_back(beside)
+                                                           : document_.find(statement["filename"]),
+                  statement.where);
     std::ranges::move(included.children, std::back_inserter(element.children));
+  }
+
+  /// As in Mitsuba 3, files are sought in the folder of the last <path> first.
+  void add_folder(const Element& statement) {
+    const std::filesystem::path folder = document_.find(statement["value"]);
+    std::error_code ignored;
+    if (!std::filesystem::is_directory(folder, ignored))
+      fail(statement.where, "<path>: '" + statement["value"] + "' is no folder", "an existing folder");
+    document_.folders.insert(document_.folders.begin(), folder);
   }
 
   void add_attribute(Element& element, const Attributes& known, const std::string& name,

@@ -1,6 +1,7 @@
 #include "scene_file/emitters.h"
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtx/component_wise.hpp>
 #include <glm/trigonometric.hpp>
@@ -80,7 +81,8 @@ void read_directional(Properties& properties, scene::Scene& scene) {
   const auto direction = explicit_place(properties, "direction");
   if (direction && *direction == Vec3(0.0))
     properties.fail_at("direction", "it has no length", "a vector along the light");
-  light.direction = direction ? glm::normalize(*direction) : axis(properties);
+  light.direction =
+      direction ? glm::normalize(*direction / glm::compMax(glm::abs(*direction))) : axis(properties);
   light.irradiance = emission(properties, "irradiance");
   if (emits(properties, light.irradiance)) scene.directional_lights.push_back(light);
 }

@@ -55,9 +55,11 @@ public:
   [[nodiscard]] bool readable() const { return readable_; }
   [[nodiscard]] std::uint64_t size() const { return size_; }
   [[nodiscard]] bool cut_short() const { return cut_short_; }
-  [[nodiscard]] std::string first_bytes(std::size_t count) {
+  /// Those from `offset` on, fewer at the end of the file.
+  [[nodiscard]] std::string bytes(std::uint64_t offset, std::size_t count) {
     std::string bytes(count, '\0');
-    rewind();
+    stream_.clear();
+    stream_.seekg(static_cast<std::streamoff>(offset));
     stream_.read(bytes.data(), static_cast<std::streamsize>(count));
     bytes.resize(static_cast<std::size_t>(stream_.gcount()));
     return bytes;
@@ -124,6 +126,21 @@ Pixels<Value> decoded(const Location& file, Source& source, Load load, bool alph
        "the whole file");
 }
 
+/// Of a PNG file, for whose chunks stb_image allocates what they claim before it reads them.
+void check_chunks(const Location& file, Source& source) {
+  if (source.bytes(0, 8) != "\x89PNG\r\n\x1a\n") return;
+  constexpr std::uint64_t rest = 12; // of a chunk: its length, type and checksum
+  for (std::uint64_t at = 8; at < source.size();) {
+    const std::string head = source.bytes(at, 8);
+    if (head.size() == 8 && head.substr(4) == "IEND") return;
+    std::uint64_t chunk = rest;
+    for (std::size_t i = 0; i < 4 && i < head.size(); ++i)
+      chunk += std::uint64_t{static_cast<unsigned char>(head[i])} << (24 - 8 * i);
+    if (head.size() < 8 || chunk > source.size() - at) fail(file, "the image is cut short", "the whole file");
+    at += chunk;
+  }
+}
+
 /// Of images that have none.
 [[noreturn]] void fail_without_alpha(const Location& file) {
   fail(file, "the image has no alpha", "an image with alpha, or one of its other channels");
@@ -135,6 +152,7 @@ ImageFile read_by_stb(const Location& file, Source& source, bool alpha) {
   if (source.call(stbi_info_from_callbacks, &image.width, &image.height, &channels) == 0)
     fail(file, fmt::format("not an image that can be read ({})", stbi_failure_reason()), formats);
   check_size(file, source.size(), image.width, image.height);
+  check_chunks(file, source);
   const auto pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
   if (alpha && channels != 2 && channels != 4) fail_without_alpha(file);
   if (source.call(stbi_is_hdr_from_callbacks) != 0) {
@@ -226,7 +244,7 @@ ImageFile read_image(const std::filesystem::path& file, const Location& named_at
   if (!source.readable())
     fail(named_at, "image file '" + file.string() + "' cannot be read",
          "an existing file, named relative to the scene's folder");
-  if (source.first_bytes(4) == "\x76\x2f\x31\x01") return read_exr(file, where, source.size(), alpha);
+  if (source.bytes(0, 4) == "\x76\x2f\x31\x01") return read_exr(file, where, source.size(), alpha);
   return read_by_stb(where, source, alpha);
 }
 

@@ -1,7 +1,6 @@
 #include "scene_file/materials.h"
 
 #include <algorithm>
-#include <tuple>
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
@@ -117,7 +116,7 @@ void read_parameter(Properties& properties, const Parameter& parameter, const st
     return;
   }
   const bool ships = material.model->text.empty();
-  Rgb value = colour ? properties.color(name, Rgb(parameter.default_value))
+  Rgb value = colour ? properties.color(name, Rgb(parameter.default_value), parameter.highest)
                      : Rgb(read_number(properties, parameter, name, ships));
   if (colour && ships && (name == "eta" || name == "k")) value = read_index(properties, name, value);
   check_range(properties, parameter, name, value, value, rules.excess);
@@ -157,18 +156,20 @@ void conserve_energy(Properties& properties, Material& material, ExcessEnergy ex
 
 /// The index of refraction that a conductor has unless `eta` and `k` are given: that of `material`, "none"
 /// for a mirror; relative to that of `ext_eta`. In version 0 of the format, these are copper and air by
-/// default.
+/// default, and eta or k alone replaces that of the material.
 void read_conductor(Properties& properties, Material& material) {
   const bool version_0 = properties.document().major_version == 0;
-  const bool given = properties.has("eta") || properties.has("k");
-  const std::string metal = properties.string("material", version_0 && !given ? "Cu" : "none");
+  const bool has_eta = properties.has("eta"), has_k = properties.has("k");
+  const std::string metal = properties.string("material", version_0 && !(has_eta && has_k) ? "Cu" : "none");
   const auto index = index_of_metal(metal);
   if (!index && metal != "none")
     properties.fail_at("material", "no metal is named '" + metal + "'",
                        "none (a mirror), or give eta and k as rgb, or one of " + names_of_metals());
-  if (metal != "none" && given) properties.fail_at("material", "a metal and eta or k", "one of the two");
+  if (metal != "none" && (has_eta || has_k) && !version_0)
+    properties.fail_at("material", "a metal and eta or k", "one of the two");
   Rgb &eta = material.value("eta"), &k = material.value("k");
-  if (index) std::tie(eta, k) = std::tie(index->eta, index->k);
+  if (index && !has_eta) eta = index->eta;
+  if (index && !has_k) k = index->k;
   const double outside = properties.index_of_refraction("ext_eta", version_0 ? 1.000277 : 1.0);
   if (!(outside > 0))
     properties.fail_at("ext_eta", fmt::format("{:g} is out of range", outside), "a number above 0");
@@ -210,7 +211,8 @@ Material read_two_sided(Properties& properties, const Document& document, Materi
   return material;
 }
 
-/// Opacities of masks inside one another multiply.
+/// Opacities of masks inside one another multiply. From version 2 of the format on, the opacity is a number:
+/// the mean of a colour, the luminance of a bitmap.
 Material read_mask(Properties& properties, const Document& document, MaterialRules rules) {
   const Location& where = properties.element().where;
   const Element* nested = properties.object("bsdf");
@@ -223,12 +225,14 @@ Material read_mask(Properties& properties, const Document& document, MaterialRul
   if (material.is_masked() && (element || material.opacity_texture))
     fail(where, "a mask around a mask, and a texture in one of them", "one mask with the product of both");
   if (element) {
-    material.set_opacity(rules.textures.read(*element, document));
+    material.set_opacity(document.major_version == 0 ? rules.textures.read(*element, document)
+                                                     : rules.textures.read_number(*element, document));
     check_range(properties, opacity, "opacity", material.opacity_texture->smallest(), material.opacity,
                 ExcessEnergy::error);
     return material;
   }
-  const Rgb value = properties.color("opacity", Rgb(opacity.default_value));
+  Rgb value = properties.color("opacity", Rgb(opacity.default_value));
+  if (document.major_version > 0) value = Rgb((value.r + value.g + value.b) / 3.0);
   check_range(properties, opacity, "opacity", value, value, ExcessEnergy::error);
   material.opacity *= value;
   return material;

@@ -108,7 +108,7 @@ void compute_missing_normals(Mesh& mesh) {
     }
   }
   for (std::size_t i = 0; i < computed.size(); ++i)
-    if (computed[i] && !missing(i)) mesh.normals[i] = glm::normalize(mesh.normals[i]);
+    if (computed[i] && !missing(i)) mesh.normals[i] = glm::vec3(glm::normalize(Vec3(mesh.normals[i])));
   for (const Triangle& t : mesh.triangles) // if the sum cancels, the normal of any adjacent triangle
     for (const auto i : t)
       if (missing(i)) mesh.normals[i] = glm::vec3(glm::normalize(area_vector(mesh, t)));

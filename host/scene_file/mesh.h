@@ -35,6 +35,9 @@ struct MeshRequest {
   bool flip_tex_coords = false;     ///< v becomes 1 - v
   int shape_index = -1; ///< the part of the file: of serialized files, -1: the first; of obj files, -1: all
   ObjParts parts = ObjParts::one;
+  /// obj: groups and materials share no vertices, so that computed normals are not smooth across their
+  /// borders.
+  bool separate_groups = false;
 };
 
 /// A mesh of a file, in object space, with zero for missing normals.

@@ -22,7 +22,7 @@ constexpr std::uint64_t most_copied = 100'000'000;
 /// Shapes with equal keys read the same parts.
 auto key_of(const MeshRequest& request) {
   return std::tuple(request.file, request.shape_index, request.face_normals, request.parts,
-                    request.texture_coordinates, request.flip_tex_coords);
+                    request.separate_groups, request.texture_coordinates, request.flip_tex_coords);
 }
 
 MeshFile read_file(const MeshRequest& request) {

@@ -98,8 +98,8 @@ private:
       file_.material_library = rest_of_line();
     else if (keyword == "usemtl")
       begin_material();
-    else if (keyword == "g" && request_.parts == ObjParts::by_groups)
-      end_part();
+    else if (keyword == "g")
+      begin_group();
     else if (!has_no_polygons(keyword))
       pass_over(keyword);
     while (!word().empty()) {
@@ -119,7 +119,20 @@ private:
     const bool splits = request_.parts >= ObjParts::by_materials ||
                         (request_.parts == ObjParts::by_library_materials && !file_.material_library.empty());
     if (splits && (name != part_.material || request_.parts == ObjParts::by_groups)) end_part();
+    if (request_.separate_groups) forget_vertices();
     part_.material = name;
+  }
+
+  void begin_group() {
+    if (request_.parts == ObjParts::by_groups) end_part();
+    if (request_.separate_groups) forget_vertices();
+  }
+
+  /// Corners to come share no vertices with those before.
+  void forget_vertices() {
+    for (const auto position : touched_) first_use_[position] = {};
+    touched_.clear();
+    other_uses_.clear();
   }
 
   /// Begins a part of the same material, unless this one has no triangles yet.
@@ -135,9 +148,7 @@ private:
     if (!any_normal_) part_.mesh.normals.clear();
     if (!any_texture_coordinate_) part_.mesh.texture_coordinates.clear();
     file_.parts.push_back(std::move(part_));
-    for (const auto position : touched_) first_use_[position] = {};
-    touched_.clear();
-    other_uses_.clear();
+    forget_vertices();
     any_normal_ = any_texture_coordinate_ = false;
   }
 

@@ -1,11 +1,13 @@
 #include "scene_file/properties.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "scene_file/color.h"
 #include "scene_file/named_media.h"
 #include "scene_file/transform.h"
 #include "scene_file/values.h"
+#include "settings/values.h"
 
 namespace phlux::scene_file {
 
@@ -112,9 +114,10 @@ std::optional<scene::Vec3> Properties::vector(const std::string& name) {
   return read_triple(*property, 0.0);
 }
 
-scene::Rgb Properties::color(const std::string& name, const scene::Rgb& otherwise) {
+scene::Rgb Properties::color(const std::string& name, const scene::Rgb& otherwise, double most) {
   const Element* property = find(name, {"rgb", "srgb", "spectrum", "float", "blackbody", "xyz"});
-  return property ? read_color(*property, document_, object_.tag == "emitter") : otherwise;
+  const bool emission = object_.tag == "emitter";
+  return property ? read_color(*property, document_, emission, emission ? HUGE_VAL : most) : otherwise;
 }
 
 const Element* Properties::texture(const std::string& name) {
@@ -125,7 +128,7 @@ const Element* Properties::texture(const std::string& name) {
 
 glm::dmat4 Properties::transform(const std::string& name) {
   const Element* property = find(name, {"transform"});
-  return property ? read_transform(*property) : glm::dmat4(1.0);
+  return property ? read_transform(*property, document_.major_version) : glm::dmat4(1.0);
 }
 
 std::vector<std::pair<std::string, const Element*>> Properties::named_objects(const std::string& tag) {
@@ -161,8 +164,15 @@ void Properties::pass_over(std::initializer_list<const char*> names) {
 }
 
 void Properties::pass_over_rest() {
-  for (const auto& [name, property] : properties_)
-    if (!asked_.contains(name)) pass_over({name.c_str()});
+  const std::vector<std::string> known(asked_.begin(), asked_.end());
+  for (const auto& [name, property] : properties_) {
+    if (asked_.contains(name)) continue;
+    const std::string meant = settings::nearest(name, known);
+    if (!meant.empty())
+      fail_at(name, "is not a property of " + object_.name(), "did you mean " + spelling(meant) + "?");
+    asked_.insert(name);
+    note(property->where, "'" + (*property)["name"] + "' is not used");
+  }
 }
 
 void Properties::require(const std::string& name, bool value) {

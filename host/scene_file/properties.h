@@ -33,7 +33,8 @@ public:
   [[nodiscard]] bool boolean(const std::string& name, bool otherwise);
   [[nodiscard]] std::string string(const std::string& name, const std::string& otherwise);
   [[nodiscard]] std::optional<scene::Vec3> vector(const std::string& name);
-  [[nodiscard]] scene::Rgb color(const std::string& name, const scene::Rgb& otherwise);
+  /// Channels of spectra above `most` become `most`, unless the object is an emitter.
+  [[nodiscard]] scene::Rgb color(const std::string& name, const scene::Rgb& otherwise, double most = 1.0);
   /// The <texture> of this name, nested or by <ref>; null if there is none, or a property instead.
   [[nodiscard]] const Element* texture(const std::string& name);
   /// Affine and invertible; the identity if it is absent.
@@ -48,7 +49,8 @@ public:
 
   /// Ignores properties that cannot change the image, with a note for each.
   void pass_over(std::initializer_list<const char*> names);
-  /// Ignores all properties that were not queried, with a note for each.
+  /// Ignores all properties that were not queried, with a note for each, unless they seem to be misspelt
+  /// names of those that were.
   void pass_over_rest();
   /// Checks a boolean that is supported only with this value.
   void require(const std::string& name, bool value);

@@ -105,6 +105,9 @@ void read_film(const Element& film, const Document& document, scene::Scene& scen
   camera.height = positive(properties, "height", camera.height, largest_size);
   scene.defaults.crop = read_crop(properties, camera);
   if (const Element* filter = properties.object("rfilter")) camera.filter = read_filter(*filter, document);
+  properties.pass_over({"file_format", "pixel_format", "component_format", "banner", "attach_log",
+                        "high_quality_edges", "sample_border", "compensate", "gamma", "exposure", "key",
+                        "burn", "tonemap_method", "digits", "variable"});
   properties.pass_over_rest();
   properties.finish();
 }
@@ -115,6 +118,7 @@ void read_sampler(const Element& sampler, const Document& document, scene::Rende
   Properties properties(sampler, document);
   defaults.samples_per_pixel =
       positive(properties, "sample_count", defaults.samples_per_pixel, std::numeric_limits<int>::max());
+  properties.pass_over({"seed", "dimension", "scramble", "jitter"});
   properties.pass_over_rest();
   properties.finish();
 }

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <utility>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtx/component_wise.hpp>
 #include <glm/mat3x3.hpp>
 
 #include "scene_file/cylinder.h"
@@ -80,6 +83,8 @@ scene::Sphere sphere(Properties& properties, const glm::dmat4& own, const glm::d
   if (properties.document().major_version == 0) center /= glm::length(Vec3(own[0]));
   result.center = Vec3(to_world * glm::dvec4(center, 1.0));
   result.radius = radius * glm::length(Vec3(to_world[0]));
+  if (!(glm::compMax(glm::abs(result.center)) + result.radius <= std::numeric_limits<float>::max()))
+    properties.fail_at("radius", "the sphere is outside the range of single precision", "a smaller one");
   for (int axis = 0; axis < 3; ++axis)
     result.axes[static_cast<std::size_t>(axis)] = glm::normalize(Vec3(to_world[axis]));
   result.front_is_inside = properties.boolean("flip_normals", false);
@@ -169,6 +174,7 @@ void read_mesh_shape(Properties& properties, const glm::dmat4& own, const Attach
   const bool collapse = properties.boolean("collapse", false);
   const bool load_materials = properties.boolean("load_materials", true);
   if (has_named_bsdfs(properties) && !collapse) {
+    request.separate_groups = true;
     shape.library_materials = load_materials && !attached.has_bsdf;
     request.parts = request.shape_index >= 0      ? ObjParts::by_groups
                     : !attached.materials.empty() ? ObjParts::by_materials
@@ -209,9 +215,13 @@ void read_cylinder(Properties& properties, const glm::dmat4& own, const scene::S
   request.flip_normals = properties.boolean("flip_normals", false);
   properties.pass_over({"face_normals"});
   properties.document().note_once(properties.element().where, cylinder_note);
-  target.scene.meshes.push_back(finish_mesh(cylinder(p0, p1, radius), request));
+  target.scene.meshes.push_back(
+      finish_mesh(cylinder(p0, p1, radius, properties.document().major_version), request));
   target.scene.meshes.back().surface = surface;
 }
+
+/// Shapes after which the scene has no more instances: each takes up to a kilobyte.
+constexpr std::size_t most_copied = 10'000'000;
 
 /// Reads the shapes of the group once more, transformed by `to_world`.
 void read_instance(Properties& properties, const glm::dmat4& to_world, const ShapeTarget& target) {
@@ -221,6 +231,12 @@ void read_instance(Properties& properties, const glm::dmat4& to_world, const Sha
          properties.element().name() +
              (target.instance ? " inside a shapegroup" : " without a reference to a shapegroup"),
          "<ref id=\"...\"/> to a <shape type=\"shapegroup\">, which contains no instances");
+  const std::size_t shapes = target.scene.patches.size() + target.scene.spheres.size() +
+                             facets_of_cylinder * target.scene.meshes.size(); // other meshes are read later
+  if (shapes > most_copied)
+    fail(properties.element().where,
+         "instances are copies, and the scene has more than " + std::to_string(most_copied) + " shapes",
+         "fewer instances, or smaller groups");
   Properties of_group(*group, properties.document());
   ShapeTarget inside = target;
   inside.instance = to_world;

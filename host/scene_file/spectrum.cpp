@@ -55,6 +55,14 @@ double value_at(const std::vector<SpectralValue>& spectrum, double wavelength) {
 
 } // namespace
 
+void extend_to_zero(std::vector<SpectralValue>& spectrum) {
+  if (spectrum.size() < 2) return;
+  const SpectralValue first = spectrum.front(), last = spectrum.back();
+  const double spacing = (last.wavelength - first.wavelength) / static_cast<double>(spectrum.size() - 1);
+  if (first.value != 0.0) spectrum.insert(spectrum.begin(), {first.wavelength - spacing, 0.0});
+  if (last.value != 0.0) spectrum.push_back({last.wavelength + spacing, 0.0});
+}
+
 scene::Rgb color_of_xyz(const Vec3& xyz) {
   // IEC 61966-2-1, from the chromaticities of its primaries; by columns.
   constexpr glm::dmat3 to_rgb(3.2404542, -0.9692660, 0.0556434, -1.5371385, 1.8760108, -0.2040259, -0.4985314,

@@ -14,6 +14,9 @@ struct SpectralValue {
   double value;
 };
 
+/// As Mitsuba 0.x does, lets a spectrum that ends above 0 fall to 0 within the mean distance of its points.
+void extend_to_zero(std::vector<SpectralValue>& spectrum);
+
 /// The light under which a spectrum is seen: `equal` energy at every wavelength, for emission; or D65, in
 /// which a constant spectrum is grey.
 enum class Illuminant { equal, d65 };

@@ -50,6 +50,23 @@ void decode_floats(TexelImage& image, double gamma, const Location& file) {
   for (float& value : image.floats) value = static_cast<float>(decode(static_cast<double>(value), gamma));
 }
 
+/// Sets all channels of every pixel to its luminance (Rec. 709).
+void keep_luminance(TexelImage& image) {
+  const auto luminance = [](float r, float g, float b) {
+    return 0.212671f * r + 0.715160f * g + 0.072169f * b;
+  };
+  if (image.floats.empty()) image.floats.resize(image.bytes.size() / 4 * 3);
+  for (std::size_t pixel = 0; pixel < image.floats.size() / 3; ++pixel) {
+    float* const to = &image.floats[3 * pixel];
+    const std::uint8_t* const bytes = image.bytes.empty() ? nullptr : &image.bytes[4 * pixel];
+    const auto& decoded = image.decoded;
+    const float y = bytes ? luminance(decoded[bytes[0]], decoded[bytes[1]], decoded[bytes[2]])
+                          : luminance(to[0], to[1], to[2]);
+    to[0] = to[1] = to[2] = y;
+  }
+  image.bytes.clear();
+}
+
 Texture::Wrap wrap(Properties& properties, const std::string& name, const std::string& otherwise) {
   const std::string mode = properties.string(name, otherwise);
   if (mode == "repeat") return Texture::Wrap::repeat;
@@ -84,9 +101,9 @@ std::string channel_of(Properties& properties) {
   properties.fail_at("channel", "'" + channel + "' is not supported", "r, g, b or a");
 }
 
-/// Sets all channels of every pixel to this one, unless it is alpha, as which it has been read.
+/// Sets all channels of every pixel to this one of the file, unless it is alpha, as which it has been read.
 void keep_channel(ImageFile& image, const std::string& channel) {
-  if (channel.empty() || channel == "a") return;
+  if (channel.empty() || channel == "a" || channel == "y") return;
   const std::size_t kept = channel == "r" ? 0 : channel == "g" ? 1 : 2;
   for (std::size_t i = 0; i < image.bytes.size(); i += 4)
     image.bytes[i] = image.bytes[i + 1] = image.bytes[i + 2] = image.bytes[i + kept];
@@ -114,7 +131,15 @@ void read_colors(Properties& properties, Texture& texture) {
 
 } // namespace
 
-scene::TexturePointer TextureReader::read(const Element& element, const Document& document) {
+scene::TexturePointer TextureReader::read(const Element& texture, const Document& document) {
+  return read(texture, document, false);
+}
+
+scene::TexturePointer TextureReader::read_number(const Element& texture, const Document& document) {
+  return read(texture, document, true);
+}
+
+scene::TexturePointer TextureReader::read(const Element& element, const Document& document, bool as_number) {
   Properties properties(element, document);
   Texture texture;
   texture.to_uv = to_uv(properties);
@@ -130,7 +155,9 @@ scene::TexturePointer TextureReader::read(const Element& element, const Document
     texture.wrap_u = texture.wrap_v = wrap(properties, "wrap_mode", mode);
     texture.wrap_u = wrap(properties, "wrap_mode_u", mode);
     texture.wrap_v = wrap(properties, "wrap_mode_v", mode);
-    texture.image = image(document.find(name), {gamma, channel_of(properties)}, properties.where("filename"));
+    std::string channel = channel_of(properties);
+    if (channel.empty() && as_number) channel = "y";
+    texture.image = image(document.find(name), {gamma, channel}, properties.where("filename"));
     properties.pass_over({"cache", "max_anisotropy", "format", "accel"});
   } else {
     fail(element.where, element.name() + " is not supported", "supported are bitmap and checkerboard");
@@ -156,6 +183,7 @@ const TextureReader::Image& TextureReader::image(const std::filesystem::path& fi
   for (std::size_t i = 0; i < result.decoded.size(); ++i)
     result.decoded[i] = static_cast<float>(decode(static_cast<double>(i) / 255, gamma));
   decode_floats(result, gamma, {std::make_shared<const std::string>(file.string()), 0});
+  if (decoding.channel == "y") keep_luminance(result);
   find_range(result);
   return known = std::make_shared<const TexelImage>(std::move(result));
 }

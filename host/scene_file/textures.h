@@ -17,11 +17,14 @@ public:
   /// @throws SceneError for unsupported types or properties, and for images that cannot be read or have
   /// values that are negative or not finite
   [[nodiscard]] scene::TexturePointer read(const Element& texture, const Document& document);
+  /// The same of a number: the luminance of a bitmap.
+  [[nodiscard]] scene::TexturePointer read_number(const Element& texture, const Document& document);
 
 private:
   using Image = std::shared_ptr<const scene::TexelImage>;
-  /// Of an image: the exponent of the encoding, or one of the values in textures.cpp; r, g, b or a for one
-  /// channel in place of all, else empty.
+  [[nodiscard]] scene::TexturePointer read(const Element& texture, const Document& document, bool as_number);
+  /// Of an image: the exponent of the encoding, or one of the values in textures.cpp; r, g, b, a or y (the
+  /// luminance) for one channel in place of all, else empty.
   struct Decoding {
     double gamma;
     std::string channel;

@@ -6,6 +6,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/mat3x3.hpp>
 
+#include "scene_file/coordinate_system.h"
 #include "scene_file/values.h"
 
 namespace phlux::scene_file {
@@ -57,16 +58,15 @@ dmat4 scaling(const Element& step) {
   return glm::scale(dmat4(1.0), uniform && !separate ? dvec3(*uniform) : read_triple(step, 1.0));
 }
 
-/// +z is the direction from origin to target, +x is to the left.
-dmat4 look_at(const Element& step) {
+/// +z is the direction from origin to target, +x is to the left. By default, +x and +y are as in Mitsuba.
+dmat4 look_at(const Element& step, int major_version) {
   const dvec3 origin = triple_attribute(step, "origin");
   const dvec3 to_target = triple_attribute(step, "target") - origin;
   if (is_zero(to_target))
     fail(step.where, "<lookat>: origin and target are the same point", "two different points");
   const dvec3 forward = glm::normalize(to_target);
   dvec3 up = step.has("up") ? triple_attribute(step, "up") : dvec3(0.0);
-  // By default, as in Mitsuba, any direction that is not along the axis.
-  if (is_zero(up)) up = std::abs(forward.y) < 0.9 ? dvec3(0, 1, 0) : dvec3(1, 0, 0);
+  if (is_zero(up)) up = first_tangent(forward, major_version);
   const dvec3 left = glm::cross(glm::normalize(up), forward);
   if (glm::length(left) < least_determinant)
     fail(step.where, "<lookat>: up is along the line from origin to target", "another direction");
@@ -91,11 +91,11 @@ dmat4 matrix(const Element& step) {
   return result;
 }
 
-dmat4 read_step(const Element& step) {
+dmat4 read_step(const Element& step, int major_version) {
   if (step.tag == "translate") return glm::translate(dmat4(1.0), read_triple(step, 0.0));
   if (step.tag == "rotate") return rotation(step);
   if (step.tag == "scale") return scaling(step);
-  if (step.tag == "lookat") return look_at(step);
+  if (step.tag == "lookat") return look_at(step, major_version);
   if (step.tag == "matrix") return matrix(step);
   fail(step.where, "<" + step.tag + "> inside <transform>", "translate, rotate, scale, lookat or matrix");
 }
@@ -138,9 +138,9 @@ bool is_rigid(const glm::dmat4& matrix) {
   return is_similarity(matrix) && std::abs(glm::length(glm::dvec3(matrix[0])) - 1.0) <= written_precision;
 }
 
-glm::dmat4 read_transform(const Element& transform) {
+glm::dmat4 read_transform(const Element& transform, int major_version) {
   dmat4 result(1.0);
-  for (const auto& step : transform.children) result = read_step(step) * result;
+  for (const auto& step : transform.children) result = read_step(step, major_version) * result;
   check_invertible(transform, result);
   return result;
 }

@@ -8,8 +8,8 @@
 namespace phlux::scene_file {
 
 /// The product of the steps. @throws SceneError at the transform's line if it is singular, not finite or
-/// projective
-[[nodiscard]] glm::dmat4 read_transform(const Element& transform);
+/// projective. In version 0 of the format, <lookat> without `up` is another than in later ones.
+[[nodiscard]] glm::dmat4 read_transform(const Element& transform, int major_version);
 
 /// x, y and z of a <point>, <vector>, <translate>...: from attributes (`missing` if absent) or from three
 /// numbers in `value`.

@@ -40,7 +40,7 @@ void Choices::complete(const Choices& earlier) {
   for (const Setting& setting : all()) {
     const auto then = earlier.texts.find(setting.name);
     if (then == earlier.texts.end() || (amount && setting.affects == Affects::amount) ||
-        (in_double && setting.name == "width"))
+        (in_double && setting.name == "width") || setting.name == "threads") // another machine has others
       continue;
     texts.insert(*then);
   }
@@ -51,6 +51,8 @@ Settings settings_of(const Choices& choices, const scene::RenderDefaults& scene,
     if (setting.from_scene) setting.from_scene(scene, settings);
   for (const auto& [name, text] : choices.texts) named(name).read(text, settings);
   check_conditions(choices, settings);
+  if (settings.techniques && !integrator_named(settings.integrator).light_paths)
+    throw UsageError("`contributions`: path tracing has only one technique: use `integrator` bidir or light");
   return settings;
 }
 

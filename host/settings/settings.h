@@ -157,7 +157,10 @@ struct Settings {
               "path only: a control variate with the constant incident radiance L, which reduces noise most "
               "if L is "
               "near the mean incident radiance, and has no bias for any L; default: no control variate")
-          .only_where(from_eye_alone, " is for path only: use `integrator` path"),
+          .only_where(from_eye_alone, " is for path only: use `integrator` path")
+          .only_where([](const Settings& s) { return !s.clamp; },
+                      ": contributions of a control variate, which may be negative, are not clamped: leave "
+                      "out `ambient` or `clamp`"),
       Setting(
           "clamp", A::expectation, &Settings::clamp, Within{1e-30, 1e30}, "X",
           "limits the contribution of each path to a pixel to the radiance X; this reduces noise but causes "

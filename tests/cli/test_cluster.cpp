@@ -40,6 +40,17 @@ TEST_CASE("a message is read as it was written, and nothing is read beyond its e
   CHECK(from.take_array<float>(std::size_t{1} << 62) == nullptr);
 }
 
+TEST_CASE("A process that mpirun has started alone renders several scenes") {
+  const Workplace place;
+  place.write("other.xml", good_scene);
+  const Outcome outcome = run({{"render", "scene.xml", "other.xml", "-n", "1", "-q"},
+                               place.path(),
+                               {{"OMPI_COMM_WORLD_SIZE", "1"}, {"OMPI_COMM_WORLD_RANK", "0"}},
+                               {}});
+  CHECK(outcome.exit_code == 0);
+  CHECK(place.names().contains("other.exr"));
+}
+
 TEST_CASE("Processes that cannot reach each other, and other commands, are refused") {
   const Workplace place;
   for (const char* name : {"PMI", "OMPI_COMM_WORLD"})

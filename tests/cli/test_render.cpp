@@ -121,6 +121,17 @@ TEST_CASE("Several scenes are rendered one after the other") {
   const Outcome outcome = place.render({"other.xml", "-n", "1"});
   CHECK(std::ranges::count(outcome.out, '\n') == 2);
   CHECK(place.image().channels == place.image("other.exr").channels);
+  const Outcome missing = run({{"render", "scene.xml", "none.xml", "-q"}, place.path(), {}, {}});
+  CHECK(missing.exit_code == 3);
+  CHECK_THAT(missing.err, Catch::Contains("none.xml: cannot be read"));
+  CHECK_FALSE(missing.err.find("scene.xml: ") < missing.err.size());
+}
+
+TEST_CASE("integrator auto chooses what --contributions needs") {
+  const Renders place;
+  const Outcome outcome = place.render({"-i", "auto", "--contributions", "techniques"});
+  CHECK(place.image().info.text("integrator") != "path");
+  CHECK(std::filesystem::exists(place / "techniques/contributions.png"));
 }
 
 TEST_CASE("Statistics have the contract's keys with values of the right kind") {

@@ -45,6 +45,14 @@ TEST_CASE("Known figures of two constant images") {
   CHECK(result.nonfinite == 0);
 }
 
+TEST_CASE("Different parts of an image are not compared") {
+  Image a = constant(4, 2, 1.0F), b = a;
+  a.info.whole = b.info.whole = {8, 8};
+  b.info.origin = {4, 0};
+  CHECK_THROWS_WITH(compare(a, b, "a", "b"),
+                    Catch::Contains("a and b: are different parts of an image (`crop`)"));
+}
+
 TEST_CASE("Channels have means of their own") {
   Image a = constant(2, 1, 1.0F), b = constant(2, 1, 2.0F);
   a.channels["R"] = {1.0F, 2.0F};

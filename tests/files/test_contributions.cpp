@@ -1,8 +1,12 @@
 #include "files/contributions.h"
 
+#include <set>
+
 #include <catch2/catch.hpp>
 
+#include "errors.h"
 #include "files/tone_map.h"
+#include "temporary_folder.h"
 
 using namespace phlux::files;
 
@@ -49,4 +53,29 @@ TEST_CASE("The contact sheet has (s,t) above the contributions of each technique
   };
   const int inside = top + line + 1;
   CHECK(code_at(gap + 1, inside) < code_at(gap + half + 1, inside)); // half the light, with one exposure
+}
+
+TEST_CASE(
+    "The files of contributions are known before there are any, and those of an earlier call are removed") {
+  const TemporaryFolder place;
+  const std::filesystem::path folder = place / "new";
+  for (const char* name : {"s1-t2.exr", "s0-t12-unweighted.exr", "contributions.png"})
+    CHECK(is_contribution(folder, folder / name));
+  CHECK_FALSE(is_contribution(folder, folder / "image.exr"));
+  CHECK_FALSE(is_contribution(folder, place / "s1-t2.exr"));
+  check_contributions_writable(folder);
+  place.write("new/s9-t9.exr", "of another render");
+  place.write("new/notes.txt", "mine");
+  phlux::film::Film film(2, 1);
+  film.use_splats();
+  film.use_techniques();
+  film.add_splatting_paths(2);
+  film.techniques()->add({1, 2}, 0, {1, 1, 1}, 0.5);
+  write_contributions(folder, film, {});
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) names.insert(entry.path().filename());
+  CHECK(names ==
+        std::set<std::string>{"s1-t2.exr", "s1-t2-unweighted.exr", "contributions.png", "notes.txt"});
+  place.write("file", "");
+  CHECK_THROWS_AS(check_contributions_writable(place / "file"), phlux::WriteError);
 }

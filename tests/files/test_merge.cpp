@@ -87,11 +87,13 @@ TEST_CASE("Methods without bias may be merged, and what is lost is noted") {
   Image other = second;
   other.info.settings["integrator"] = "bidir";
   other.channels.erase("variance.G");
+  other.channels["albedo.R"] = {1, 1};
   merger.add("a.exr", first);
   merger.add("b.exr", other);
-  REQUIRE(merger.notes().size() == 2);
+  REQUIRE(merger.notes().size() == 3);
   CHECK_THAT(merger.notes()[0], Contains("b.exr is by bidir exact, and a.exr by path exact"));
-  CHECK_THAT(merger.notes()[1], Contains("b.exr has no variance channels"));
+  CHECK_THAT(merger.notes()[1], Contains("the merged image has no channels albedo.R"));
+  CHECK_THAT(merger.notes()[2], Contains("b.exr has no variance channels"));
   CHECK(merger.result().channels.size() == 3);
   CHECK(merger.result().info.text("integrator") == "path, bidir");
   CHECK(merger.result().info.text("strategy") == "exact");
@@ -114,6 +116,25 @@ TEST_CASE("What cannot be merged is refused, saying why") {
   CHECK_THAT(refusal([](Image& i) { i.info.settings["strategy"] = "lobe-estimate-printed"; }),
              Contains("which is biased"));
   CHECK(refusal([](Image& i) { i.info.settings["strategy"] = "lobe-estimate"; }) == "nothing");
+  CHECK_THAT(refusal([](Image& i) { i.info.missed_light = "light of mirrors"; }),
+             Contains("b.exr: `integrator` path finds no light of mirrors, but a.exr: `integrator` path "
+                      "finds all light"));
+}
+
+TEST_CASE("With clamping, which removes other light from other methods, images of one method are merged") {
+  const auto with_integrator = [](const std::string& integrator) {
+    Image clamped = first, other = second;
+    for (Image* image : {&clamped, &other}) image->info.settings["clamp"] = 4.0;
+    other.info.settings["integrator"] = integrator;
+    Merger merger;
+    merger.add("a.exr", clamped);
+    merger.add("b.exr", other);
+  };
+  CHECK_NOTHROW(with_integrator("path"));
+  CHECK_THROWS_WITH(with_integrator("bidir"),
+                    Contains("b.exr: was rendered with `integrator` bidir, but a.exr with "
+                             "`integrator` path: only images of the same light, and with "
+                             "`clamp` by the same method, can be merged"));
 }
 
 TEST_CASE("Samples that two images share are refused") {

@@ -52,6 +52,10 @@ TEST_CASE("sRGB codes are those of IEC 61966-2-1") {
   CHECK(srgb_code(-1.0F) == 0);
 }
 
+TEST_CASE("A picture may be wider than a million pixels") {
+  CHECK_NOTHROW(encode_png(grey(1'000'001, 1, std::vector<float>(1'000'001, 1.0F))));
+}
+
 TEST_CASE("Stops replace the exposure of a picture") {
   const Image image = grey(2, 1, {0.02F, 0.5F});
   CHECK(decode(encode_png(image, 0.0)).codes[0] == srgb_code(0.02F));

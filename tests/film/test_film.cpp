@@ -1,5 +1,7 @@
 #include "film/film.h"
 
+#include "film/reliability.h"
+
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -114,6 +116,22 @@ TEST_CASE("Variance equals the float64 two-pass formula") {
     const std::vector<float> samples = fill(film, 4000, 64, [&] { return distribution(random); });
     CHECK(film.variance_of_mean(0)[0] == Approx(two_pass_variance_of_mean(samples)).epsilon(0.01));
   }
+}
+
+// Pixels of radiance 1, 0 with noise of mean 0, and 0 without samples other than 0.
+TEST_CASE("Errors of signed contributions are relative to at least the mean of the image") {
+  Film film(3, 1);
+  for (const float value : {0.75F, 1.25F})
+    film.add(0, {{value, value, value}, {value * value, value * value, value * value}}, 1);
+  for (const float value : {0.125F, -0.1240234375F})
+    film.add(1, {{value, value, value}, {value * value, value * value, value * value}}, 1);
+  for (int sample = 0; sample < 2; ++sample) film.add(2, {}, 1);
+  const double error0 = 0.25, error1 = (0.125 + 0.1240234375) / 2.0;
+  const double mean1 = (0.125 - 0.1240234375) / 2.0, image = (1.0 + mean1) / 3.0;
+  CHECK(film.relative_standard_error() == Approx((error0 + error1 / mean1) / 2.0)); // 128, for one bad pixel
+  film.use_signed_contributions();
+  CHECK(film.relative_standard_error() == Approx((error0 + error1 / image) / 2.0));
+  CHECK(phlux::film::reliability_of(film).relative_standard_error < 1.0);
 }
 
 TEST_CASE("Variance is never negative") {

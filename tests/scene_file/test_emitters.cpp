@@ -74,6 +74,8 @@ TEST_CASE("Directional lights: direction or toWorld") {
   CHECK(scene.directional_lights[0].irradiance == Rgb(1.0));
   CHECK(glm::length(scene.directional_lights[1].direction - Vec3(0, -1, 0)) < 1e-12);
   CHECK(scene.directional_lights[1].irradiance == Rgb(3.0));
+  const auto tiny = load_body(emitter("directional", R"(<vector name="direction" x="-1e-200"/>)"));
+  CHECK(tiny.directional_lights.at(0).direction == Vec3(-1, 0, 0));
   CHECK_THAT(error_in(emitter("directional", "<vector name=\"direction\" x=\"0\"/>")),
              StartsWith("scene.xml:3: "));
 }

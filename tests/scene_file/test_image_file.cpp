@@ -90,6 +90,9 @@ TEST_CASE("Images that are cut short, damaged or of no known format are errors")
         CHECK_THAT(error_of_image(whole.substr(0, whole.size() - lost - end_of_png)),
                    Catch::StartsWith("image: ") && Contains("the whole file"));
       }
+  std::string long_chunk = png(); // claims 1 GB
+  long_chunk[33] = '\x40';
+  CHECK_THAT(error_of_image(long_chunk), Contains("image: the image is cut short"));
   const std::string floats = exr("RGB", Floats(64 * 64, 0.5F), 64);
   CHECK_THAT(error_of_image(floats.substr(0, floats.size() / 2)), Contains("cut short"));
   CHECK_THAT(error_of_image(floats.substr(0, 8)), Contains("the whole file"));

@@ -25,6 +25,35 @@ TEST_CASE("Included files share ids and parameters, and errors name their lines"
                  Contains("scene.xml:3: reference to 'red'"));
 }
 
+TEST_CASE("A default holds from its line on, also one of an included file") {
+  const std::string lamp = "<emitter type=\"constant\"><rgb name=\"radiance\" value=\"$rad\"/></emitter>";
+  const std::string own = "<default name=\"rad\" value=\"1\"/>", include = "<include filename=\"b.xml\"/>";
+  const auto radiance = [&](const std::string& body) {
+    return load_files({{"scene.xml", with_sensor(body)},
+                       {"b.xml", scene_text("<default name=\"rad\" value=\"3\"/>")}})
+        .constant_radiance.value()
+        .r;
+  };
+  CHECK(radiance(include + own + lamp) == 3.0);
+  CHECK(radiance(own + include + lamp) == 1.0);
+  CHECK_THAT(error_in(lamp + own), StartsWith("scene.xml:2: unknown parameter in '$rad'"));
+}
+
+TEST_CASE("An included file is sought beside the one that includes it, and may contain a single object") {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "parts");
+  folder.write("parts/b.xml", scene_text("<include filename=\"c.xml\"/>"));
+  folder.write("parts/c.xml",
+               "<shape type=\"sphere\" version=\"3.0.0\"><float name=\"radius\" value=\"2\"/></shape>");
+  folder.write("c.xml", "<shape type=\"disk\" version=\"3.0.0\"/>");
+  folder.write("scene.xml", with_sensor("<include filename=\"parts/b.xml\"/>", "3.0.0"));
+  const auto scene = phlux::scene_file::load(folder / "scene.xml");
+  REQUIRE(scene.spheres.size() == 1);
+  CHECK(scene.spheres[0].radius == 2.0);
+  CHECK(scene.patches.empty());
+  CHECK_THAT(error_of("<shape type=\"disk\"/>"), Contains("outermost element must be <scene>"));
+}
+
 TEST_CASE("Includes that are missing, circular, endless or malformed are errors") {
   const std::string main = with_sensor("<include filename=\"b.xml\"/>");
   CHECK_THAT(error_of_files({{"scene.xml", main}}),
@@ -55,6 +84,10 @@ TEST_CASE("<path> adds a folder; a name with backslashes is found too; <alias> g
                with_sensor("<path value=\"parts\"/><include filename=\"b.xml\"/>"
                            "<include filename=\"parts\\deep\\c.xml\"/><alias id=\"first\" as=\"second\"/>"));
   CHECK(phlux::scene_file::load(folder / "scene.xml").spheres.size() == 1);
+  folder.write("b.xml", scene_text("<shape type=\"disk\"><ref id=\"second\"/></shape>"));
+  folder.write("text.xml", with_sensor("<path value=\"parts\"/><include filename=\"deep/c.xml\"/>"));
+  CHECK_NOTHROW(phlux::scene_file::load(folder / "text.xml")); // before the scene's own folder
+  CHECK_THAT(error_in("<path value=\"none\"/>"), StartsWith("scene.xml:2: <path>: 'none' is no folder"));
   CHECK_THAT(error_in("<alias id=\"none\" as=\"b\"/>"), StartsWith("scene.xml:2: reference to 'none'"));
 }
 

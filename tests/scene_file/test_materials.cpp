@@ -147,9 +147,15 @@ TEST_CASE("Mirrors and metals: by name, by eta and k, and copper by default in v
   CHECK(gold.value("eta").r < gold.value("eta").b);
   CHECK_THAT(error_in("<bsdf type=\"conductor\">\n<string name=\"material\" value=\"Xx\"/></bsdf>"),
              StartsWith("scene.xml:3: ") && Contains("no metal is named 'Xx'") && Contains("Au"));
-  CHECK_THAT(
-      error_in("<bsdf type=\"conductor\">\n<string name=\"material\" value=\"Au\"/>" + own + "</bsdf>"),
-      StartsWith("scene.xml:3: "));
+  const std::string two =
+      "<bsdf type=\"conductor\">\n<string name=\"material\" value=\"Au\"/>" + own + "</bsdf>";
+  CHECK_THAT(error_in(two, "3.0.0"), StartsWith("scene.xml:3: "));
+  CHECK(material(two).value("eta").r == Approx(0.2 / 1.000277));
+  const std::string k = "<rgb name=\"k\" value=\"4\"/>";
+  CHECK(conductor(k).value("eta") == conductor("").value("eta")); // of copper
+  CHECK(conductor(k).value("k").r == Approx(4 / 1.000277));
+  CHECK(conductor("<spectrum name=\"eta\" value=\"360:4 830:4\"/>", "3.0.0").value("eta").r ==
+        Approx(4).epsilon(1e-3));
 }
 
 TEST_CASE("Dielectrics: indices of refraction as numbers and by Mitsuba's names") {
@@ -237,6 +243,8 @@ TEST_CASE("Masks: opacities, twosided inside and outside, and what they cannot b
   };
   CHECK(material(mask(grey)).opacity == Rgb(0.5)); // Mitsuba's default
   CHECK(material(mask("<rgb name=\"opacity\" value=\".1 .2 .3\"/>" + grey)).opacity == Rgb(.1, .2, .3));
+  CHECK(glm::length(material(mask("<rgb name=\"opacity\" value=\".1 .2 .3\"/>" + grey), "3.0.0").opacity -
+                    Rgb(.2)) < 1e-12);
   CHECK_FALSE(material(mask("<float name=\"opacity\" value=\"1\"/>" + grey)).is_masked());
   CHECK(material(mask(half + mask(half + grey))).opacity == Rgb(0.25));
   for (const std::string& both : {mask(half + twosided(grey)), twosided(mask(half + grey))}) {

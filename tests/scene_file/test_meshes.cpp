@@ -140,10 +140,9 @@ TEST_CASE("A mesh cut short anywhere is an error, never a crash") {
 }
 
 TEST_CASE("OBJ: every form of face, negative indices, comments, continued lines, several groups") {
-  for (const char* face :
-       {"f 1 2 3 4", "f -4 -3 -2 -1", "f 1/1 2/1 3/1 4/1", "f 1//1 2//1 3//1 4//1", "f 1// 2// 3// 4//",
-        "f 1/1/ 2/1/ 3/1/ 4/1/", "f 1/1/1 2/1/1 3/1/1 4/1/1", "f 1 2 \\\n 3 4",
-        "g a\nf 1 2 3\nusemtl b\no c\nf 1 3 4", "  f\t1  2 3 4 # quad"}) {
+  for (const char* face : {"f 1 2 3 4", "f -4 -3 -2 -1", "f 1/1 2/1 3/1 4/1", "f 1//1 2//1 3//1 4//1",
+                           "f 1// 2// 3// 4//", "f 1/1/ 2/1/ 3/1/ 4/1/", "f 1/1/1 2/1/1 3/1/1 4/1/1",
+                           "f 1 2 \\\n 3 4", "o a\nf 1 2 3\ns b\no c\nf 1 3 4", "  f\t1  2 3 4 # quad"}) {
     INFO(face);
     const std::string lines = "# square\n" + square + "vt 0 0\nvn 0 0 1\n" + face + "\n";
     const Mesh mesh = load_mesh("obj", lines);
@@ -258,8 +257,21 @@ TEST_CASE("Normals that the file does not give are computed, weighted by angle, 
     if (mesh.positions[i].x == 0.0 && mesh.positions[i].z == 0.0)
       CHECK(glm::length(Vec3(mesh.normals[i]) - glm::normalize(Vec3(1, 0, 1))) < 1e-6);
   CHECK(load_mesh("obj", edge, flat).normals.empty());
+  // An angle of 1e-29, whose square is below single precision.
+  CHECK(load_mesh("obj", "v 0 0 0\nv 1 0 0\nv 1 9e28 0\nf 1 2 3\n").normals.at(2) == glm::vec3(0, 0, 1));
   CHECK(load_mesh("ply", ply_header("ascii", 4, 1) + ascii_square + "4 0 1 2 3\n").normals.at(0) ==
         glm::vec3(0, 0, 1));
+}
+
+TEST_CASE("Computed normals are not smooth between groups in 0.x, unless collapse is set") {
+  const std::string edge = "v 0 0 0\nv 0 1 0\nv 1 1 0\nv 1 0 0\nv 0 0 1\nv 0 1 1\ng a\nf 1 4 3 2\n";
+  for (const std::string border : {"g b\n", "usemtl b\n"}) {
+    const Mesh split = load_mesh("obj", edge + border + "f 1 2 6 5\n");
+    CHECK(split.positions.size() == 8);
+    for (const glm::vec3& n : split.normals) CHECK((n == glm::vec3(0, 0, 1) || n == glm::vec3(1, 0, 0)));
+    CHECK(load_mesh("obj", edge + border + "f 1 2 6 5\n", R"(<boolean name="collapse" value="true"/>)")
+              .positions.size() == 6);
+  }
 }
 
 TEST_CASE("The front side: by the file's normals where there are, by the order of the vertices elsewhere") {

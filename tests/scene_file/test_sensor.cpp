@@ -143,6 +143,18 @@ TEST_CASE("Methods of Mitsuba for the same radiance are replaced, with a note") 
              Contains("info: scene.xml:2: <integrator type=\"photonmapper\"> is replaced by path"));
 }
 
+TEST_CASE("Names that seem to be misspelt are errors, even where unknown ones are passed over") {
+  const auto film = [](const std::string& name) {
+    return error_of(scene_text("<sensor type=\"perspective\">\n<film type=\"hdrfilm\"><integer name=\"" +
+                               name + "\" value=\"9\"/></film></sensor>"));
+  };
+  CHECK_THAT(film("widht"),
+             Contains("scene.xml:3: <film type=\"hdrfilm\">: widht: is not a property of <film "
+                      "type=\"hdrfilm\">: did you mean width?"));
+  CHECK_THAT(error_in(integrator("volpath", "<integer name=\"maxdepth\" value=\"9\"/>")),
+             Contains("did you mean maxDepth?"));
+}
+
 TEST_CASE("Films: sizes, crops, filters") {
   for (const auto& [width, height] :
        {std::pair{0, 0}, std::pair{5, 0}, std::pair{-3, 5}, std::pair{32769, 1}})

@@ -105,6 +105,15 @@ TEST_CASE("Shapes that are not supported, or wrongly given") {
              StartsWith("scene.xml:3: mesh file '") && Contains("absent.obj' cannot be read"));
 }
 
+TEST_CASE("The texture of a cylinder begins where Mitsuba's does") {
+  for (const char* version : {"0.6.0", "3.0.0"})
+    CHECK(glm::length(load_body(shape("cylinder", ""), version).meshes.at(0).positions.at(0) -
+                      Vec3(1, 0, 0)) < 1e-4);
+  const std::string ends = R"(<point name="p0" value="0 0 0"/><point name="p1" value="1 2 2"/>)";
+  CHECK(glm::length(load_body(shape("cylinder", ends), "3.0.0").meshes.at(0).positions.at(0) -
+                    Vec3(14, -2, -5) / 15.0) < 1e-4);
+}
+
 TEST_CASE("Cylinders: exact area, vertices near the surface, normals outwards") {
   const std::string tilted = R"(<point name="p0" value="1 2 3"/><point name="p1" value="1 4 3"/>
     <float name="radius" value=".5"/><transform name="toWorld"><rotate x="1" angle="30"/></transform>)";

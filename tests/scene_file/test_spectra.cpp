@@ -42,6 +42,8 @@ TEST_CASE("A constant spectrum is grey as a reflectance, and of equal energy as 
   const Rgb equal_energy(1.2048, 0.9483, 0.9087); // XYZ = (1, 1, 1)
   CHECK(near(reflectance(pairs("reflectance", "360:.6, 830:.6")), Rgb(.6), 1e-4));
   CHECK(near(radiance(pairs("radiance", "360:2, 830:2")), 2.0 * equal_energy, 2e-3));
+  CHECK(near(radiance(pairs("radiance", "2")), 2.0 * equal_energy, 1e-3));
+  CHECK(radiance(pairs("radiance", "2"), "0.6.0") == Rgb(2.0));
   CHECK(near(reflectance(pairs("reflectance", "360:.6 830:.6"), "0.6.0"), .6 * equal_energy, 1e-3));
 }
 
@@ -57,6 +59,13 @@ TEST_CASE("Spectra become the colours of the CIE's tables, up to the stated erro
                                       std::pair{10000.0, Rgb(158407.5, 180719.8, 260006.1)}})
     CHECK(near(color_of(phlux::scene_file::black_body(kelvin), Illuminant::equal), exact,
                0.02 * glm::compMax(exact)));
+}
+
+TEST_CASE("In 0.x a spectrum falls to 0 beyond its ends within the mean distance of its points") {
+  CHECK(reflectance(pairs("reflectance", "450:.1, 550:.8, 650:.6"), "0.6.0") ==
+        reflectance(pairs("reflectance", "350:0, 450:.1, 550:.8, 650:.6, 750:0"), "0.6.0"));
+  CHECK(reflectance(pairs("reflectance", "450:.1, 550:.8, 650:.6"), "3.0.0") ==
+        reflectance(pairs("reflectance", "449.999:0, 450:.1, 550:.8, 650:.6, 650.001:0"), "3.0.0"));
 }
 
 TEST_CASE("Forms of colours: xyz, black bodies, plugins of Mitsuba 2 and 3, files") {

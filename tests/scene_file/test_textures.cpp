@@ -90,13 +90,13 @@ TEST_CASE("A bitmap for a reflectance: nested, by reference, of every model") {
 }
 
 TEST_CASE("A bitmap for the opacity of a mask: by its colours or one channel") {
-  const auto opacity_of = [](const std::string& channel) {
+  const auto opacity_of = [](const std::string& channel, const std::string& version = "0.6.0") {
     const std::string image = "<string name=\"filename\" value=\"alpha.png\"/>";
     const std::string name = channel.empty() ? "" : "<string name=\"channel\" value=\"" + channel + "\"/>";
     const auto scene =
         load_beside("<shape type=\"disk\"><bsdf type=\"mask\"><texture type=\"bitmap\" name=\"opacity\">" +
                         image + name + "</texture><bsdf type=\"diffuse\"/></bsdf></shape>",
-                    "0.6.0", {{"alpha.png", png_with_alpha()}});
+                    version, {{"alpha.png", png_with_alpha()}});
     return scene.materials.at(0);
   };
   for (const auto& [channel, first] : {std::pair("r", 255), {"g", 128}, {"b", 0}, {"a", 64}}) {
@@ -110,6 +110,11 @@ TEST_CASE("A bitmap for the opacity of a mask: by its colours or one channel") {
   CHECK(static_cast<double>(opacity_of("a").opacity_texture->image->decoded[128]) == Approx(128 / 255.0));
   CHECK(static_cast<double>(opacity_of("g").opacity_texture->image->decoded[128]) == Approx(0.2158605));
   CHECK(opacity_of("").opacity.r == 1);
+  // From version 2 on, the luminance of 255 128 0 in sRGB.
+  const auto number = opacity_of("", "3.0.0").opacity_texture->image;
+  CHECK(number->bytes.empty());
+  CHECK(static_cast<double>(number->floats.at(0)) == Approx(0.212671 + 0.715160 * 0.2158605));
+  CHECK(number->floats.at(2) == number->floats.at(0));
   CHECK_THROWS_WITH(opacity_of("x"), Contains("'x' is not supported: r, g, b or a"));
 }
 

@@ -49,8 +49,17 @@ TEST_CASE("Each step") {
     CHECK(near(image(step, 1, 0), {2, 2, 3}));
     CHECK(near(image(step, 0, 1), {1, 3, 3}));
   }
-  const auto aimed = load_body(rectangle(R"(<lookat origin="0 0 0" target="0 5 0"/>)")).patches.at(0);
-  CHECK(near(glm::cross(aimed.edge_u, aimed.edge_v), {0, 1, 0})); // any up direction if none is given
+}
+
+// The directions of `up` are Mitsuba's: its s of 3 (Duff et al.) and of 0.6.
+TEST_CASE("lookat without up") {
+  const std::string step = R"(<lookat origin="0 0 0" target="1 2 2"/>)";
+  const Vec3 forward = Vec3(1, 2, 2) / 3.0;
+  for (const auto& [version, up] :
+       {std::pair("3.0.0", Vec3(14, -2, -5) / 15.0), {"0.6.0", Vec3(8, -2, -2) / std::sqrt(72.0)}}) {
+    CHECK(near(image(step, 0, 1, version), up));
+    CHECK(near(image(step, 1, 0, version), glm::cross(up, forward)));
+  }
 }
 
 TEST_CASE("Both spellings of the name") {

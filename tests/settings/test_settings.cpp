@@ -122,7 +122,7 @@ TEST_CASE("A choice that is of no use to the integrator is refused, saying why")
 }
 
 TEST_CASE("Earlier choices fill in what is absent; how much to render is one choice") {
-  Choices earlier = chosen({{"spp", "16"}, {"seed", "3"}, {"width", "8"}, {"clamp", "2"}});
+  Choices earlier = chosen({{"spp", "16"}, {"seed", "3"}, {"width", "8"}, {"clamp", "2"}, {"threads", "2"}});
   earlier.definitions = {{"a", "1"}, {"b", "2"}};
   earlier.size = {4, 5};
   Choices now = chosen({{"time", "9"}, {"clamp", "1"}});
