@@ -178,11 +178,13 @@ NonFinite write_contributions(const std::filesystem::path& folder, film::Film& f
 }
 
 bool is_contribution(const std::filesystem::path& folder, const std::filesystem::path& file) {
-  std::error_code error; // of weakly_canonical, which follows links as far as there are files
-  const std::filesystem::path there =
-      std::filesystem::weakly_canonical(std::filesystem::absolute(file), error);
-  return !error && has_name_of_contribution(there) &&
-         there.parent_path() == std::filesystem::weakly_canonical(std::filesystem::absolute(folder), error);
+  std::error_code error;
+  const auto canonical = [&](const std::filesystem::path& path) { // follows links as far as there are files
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path, error), error);
+  };
+  const std::filesystem::path there = canonical(file);
+  return !file.empty() && !error && has_name_of_contribution(there) &&
+         there.parent_path() == canonical(folder);
 }
 
 } // namespace phlux::files
