@@ -11,7 +11,8 @@ double factor(const scene::Material& m) {
 // Without a real part of its index of refraction, a conductor reflects everything.
 scene::Material without_fresnel(const scene::Material& m) {
   if (m.value("eta") != scene::Rgb(0.0)) return m;
-  scene::Material material = mirror(m.value("specular_reflectance"));
+  scene::Material material = mirror(scene::Rgb(1.0));
+  material.take("specular_reflectance", m, "specular_reflectance");
   material.two_sided = m.two_sided;
   return material;
 }

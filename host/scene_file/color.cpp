@@ -93,8 +93,9 @@ Spectrum read_tabulated(Properties& properties, const std::string& type) {
   if (type == "irregular") {
     wavelengths = reals(properties, "wavelengths");
   } else {
-    const double first = properties.real("wavelength_min", 0.0),
-                 last = properties.real("wavelength_max", 0.0);
+    const double first = properties.real("wavelength_min",
+                                         properties.real("lambda_min", 0.0)), // Mitsuba 2: lambda
+        last = properties.real("wavelength_max", properties.real("lambda_max", 0.0));
     for (std::size_t i = 0; i < values.size(); ++i)
       wavelengths.push_back(std::lerp(first, last,
                                       static_cast<double>(i) /

@@ -64,8 +64,10 @@ bool is_container(const std::string& tag) {
 }
 
 std::string supported_elements() {
+  static const Attributes objects_without_support{"medium", "phase", "volume", "subsurface"};
   std::vector<std::string> names;
-  for (const auto& [name, attributes] : known_elements()) names.push_back(name);
+  for (const auto& [name, attributes] : known_elements())
+    if (!objects_without_support.contains(name)) names.push_back(name);
   return "supported are " + join(names);
 }
 

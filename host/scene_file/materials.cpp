@@ -197,6 +197,10 @@ Material read_model(Properties& properties, const lobes::ModelPointer& model, Ma
 }
 
 Material read_two_sided(Properties& properties, const Document& document, MaterialRules rules) {
+  if (properties.objects("bsdf").size() > 1)
+    fail(properties.element().where,
+         "<bsdf type=\"twosided\"> around two bsdfs: sides that differ are not supported",
+         "one bsdf for both");
   const Element* nested = properties.object("bsdf");
   if (!nested || nested->type() == "twosided")
     fail(properties.element().where,

@@ -53,9 +53,7 @@ dmat4 rotation(const Element& step) {
 }
 
 dmat4 scaling(const Element& step) {
-  const auto uniform = parse_real(step["value"]);
-  const bool separate = step.has("x") || step.has("y") || step.has("z");
-  return glm::scale(dmat4(1.0), uniform && !separate ? dvec3(*uniform) : read_triple(step, 1.0));
+  return glm::scale(dmat4(1.0), read_triple(step, 1.0));
 }
 
 /// +z is the direction from origin to target, +x is to the left. By default, +x and +y are as in Mitsuba.
@@ -120,7 +118,10 @@ glm::dvec3 read_triple(const Element& element, double missing) {
   if (separate == element.has("value"))
     fail(element.where, "<" + element.tag + "> needs either x, y and z or value",
          "such as x=\"1\" y=\"2\" z=\"3\"");
-  if (!separate) return triple_attribute(element, "value");
+  if (!separate) {
+    const auto uniform = parse_real(element["value"]); // for all three, as in Mitsuba 3
+    return uniform ? dvec3(*uniform) : triple_attribute(element, "value");
+  }
   return {number(element, "x", missing), number(element, "y", missing), number(element, "z", missing)};
 }
 

@@ -24,8 +24,9 @@ Case make_case(const std::vector<scene::Material>& materials, int material, doub
   one.degrees = degrees;
   one.at.model = model_of(materials[static_cast<std::size_t>(material)]);
   const double angle = degrees * std::numbers::pi / 180;
-  // A longitude that distinguishes x from y.
-  one.at.fixed = as_float(polar(angle, 2.2));
+  // At a longitude that distinguishes x from y; along the normal with a cosine that rounding has made larger
+  // than 1.
+  one.at.fixed = degrees == 0 ? Direction(0, 0, 1 + 0x1p-23) : as_float(polar(angle, 2.2));
   const double tilt = std::atan2(std::hypot(one.at.fixed.x, one.at.fixed.y), one.at.fixed.z);
   one.at.reflectivity = lobe_reflectivity(one.at.model.exponent, tilt);
   one.name = fmt::format("kd {}, ks {}, n {:g}, {:g} degrees", rgb_text(one.at.model.diffuse),

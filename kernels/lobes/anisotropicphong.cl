@@ -34,8 +34,9 @@ static inline Real fifth_power(Real x) {
 static inline Real half_vector_density(Anisotropicphong m, Vec3 h) {
   const Real sine2 = fma(h.x, h.x, h.y * h.y);
   const Real exponent = fma(m.exponent_u * h.x, h.x, m.exponent_v * h.y * h.y) / sine2;
-  const Real power = exp(exponent * 0.5f * log1p(-smaller(sine2, (Real)(1.0f))));
-  return sqrt((m.exponent_u + 1.0f) * (m.exponent_v + 1.0f)) * (0.5f * INV_PI) * (sine2 > 0.0f ? power : (Real)(1.0f));
+  const Real power = exp(exponent * 0.5f * log1p(-smaller(sine2, (Real)(ONE_MINUS_EPSILON))));
+  return sqrt(m.exponent_u + 1.0f) * sqrt(m.exponent_v + 1.0f) * (0.5f * INV_PI) *
+         (sine2 > 0.0f ? power : (Real)(1.0f));
 }
 
 // Estimates of the reflectivities of the parts, to which the probabilities of sampling them are proportional.

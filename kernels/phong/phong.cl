@@ -22,7 +22,7 @@
 #define PHONG_PARAMETERS(COLOUR, NUMBER)                                                                               \
   COLOUR(diffuse_reflectance, 0.5, 0, 1, "kd")                                                                         \
   COLOUR(specular_reflectance, 0.2, 0, 1, "ks; kd + ks is at most 1 in every channel")                                 \
-  NUMBER(exponent, 30, 0, 1e30, "n")
+  NUMBER(exponent, 30, 0, 1e15, "n")
 // The probabilities of the parts depend on the largest channels of kd and ks. The reflectivity of the lobe is tabulated
 // over the cosine (host/lobes/phong.cpp): table_row is the index of the row's first value, table_scale the number of
 // intervals per unit of cosine, and grazing_reflectivity is rho_s / ks at 90 degrees.

@@ -22,8 +22,9 @@ typedef struct {
   Real lens_x, lens_y; // a point of the lens, in units of `left` and `up` of the camera's record
 } CameraSample;
 
-// 1 if the functions below depend on a CameraSample.
-#define HAS_CAMERA_SAMPLE (HAS_LENS | HAS_FILTER)
+// 1 if light subpaths need a CameraSample: for a point of the lens, the offset of a splat, or a ray of an orthographic
+// camera (see_sky).
+#define HAS_CAMERA_SAMPLE (HAS_LENS | HAS_FILTER | HAS_ORTHOGRAPHIC)
 
 // Samples the pixel uniformly or by the filter, and the lens uniformly.
 static inline CameraSample camera_sample(const Scene* scene, RandomWords words) {

@@ -12,7 +12,7 @@ static inline void start_at_camera(const Scene* scene, Subpath* s) {
   const CameraSample sample = camera_sample(scene, random_words(s->sequence, (Uint)(0), 0));
   s->ray = camera_ray(scene, s->sequence.pixel, sample);
   s->throughput = vec_all((Real)(1.0f));
-  s->begin = (Real)(1.0f);
+  s->unattenuated = (Real)(1.0f);
   s->edges = (Int)(0);
   s->delta = NO_LANES;
   if (IS_BIDIR)

@@ -127,7 +127,7 @@ static inline Mask start_at_light(WorkItem* work, Batch* batch, Subpath* s, Mask
                                      random_words(s->sequence, (Uint)(DIMENSION_EMISSION + 1), 0));
   s->ray = e.ray;
   s->throughput = vec_scale(1.0f / e.density, e.radiance);
-  s->begin = vec_max(s->throughput);
+  s->unattenuated = vec_max(s->throughput);
   s->light = e.light;
   s->light_cosine = vec_dot(e.origin.normal, e.ray.direction);
   if (HAS_ENVIRONMENT_MAP) s->light_cosine = e.sky ? e.sky_density : s->light_cosine;

@@ -23,7 +23,7 @@
 
 // Upper bound on the quantities, so that their squares and products do not overflow in float. A larger quantity belongs
 // to a weight below 1e-15, unless a scene is larger than 1e5 or smaller than 1e-6 and lengths enter to the fourth power
-// (WEIGHTS_POWER).
+// (WEIGHTS_POWER). smaller() also replaces NaN, so that densities must be finite (lobe.h).
 #define LARGEST_RATIO REAL_LARGE
 
 static inline Real heuristic(Real ratio) {
@@ -51,15 +51,16 @@ static inline MisQuantities mis_arrived(MisQuantities q, Real distance2, Real co
 
 // The subpath is scattered at x_i into a direction of this density and this cosine to the geometric normal; `reverse`
 // is the density of the direction back to x_(i - 1) for a subpath that comes from the other side (his equations 33 and
-// 34). No technique connects to a vertex with a delta event, and the densities of a delta event cancel (his section
-// 5.2).
-static inline MisQuantities mis_scattered(MisQuantities q, Real density, Real reverse, Real cosine, Mask delta) {
+// 34). No technique connects to a vertex with a delta event. The ratio of the densities of a delta event from both
+// sides is 1 (his section 5.2), for refraction `jacobian`.
+static inline MisQuantities mis_scattered(MisQuantities q, Real density, Real reverse, Real cosine, Mask delta,
+                                          Real jacobian) {
   MisQuantities next;
   next.d_vcm = heuristic(1.0f / density);
   next.d_vc = smaller(heuristic(cosine / density) * (q.d_vc * heuristic(reverse) + q.d_vcm), (Real)(LARGEST_RATIO));
   if (HAS_DELTA) {
     next.d_vcm = delta ? (Real)(0.0f) : next.d_vcm;
-    next.d_vc = delta ? smaller(heuristic(cosine) * q.d_vc, (Real)(LARGEST_RATIO)) : next.d_vc;
+    next.d_vc = delta ? smaller(heuristic(cosine * jacobian) * q.d_vc, (Real)(LARGEST_RATIO)) : next.d_vc;
   }
   return next;
 }

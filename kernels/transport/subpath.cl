@@ -22,10 +22,10 @@
 // A subpath and its next ray.
 typedef struct {
   Ray ray;
-  Vec3 throughput; // of importance (eye subpaths) or power (light subpaths)
-  Real begin;      // largest channel of its first throughput, for roulette by throughput
-  Int edges;       // number of edges so far
-  Int path;        // number in the batch
+  Vec3 throughput;   // of importance (eye subpaths) or power (light subpaths)
+  Real unattenuated; // the throughput that it would have if no surface absorbed, for roulette by throughput
+  Int edges;         // number of edges so far
+  Int path;          // number in the batch
   RandomSequence sequence;
   // Quantities at the origin of the ray, from which the weights of the light that it finds are computed:
   Vec3 normal;         // lit_normal, on which the choice of a light depends
@@ -58,7 +58,7 @@ static inline Subpath no_subpath(uint2 seed, PointSets sets) {
   s.sequence.pixel = s.sequence.sample = (Uint)(0u);
   s.sequence.seed = seed;
   s.sequence.sets = sets;
-  s.begin = s.density = s.cosine_density = s.mis.d_vcm = s.mis.d_vc = s.light_cosine = (Real)(0.0f);
+  s.unattenuated = s.density = s.cosine_density = s.mis.d_vcm = s.mis.d_vc = s.light_cosine = (Real)(0.0f);
   s.delta = NO_LANES;
   return s;
 }
@@ -119,18 +119,24 @@ static inline Mask leaves(Vec3 generated, Real geometric_cosine) {
 static inline Mask scatter(Subpath* s, Vertex v, int adjoint, Uint dimension, PathLimits limits, MaterialSample* sample,
                            Mask m) {
   *sample = material_sample(v.material, v.fixed, random_draws(s->sequence, dimension),
-                            vec_scale(1.0f / s->begin, s->throughput), s->edges >= limits.roulette, m);
+                            vec_scale(1.0f / s->unattenuated, s->throughput), s->edges >= limits.roulette, m);
   const Vec3 direction = from_frame(v.point.frame, sample->direction);
   const Real cosine = vec_dot(v.point.normal, direction);
   s->throughput = vec_mul(s->throughput, sample->weight);
   if (HAS_SMOOTH_NORMALS && adjoint)
     s->throughput =
         vec_scale(adjoint_cosine(v, sample->direction, cosine) / abs_cosine(sample->direction.z), s->throughput);
-  if (HAS_TRANSMISSION && !adjoint)
-    s->throughput = vec_scale(radiance_scale(v.material, sample->direction), s->throughput);
+  const Real scale = HAS_TRANSMISSION ? radiance_scale(v.material, sample->direction) : (Real)(1.0f);
+  if (HAS_TRANSMISSION && !adjoint) {
+    s->throughput = vec_scale(scale, s->throughput);
+    s->unattenuated *= scale;
+  }
   if (IS_BIDIR) {
     const Real reverse = material_evaluate(v.material, v.fixed, sample->direction).reverse;
-    s->mis = mis_scattered(s->mis, sample->density, reverse, abs_cosine(cosine), sample->delta);
+    Real jacobian = (Real)(1.0f); // of refraction: solid angle of `direction` / that of `fixed` (Veach 1997, 5.2)
+    if (HAS_TRANSMISSION && HAS_DELTA)
+      jacobian = sample->direction.z < 0.0f ? scale * v.fixed.z / -sample->direction.z : jacobian;
+    s->mis = mis_scattered(s->mis, sample->density, reverse, abs_cosine(cosine), sample->delta, jacobian);
   }
   const Mask continues = m & sample->survives & leaves(sample->direction, cosine) & (vec_max(s->throughput) > 0.0f);
   s->normal = lit_normal(v.point);

@@ -10,7 +10,7 @@
 #define WAITING_FIELDS(VECTOR, NUMBER, INTEGER, UNSIGNED)                                                              \
   VECTOR(ray.origin)                                                                                                   \
   VECTOR(ray.direction) VECTOR(throughput) INTEGER(path) UNSIGNED(sequence.pixel) UNSIGNED(sequence.sample)
-#define WAITING_FIELDS_OF_ROULETTE(VECTOR, NUMBER, INTEGER, UNSIGNED) NUMBER(begin)
+#define WAITING_FIELDS_OF_ROULETTE(VECTOR, NUMBER, INTEGER, UNSIGNED) NUMBER(unattenuated)
 #define WAITING_FIELDS_OF_BIDIR(VECTOR, NUMBER, INTEGER, UNSIGNED) NUMBER(mis.d_vcm) NUMBER(light_cosine) INTEGER(light)
 #define WAITING_WORDS                                                                                                  \
   (RECORD_WORDS_OF(WAITING_FIELDS) + (ROULETTE_BY_THROUGHPUT ? RECORD_WORDS_OF(WAITING_FIELDS_OF_ROULETTE) : 0) +      \

@@ -132,3 +132,18 @@ TEST_CASE("cameras: an orthographic camera with a tent filter") {
 TEST_CASE("cameras: a thin lens with a Gaussian filter") {
   check_camera(lens());
 }
+
+TEST_CASE("cameras: light tracing sees the sky through all of the pixels of an orthographic camera") {
+  scene::Scene scene;
+  scene.materials = {diffuse(Rgb(0))};
+  scene.patches = {square({0.5, 0, 0}, {1, 0, 0}, {0, 1, 0}, 0.25, {0, -1})}; // a sixteenth of the pixel
+  scene.constant_radiance = Rgb(1);
+  scene.camera = look_at({0, 0, 5}, {0, 0, 0}, 1, 1, 1);
+  scene.camera.orthographic = true;
+  scene.camera.tan_half_fov_x = 1;
+  for (const Method& method : {path, light, bidir}) {
+    CAPTURE(name_of(method));
+    const Render seen = render_of(scene, settings_for(method, 20000));
+    check_agreement(estimate_of(seen.film), uniform(seen.film, {0.9375, 0.9375, 0.9375}));
+  }
+}

@@ -1,4 +1,5 @@
 // Every strategy compared with its density, the model and the closed form of the reflectivity.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -43,7 +44,14 @@ const std::vector<Strategy> strategies{
 const std::vector<phlux::scene::Material> materials{
     phong({.4, .3, .2}, {.5, .4, .3}, 10), phong({.1, .05, 0}, {.8, .6, .9}, 1000),
     phong({0, 0, 0}, {.9, .5, .1}, 3), phong({.2, .2, .2}, {.3, .3, .3}, 0)};
-constexpr double angles[] = {0, 40, 85}; // degrees
+// At 0, 40 and 85 degrees to the normal, at an arbitrary longitude, to detect exchanges of x and y; and along
+// the normal, with a cosine that rounding has made larger than 1.
+std::vector<glm::dvec3> fixed_directions() {
+  std::vector<glm::dvec3> directions{{0, 0, 1 + 0x1p-23}};
+  for (const double degrees : {0.0, 40.0, 85.0})
+    directions.push_back(as_float(polar(degrees * std::numbers::pi / 180, 1.1)));
+  return directions;
+}
 
 struct Case {
   int material;
@@ -54,11 +62,10 @@ struct Case {
 std::vector<Case> cases_of(const Strategy& strategy) {
   std::vector<Case> cases;
   for (std::size_t m = 0; m < materials.size(); ++m)
-    for (const double angle : angles) {
+    for (const glm::dvec3& fixed : fixed_directions()) {
       if ((strategy.traits & no_peaks) != 0 && phlux::test::exponent_of(materials[m]) > 100) continue;
-      // At an arbitrary longitude, to detect exchanges of x and y.
-      const glm::dvec3 fixed = as_float(polar(angle * std::numbers::pi / 180, 1.1));
-      const double lobe = phlux::phong::lobe_reflectivity(phlux::test::exponent_of(materials[m]), fixed.z);
+      const double lobe =
+          phlux::phong::lobe_reflectivity(phlux::test::exponent_of(materials[m]), std::min(fixed.z, 1.0));
       cases.push_back(
           {static_cast<int>(m), fixed,
            phlux::test::diffuse_of(materials[m]) + phlux::test::specular_of(materials[m]) * lobe});

@@ -29,8 +29,7 @@ struct TechniqueWeights {
 const char* const heuristics[] = {"WEIGHTS_BALANCE", "WEIGHTS_POWER", "WEIGHTS_UNIFORM"};
 
 // Densities are spread over `octaves` to either side of 1.
-// With probability `delta` a vertex has a delta event, whose densities, any positive numbers, must not
-// matter.
+// With probability `delta` a vertex has a delta event, of whose densities only the ratio matters.
 GivenPath random_path(Random& random, double octaves, bool hittable, double delta = 0) {
   const auto density = [&] { return static_cast<float>(std::exp2(random.uniform(-octaves, octaves))); };
   const auto cosine = [&] { return static_cast<float>(random.uniform(0.01, 1)); };
@@ -56,18 +55,16 @@ GivenPath random_path(Random& random, double octaves, bool hittable, double delt
 double log_density(const GivenPath& p, std::size_t edges, std::size_t s) {
   double sum = 0;
   const auto times = [&](double factor) { sum += std::log(factor); };
-  const auto scattered = [&](double density, std::size_t i) { return p.delta[i] != 0 ? 1.0 : density; };
   const auto to_area = [&](double cosine, std::size_t edge) { return cosine / p.distance2[edge]; };
   for (std::size_t i = s; i < edges; ++i) { // sampled from the eye; the last edge by the film
-    const double density = i + 1 == edges ? p.film : scattered(p.backward[i + 1], i + 1);
+    const double density = i + 1 == edges ? p.film : p.backward[i + 1];
     times(density * to_area(p.cosine_after[i], i));
   }
   if (s == 1) times(p.chosen * to_area(p.cosine_after[0], 0));
   if (s >= 2) {
     // The first two together: per area and projected solid angle, which is cos cos / d^2 per area of both.
     times(static_cast<double>(p.emission) * p.cosine_after[0] * to_area(p.cosine_before[1], 0));
-    for (std::size_t i = 2; i < s; ++i)
-      times(scattered(p.forward[i - 1], i - 1) * to_area(p.cosine_before[i], i - 1));
+    for (std::size_t i = 2; i < s; ++i) times(p.forward[i - 1] * to_area(p.cosine_before[i], i - 1));
   }
   return sum;
 }

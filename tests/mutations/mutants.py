@@ -14,6 +14,7 @@ REDRAWS_PART = """again = uniform_real(words.w);
 # Mistakes that `phlux verify --quick` must detect: of the model and its strategies or, with a fifth member, of this
 # integrator.
 MUTANTS = [
+    ("exact: a cosine above 1", "phong/strategies/exact.cl", "log1p(-smaller(c * c, (Real)(1.0f)))", "log1p(-c * c)"),
     ("n + 1 for n + 2 in f_r", "phong/phong.cl", "fma(m.exponent, (Real)(0.5f), (Real)(1.0f)) * power",
      "fma(m.exponent, (Real)(0.5f), (Real)(0.5f)) * power"),
     ("pow for exp of log1p", "phong/phong.cl", "exp(m.exponent * log1p(-one_minus_cosine))",
@@ -122,6 +123,7 @@ CAMERA, EMISSION, LIGHTS, WEIGHTS, BATCHES = (
 MIRRORS, MATERIALS = ("test_images", "mirrors: *"), ("test_kernels", "materials:*")
 MASKS = ("test_images", "masks:*")
 GLASS, GLASS_PLANE = ("test_images", "glass: balls*"), ("test_images", "glass: reflectance*")
+REFRACTION = ("test_images", "glass: refraction*")
 MIRROR_BALL = ("test_images", "mirrors: a ball in a furnace*")
 MAPS, MAP_RENDERS = ("test_kernels", "environment maps:*"), ("test_images", "environment maps:*")
 CAMERA_RENDERS = ("test_images", "cameras:*")
@@ -205,17 +207,18 @@ INTEGRATOR_MUTANTS = [
     ("d_vcm kept at a delta event", "transport/mis_weights.cl", "next.d_vcm = delta ? (Real)(0.0f) : next.d_vcm;", "",
      WEIGHTS),
     ("d_vc of a delta event as of any other", "transport/mis_weights.cl",
-     "next.d_vc = delta ? smaller(heuristic(cosine) * q.d_vc, (Real)(LARGEST_RATIO)) : next.d_vc;", "", WEIGHTS),
-    ("density of a delta event kept in d_vc", "transport/mis_weights.cl", "smaller(heuristic(cosine) * q.d_vc",
+     "next.d_vc = delta ? smaller(heuristic(cosine * jacobian) * q.d_vc, (Real)(LARGEST_RATIO)) : next.d_vc;", "",
+     WEIGHTS),
+    ("density of a delta event kept in d_vc", "transport/mis_weights.cl", "smaller(heuristic(cosine * jacobian) * q.d_vc",
      "smaller(heuristic(cosine / density) * q.d_vc", WEIGHTS),
-    ("delta events lost by scatter", "transport/subpath.cl", "reverse, abs_cosine(cosine), sample->delta)",
-     "reverse, abs_cosine(cosine), NO_LANES)", MIRRORS),
+    ("delta events lost by scatter", "transport/subpath.cl", "reverse, abs_cosine(cosine), sample->delta,",
+     "reverse, abs_cosine(cosine), NO_LANES,", MIRRORS),
     ("light samples alone: hits after a delta event not counted", "transport/eye_subpath.cl",
      "m & !light_sample_possible(s) : m", "m & !(s->edges > 1) : m", MIRROR_BALL),
     ("path's hit after a delta event weighted below 1", "transport/eye_subpath.cl",
      "return found_twice ? s->density", "return s->edges > 1 ? s->density", MIRROR_BALL),
     ("radiance beyond a surface not scaled", "transport/subpath.cl",
-     "vec_scale(radiance_scale(v.material, sample->direction), s->throughput)", "s->throughput", GLASS_PLANE),
+     "s->throughput = vec_scale(scale, s->throughput);", "", GLASS_PLANE),
     ("radiance beyond a surface scaled by the index itself", "lobes/material.cl", "1.0f / (index * index)",
      "1.0f / index", GLASS_PLANE),
     ("power scaled as radiance", "transport/subpath.cl", "if (HAS_TRANSMISSION && !adjoint)", "if (HAS_TRANSMISSION)",
@@ -286,8 +289,13 @@ INTEGRATOR_MUTANTS = [
      "geometry", REMEDIES),
     ("roulette of connections divided out of those that are made anyway", "transport/bidir.cl",
      "pairing & !is_connected(pair)", "pairing & NO_LANES", REMEDIES),
-    ("light subpaths' roulette by their power", "transport/light_subpath.cl", "s->begin = vec_max(s->throughput);",
-     "s->begin = (Real)(1.0f);", ROULETTES),
+    ("light subpaths' roulette by their power", "transport/light_subpath.cl", "s->unattenuated = vec_max(s->throughput);",
+     "s->unattenuated = (Real)(1.0f);", ROULETTES),
+    ("roulette counts the scaling of radiance", "transport/subpath.cl", "s->unattenuated *= scale;", "", REFRACTION),
+    ("refracted solid angles left out of weights", "transport/mis_weights.cl", "heuristic(cosine * jacobian)",
+     "heuristic(cosine)", REFRACTION),
+    ("the sky seen from the corner of a pixel", "scene/camera.cl", "(HAS_LENS | HAS_FILTER | HAS_ORTHOGRAPHIC)",
+     "(HAS_LENS | HAS_FILTER)", CAMERA_RENDERS),
     ("a path taken twice", "transport/batch.cl",
      "batch->next = min(batch->next + count_lanes(idle), batch->path_count);",
      "batch->next = min(batch->next + max(count_lanes(idle) - 1, 1), batch->path_count);", BATCHES),

@@ -68,7 +68,7 @@ TEST_CASE("twosided, around a nested or a referenced bsdf") {
   CHECK_THAT(error_in("<bsdf type=\"twosided\"/>"),
              StartsWith("scene.xml:2: <bsdf type=\"twosided\"> around nothing"));
   CHECK_THAT(error_in("<bsdf type=\"twosided\"><bsdf type=\"diffuse\"/>\n<bsdf type=\"diffuse\"/></bsdf>"),
-             StartsWith("scene.xml:3: <bsdf type=\"twosided\"> has more than one <bsdf>"));
+             StartsWith("scene.xml:2: <bsdf type=\"twosided\"> around two bsdfs"));
 }
 
 TEST_CASE("Equal materials are one, and those that no shape uses are left out") {

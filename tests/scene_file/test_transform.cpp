@@ -37,6 +37,7 @@ TEST_CASE("Steps are applied in the order in which they are written") {
 TEST_CASE("Each step") {
   CHECK(near(image(R"(<translate x="1" z="-2"/>)", 0, 0), {1, 0, -2}));
   CHECK(near(image(R"(<translate value="1, 2 3"/>)", 0, 0, "3.0.0"), {1, 2, 3}));
+  CHECK(near(image(R"(<translate value="2"/>)", 0, 0, "3.0.0"), {2, 2, 2}));
   CHECK(near(image(R"(<scale y="3"/>)", 1, 1), {1, 3, 0}));
   CHECK(near(image(R"(<scale value="2, 3, 4"/>)", 1, 1, "3.0.0"), {2, 3, 0}));
   CHECK(near(image(R"(<rotate x="2" angle="90"/>)", 0, 1), {0, 0, 1})); // the axis is normalized

@@ -10,7 +10,7 @@ static inline Vec3 exact_direction(Phong m, Vec3 fixed, Real reflectivity, Rando
   const Real coin = uniform_real(random.words.w);
   const MirrorFrame frame = mirror_frame(fixed);
   const Real c = frame.cosine, s = frame.sine;
-  const Real sine_power = exp((0.5f * m.exponent + 1.0f) * log1p(-c * c)); // s^(n + 2)
+  const Real sine_power = exp((0.5f * m.exponent + 1.0f) * log1p(-smaller(c * c, (Real)(1.0f)))); // s^(n + 2)
   const Real share_b = m.grazing_reflectivity * sine_power / reflectivity;
   const Mask in_b = active & (coin < share_b);
   Vec3 v = cosine_power_direction(m.exponent + 1.0f, uniform_real(random.words.y), uniform_real(random.words.z));
