@@ -83,7 +83,7 @@ static inline FoundLight hit_sky(const Scene* scene, const Subpath* s, int sky_l
   FoundLight found;
   const __global LightRecord* sky = scene->lights + sky_light;
   Vec3 radiance = broadcast_vec(sky->radiance);
-  Real sampled = s->cosine_density, emitted = (Real)(0.25f * INV_PI), emission = (Real)(sky->emission_density);
+  Real sampled = s->sky_sample_density, emitted = (Real)(0.25f * INV_PI), emission = (Real)(sky->emission_density);
   if (HAS_ENVIRONMENT_MAP) {
     const Environment here = environment_towards(scene, s->ray.direction);
     radiance = here.radiance;

@@ -28,10 +28,10 @@ typedef struct {
   Int path;          // number in the batch
   RandomSequence sequence;
   // Quantities at the origin of the ray, from which the weights of the light that it finds are computed:
-  Vec3 normal;         // lit_normal, on which the choice of a light depends
-  Real density;        // of the ray's direction, per solid angle
-  Real cosine_density; // density of the same direction as a light sample of a constant sky
-  Mask delta;          // the direction was sampled from a delta distribution
+  Vec3 normal;             // lit_normal, on which the choice of a light depends
+  Real density;            // of the ray's direction, per solid angle
+  Real sky_sample_density; // density of the same direction as a light sample of a constant sky
+  Mask delta;              // the direction was sampled from a delta distribution
   // Only in bidirectional path tracing:
   MisQuantities mis;
   Int light;         // light subpaths: where they started
@@ -58,7 +58,7 @@ static inline Subpath no_subpath(uint2 seed, PointSets sets) {
   s.sequence.pixel = s.sequence.sample = (Uint)(0u);
   s.sequence.seed = seed;
   s.sequence.sets = sets;
-  s.unattenuated = s.density = s.cosine_density = s.mis.d_vcm = s.mis.d_vc = s.light_cosine = (Real)(0.0f);
+  s.unattenuated = s.density = s.sky_sample_density = s.mis.d_vcm = s.mis.d_vc = s.light_cosine = (Real)(0.0f);
   s.delta = NO_LANES;
   return s;
 }
@@ -141,7 +141,7 @@ static inline Mask scatter(Subpath* s, Vertex v, int adjoint, Uint dimension, Pa
   const Mask continues = m & sample->survives & leaves(sample->direction, cosine) & (vec_max(s->throughput) > 0.0f);
   s->normal = lit_normal(v.point);
   s->density = sample->density;
-  s->cosine_density = sky_sample_density(v.point, sample->direction.z);
+  s->sky_sample_density = sky_sample_density(v.point, sample->direction.z);
   s->delta = sample->delta;
   s->ray.origin = offset_origin(v.point.position, v.point.normal, v.point.error, direction);
   s->ray.direction = direction;
