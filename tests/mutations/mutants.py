@@ -177,7 +177,7 @@ INTEGRATOR_MUTANTS = [
      "work->limits.longest - 1 - pair->eye_index", ("test_images", "furnace box by light and bidir: every*")),
     ("connections leave the longest paths out", "transport/bidir.cl", "work->limits.longest - 2 - pair->eye_index",
      "work->limits.longest - 3 - pair->eye_index", ("test_images", "furnace box by light and bidir: every*")),
-    ("wrong density of the sky as it is hit", "transport/eye_subpath.cl", "sampled = s->cosine_density",
+    ("wrong density of the sky as it is hit", "transport/eye_subpath.cl", "sampled = s->sky_sample_density",
      "sampled = (Real)(INV_PI)", INTEGRATORS),
     ("wrong density of the sky as a path's start", "transport/light_subpath.cl", "choice * sky_sample_density(v.point, v.fixed.z)",
      "choice * INV_PI", INTEGRATORS),
