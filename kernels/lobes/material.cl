@@ -155,8 +155,8 @@ static inline Real survival_by_kd_ks(Material m, Vec3 fixed) {
 }
 
 // The survival probability of the paths of `roulette`; 1 for other paths. `throughput` is that of the path up to this
-// vertex, relative to its beginning. The largest channel is used: with the mean of the channels a path between red
-// walls would have infinite variance in red.
+// vertex, relative to that of a path that no surface attenuates (Subpath.unattenuated). The largest channel is used:
+// with the mean of the channels a path between red walls would have infinite variance in red.
 static inline Real material_survival(Material m, Vec3 fixed, RandomDraws random, Vec3 throughput, Mask roulette) {
   Real survival = (Real)(0.0f);
   if (ROULETTE == ROULETTE_STRATEGY) survival = survival_by_strategy(m, fixed, random);
