@@ -18,10 +18,7 @@ int merge(const MergeOptions& options) {
     throw UsageError(
         fmt::format("merge {}: one image: at least two are needed", options.images.front().string()));
   reject_inputs({options.output}, options.images);
-  if (is_of_another_format(options.output, ".exr"))
-    throw UsageError(fmt::format("--output {}: the image is an OpenEXR file, such as {}",
-                                 options.output.string(),
-                                 std::filesystem::path(options.output).replace_extension(".exr").string()));
+  require_exr(options.output);
   files::check_writable(options.output);
   files::Merger merger;
   for (const std::filesystem::path& file : options.images) merger.add(file.string(), files::read_exr(file));

@@ -27,10 +27,7 @@ std::string lower_case_extension(const fs::path& file) {
 }
 
 void reject_other_formats(const fs::path& image, const fs::path& preview) {
-  if (is_of_another_format(image, ".exr"))
-    throw UsageError(
-        fmt::format("--output {}: the image is an OpenEXR file, such as {}: --png names the preview",
-                    image.string(), fs::path(image).replace_extension(".exr").string()));
+  require_exr(image, ": --png names the preview");
   if (is_of_another_format(preview, ".png"))
     throw UsageError(fmt::format("--png {}: the preview is a PNG file, such as {}; none: without one",
                                  preview.string(), fs::path(preview).replace_extension(".png").string()));
@@ -81,6 +78,12 @@ bool is_of_another_format(const fs::path& file, const std::string& own) {
                                             ".tif", ".tiff", ".bmp", ".gif",  ".webp", ".json"};
   const std::string extension = lower_case_extension(file);
   return extension != own && std::ranges::find(formats, extension) != formats.end();
+}
+
+void require_exr(const fs::path& image, const std::string& advice) {
+  if (is_of_another_format(image, ".exr"))
+    throw UsageError(fmt::format("--output {}: the image is an OpenEXR file, such as {}{}", image.string(),
+                                 fs::path(image).replace_extension(".exr").string(), advice));
 }
 
 std::vector<fs::path> Outputs::files() const {

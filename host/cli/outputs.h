@@ -29,6 +29,8 @@ void warn_if_changed(const files::Image& image, const std::string& name);
 
 /// Whether the file's name says that it is an image of another format than `own`, such as ".png".
 [[nodiscard]] bool is_of_another_format(const std::filesystem::path& file, const std::string& own);
+/// @throws UsageError, which ends with `advice`, if --output has the name of another format than OpenEXR
+void require_exr(const std::filesystem::path& image, const std::string& advice = "");
 
 /// The options' files or their defaults; the default checkpoint is the file that the render resumes from.
 /// There is no default preview for an image that is not a regular file (/dev/null).

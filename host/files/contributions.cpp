@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "errors.h"
 #include "files/canvas.h"
 #include "files/exr.h"
 #include "files/output.h"
@@ -118,14 +117,6 @@ bool has_name_of_contribution(const std::filesystem::path& file) {
   static const std::regex image(R"(s\d+-t\d+(-unweighted)?\.exr)");
   const std::string name = file.filename().string();
   return name == sheet_name || std::regex_match(name, image);
-}
-
-void make_folder(const std::filesystem::path& folder) {
-  std::error_code failure;
-  std::filesystem::create_directories(folder, failure);
-  if (failure)
-    throw WriteError(
-        fmt::format("{}: cannot be made: {}: name another folder", folder.string(), failure.message()));
 }
 
 // Removes the images of an earlier render, which may have had techniques that this one has not.

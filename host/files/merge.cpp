@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "errors.h"
 
@@ -182,9 +183,8 @@ std::vector<std::string> Merger::notes() const {
           source.name, method_of(source.info), first.name, method_of(first.info)));
       break;
     }
-  std::string left_out;
-  for (const std::string& name : left_out_) left_out += (left_out.empty() ? "" : ", ") + name;
-  if (!left_out.empty()) notes.push_back(fmt::format("the merged image has no channels {}", left_out));
+  if (!left_out_.empty())
+    notes.push_back(fmt::format("the merged image has no channels {}", fmt::join(left_out_, ", ")));
   const auto without = std::ranges::find(sources_, false, &Source::variance);
   if (without != sources_.end() && !std::ranges::none_of(sources_, &Source::variance))
     notes.push_back(fmt::format("{} has no variance channels: the merged image has none: `moments` adds them",

@@ -197,6 +197,16 @@ fs::path destination(const fs::path& path) {
 
 } // namespace
 
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error)
+    throw WriteError(
+        fmt::format("{}: cannot be created: {}: choose another folder", folder.string(), error.message()));
+  if (!std::filesystem::is_directory(folder))
+    throw WriteError(fmt::format("{}: is not a folder: choose another name", folder.string()));
+}
+
 void check_writable(const fs::path& path) {
   if (!is_special(path)) {
     const fs::path target = destination(path);

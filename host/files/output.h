@@ -8,6 +8,9 @@
 
 namespace phlux::files {
 
+/// Creates `folder` and its parents if they do not exist. @throws WriteError
+void make_folder(const std::filesystem::path& folder);
+
 /// Checks before a long render that `path` can be written, by creating and removing the temporary file.
 /// Removes temporary files of `path` that killed processes have left.
 /// @throws WriteError

@@ -13,7 +13,6 @@ scene::Material without_fresnel(const scene::Material& m) {
   if (m.value("eta") != scene::Rgb(0.0)) return m;
   scene::Material material = mirror(scene::Rgb(1.0));
   material.take("specular_reflectance", m, "specular_reflectance");
-  material.two_sided = m.two_sided;
   return material;
 }
 

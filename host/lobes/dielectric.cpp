@@ -18,10 +18,9 @@ double larger_factor(const scene::Material& m) {
 scene::Material without_facets(const scene::Material& m) {
   const double inside = m.value("int_ior").x, outside = m.value("ext_ior").x;
   if (std::abs(inside / outside - 1.0) > 2e-6) return m; // beyond single precision's error in half vectors
-  scene::Material material = dielectric(inside, scene::Rgb(1.0), scene::Rgb(1.0));
+  scene::Material material = dielectric(inside);
   for (const char* name : {"int_ior", "ext_ior", "specular_reflectance", "specular_transmittance"})
     material.take(name, m, name);
-  material.two_sided = m.two_sided;
   return material;
 }
 

@@ -121,7 +121,10 @@ double largest_reflectance(const scene::Material& material) {
 
 scene::Material simplest(const scene::Material& material) {
   const ShippedModel* model = find_shipped(*material.model);
-  return model && model->simplest ? model->simplest(material) : material;
+  if (!model || !model->simplest) return material;
+  scene::Material simple = model->simplest(material);
+  simple.two_sided = material.two_sided;
+  return simple;
 }
 
 } // namespace phlux::lobes

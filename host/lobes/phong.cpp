@@ -27,7 +27,6 @@ scene::Material without_lobe(const scene::Material& m) {
   if (m.value("specular_reflectance") != scene::Rgb(0.0)) return m;
   scene::Material material = diffuse(scene::Rgb(0.0));
   material.take("reflectance", m, "diffuse_reflectance");
-  material.two_sided = m.two_sided;
   return material;
 }
 

@@ -126,7 +126,8 @@ Pixels<Value> decoded(const Location& file, Source& source, Load load, bool alph
        "the whole file");
 }
 
-/// Of a PNG file, for whose chunks stb_image allocates what they claim before it reads them.
+/// Checks that the chunks of a PNG file end within the file: stb_image allocates the length that a chunk
+/// states before it reads the chunk.
 void check_chunks(const Location& file, Source& source) {
   if (source.bytes(0, 8) != "\x89PNG\r\n\x1a\n") return;
   constexpr std::uint64_t rest = 12; // of a chunk: its length, type and checksum

@@ -229,8 +229,7 @@ Material read_mask(Properties& properties, const Document& document, MaterialRul
   if (material.is_masked() && (element || material.opacity_texture))
     fail(where, "a mask around a mask, and a texture in one of them", "one mask with the product of both");
   if (element) {
-    material.set_opacity(document.major_version == 0 ? rules.textures.read(*element, document)
-                                                     : rules.textures.read_number(*element, document));
+    material.set_opacity(rules.textures.read(*element, document, document.major_version > 0));
     check_range(properties, opacity, "opacity", material.opacity_texture->smallest(), material.opacity,
                 ExcessEnergy::error);
     return material;

@@ -131,14 +131,6 @@ void read_colors(Properties& properties, Texture& texture) {
 
 } // namespace
 
-scene::TexturePointer TextureReader::read(const Element& texture, const Document& document) {
-  return read(texture, document, false);
-}
-
-scene::TexturePointer TextureReader::read_number(const Element& texture, const Document& document) {
-  return read(texture, document, true);
-}
-
 scene::TexturePointer TextureReader::read(const Element& element, const Document& document, bool as_number) {
   Properties properties(element, document);
   Texture texture;

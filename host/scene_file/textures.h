@@ -14,20 +14,18 @@ namespace phlux::scene_file {
 /// The textures of a scene file. An image file is read once for each way to decode it.
 class TextureReader {
 public:
+  /// A texture of colours or, if `as_number`, of numbers: of a bitmap then the luminance.
   /// @throws SceneError for unsupported types or properties, and for images that cannot be read or have
   /// values that are negative or not finite
-  [[nodiscard]] scene::TexturePointer read(const Element& texture, const Document& document);
-  /// The same of a number: the luminance of a bitmap.
-  [[nodiscard]] scene::TexturePointer read_number(const Element& texture, const Document& document);
+  [[nodiscard]] scene::TexturePointer read(const Element& texture, const Document& document,
+                                           bool as_number = false);
 
 private:
   using Image = std::shared_ptr<const scene::TexelImage>;
-  [[nodiscard]] scene::TexturePointer read(const Element& texture, const Document& document, bool as_number);
-  /// Of an image: the exponent of the encoding, or one of the values in textures.cpp; r, g, b, a or y (the
-  /// luminance) for one channel in place of all, else empty.
+  /// How the values of an image are computed from its file.
   struct Decoding {
-    double gamma;
-    std::string channel;
+    double gamma;        ///< exponent of the encoding, or one of the constants in textures.cpp
+    std::string channel; ///< r, g, b, a or y (luminance), which replaces all three; empty: each its own
     auto operator<=>(const Decoding&) const = default;
   };
   const Image& image(const std::filesystem::path& file, Decoding decoding, const Location& named_at);

@@ -18,10 +18,8 @@ static inline void start_paths(const Scene* scene, Subpath* path, Vec3* radiance
   path->ray.origin = vec_select(starting, first.ray.origin, path->ray.origin);
   path->ray.direction = vec_select(starting, first.ray.direction, path->ray.direction);
   path->throughput = vec_select(starting, first.throughput, path->throughput);
-  if (HAS_TRANSMISSION)
-    path->unattenuated = starting ? (Real)(1.0f) : path->unattenuated;
-  else
-    path->unattenuated = (Real)(1.0f);
+  // A constant where nothing refracts.
+  path->unattenuated = HAS_TRANSMISSION ? (starting ? (Real)(1.0f) : path->unattenuated) : (Real)(1.0f);
   path->edges = starting ? (Int)(0) : path->edges;
   path->delta = path->delta & !starting;
   path->sequence.pixel = starting ? first.sequence.pixel : path->sequence.pixel;

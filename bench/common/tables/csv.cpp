@@ -9,16 +9,6 @@
 
 namespace phlux::bench {
 
-void make_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error)
-    throw WriteError(
-        fmt::format("{}: cannot be created: {}: choose another folder", folder.string(), error.message()));
-  if (!std::filesystem::is_directory(folder))
-    throw WriteError(fmt::format("{}: is not a folder: choose another name", folder.string()));
-}
-
 CsvFile::CsvFile(const std::filesystem::path& folder, const std::string& name, const std::string& header,
                  const std::vector<std::string>& kept)
     : path_(folder / name) {

@@ -6,10 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "files/output.h"
+
 namespace phlux::bench {
 
-/// Creates `folder` and its parents if they do not exist. @throws WriteError
-void make_folder(const std::filesystem::path& folder);
+using files::make_folder;
 
 class CsvFile {
 public:
