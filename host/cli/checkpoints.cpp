@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <ostream>
+#include <system_error>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -105,9 +106,13 @@ void Checkpoints::update(const film::Film& film, const render::Progress& progres
   warn_if_it_fails(file_, [&] {
     session_.state = progress.state();
     if (film.bytes() > most_copied) return write(film);
-    writing_ = std::async(std::launch::async, [file = file_, bytes = checkpoint::encode(session_, film)] {
-      replace(file, [&](std::ostream& to) { to << bytes; });
-    });
+    try {
+      writing_ = std::async(std::launch::async, [file = file_, bytes = checkpoint::encode(session_, film)] {
+        replace(file, [&](std::ostream& to) { to << bytes; });
+      });
+    } catch (const std::system_error&) { // no thread
+      write(film);
+    }
   });
   next_ = Clock::now() + between_;
 }

@@ -8,6 +8,7 @@
 #include <regex>
 #include <set>
 #include <sstream>
+#include <system_error>
 #include <thread>
 #include <tuple>
 #include <utility>
@@ -30,7 +31,11 @@ constexpr std::chrono::milliseconds delay{200};
 class Watcher {
 public:
   explicit Watcher(const std::function<void()>& slow) {
-    if (slow) thread_ = std::thread([this, slow] { wait(slow); });
+    if (!slow) return;
+    try {
+      thread_ = std::thread([this, slow] { wait(slow); });
+    } catch (const std::system_error&) { // then `slow` is not called
+    }
   }
   Watcher(const Watcher&) = delete;
   Watcher& operator=(const Watcher&) = delete;

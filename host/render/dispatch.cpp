@@ -5,6 +5,7 @@
 #include <cmath>
 #include <exception>
 #include <new>
+#include <system_error>
 #include <thread>
 
 #include <fmt/format.h>
@@ -85,7 +86,14 @@ void DispatchLoop::run(const std::vector<Processor*>& processors) {
   };
   {
     std::vector<std::jthread> others; // the first processor is for this thread
-    for (std::size_t i = 1; i < processors.size(); ++i) others.emplace_back(run_one, i);
+    for (std::size_t i = 1; i < processors.size(); ++i) {
+      try {
+        others.emplace_back(run_one, i);
+      } catch (const std::system_error& error) {
+        const std::lock_guard lock(mutex_);
+        give_up(fmt::format("{}: no thread for it: {}", processors[i]->name(), error.what()));
+      }
+    }
     run_one(0);
   }
   for (const std::exception_ptr& exception : exceptions)
@@ -208,19 +216,21 @@ bool DispatchLoop::recover(Processor& processor, const Failure& failure, int fai
   {
     const std::lock_guard lock(mutex_);
     give_back(processor);
-    if (!again) {
-      ++given_up_;
-      last_failure_ = what;
-    }
-    if (events_.warning && again && failures == 1)
+    if (!again)
+      give_up(what);
+    else if (events_.warning && failures == 1)
       events_.warning(fmt::format("{}: its work is repeated after a pause{}", what,
                                   smaller ? ", with fewer work-items" : ""));
-    else if (events_.warning && !again)
-      events_.warning(fmt::format("{}: the device is given up", what));
   }
   changed_.notify_all();
   if (again && failures == 1) pause(settings_);
   return again;
+}
+
+void DispatchLoop::give_up(const std::string& what) {
+  ++given_up_;
+  last_failure_ = what;
+  if (events_.warning) events_.warning(fmt::format("{}: the device is given up", what));
 }
 
 void DispatchLoop::give_back(const Processor& processor) {

@@ -59,6 +59,7 @@ private:
   void collect(Processor& processor);
   void fold(LaunchResult& result);
   bool recover(Processor& processor, const Failure& failure, int failures);
+  void give_up(const std::string& what);
   void give_back(const Processor& processor);
   void end();
   [[nodiscard]] bool report() const;

@@ -26,12 +26,10 @@ static inline RandomWords philox(RandomWords counter, uint2 key) {
     Uint high0, low0, high1, low1;
     multiply_wide(c.x, 0xD2511F53u, &high0, &low0);
     multiply_wide(c.z, 0xCD9E8D57u, &high1, &low1);
-    RandomWords next;
-    next.x = high1 ^ c.y ^ k.x;
-    next.y = low1;
-    next.z = high0 ^ c.w ^ k.y;
-    next.w = low0;
-    c = next;
+    c.x = high1 ^ c.y ^ k.x;
+    c.y = low1;
+    c.z = high0 ^ c.w ^ k.y;
+    c.w = low0;
     k += (uint2)(0x9E3779B9u, 0xBB67AE85u);
   }
   return c;

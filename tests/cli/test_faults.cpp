@@ -1,4 +1,5 @@
 // What terminals, disks and devices do to a render does not lose it.
+#include <cerrno>
 #include <iostream>
 #include <random>
 
@@ -235,6 +236,12 @@ TEST_CASE("Of two devices, one goes on when the other fails") {
   CHECK(image.channels == whole.channels);
   REQUIRE(place.render({"-n", "10000", "-o", "one.exr", "--png", "none"}).exit_code == 0);
   CHECK(image.channels == place.image("one.exr").channels);
+
+  const Outcome without_threads = on_two(fault("pthread_create 0 1000000000", EAGAIN));
+  CAPTURE(without_threads.err);
+  CHECK(without_threads.exit_code == 0);
+  CHECK_THAT(without_threads.err, Contains("no thread for it"));
+  CHECK(place.image("two.exr").channels == whole.channels);
 }
 
 TEST_CASE("Whatever kills a render, it resumes to the image of an uninterrupted one") {

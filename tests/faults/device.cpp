@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <dlfcn.h>
+#include <pthread.h>
 
 #define CL_TARGET_OPENCL_VERSION 120
 #define CL_USE_DEPRECATED_OPENCL_1_2_APIS
@@ -233,4 +234,16 @@ extern "C" cl_int clEnqueueUnmapMemObject(cl_command_queue queue, cl_mem buffer,
   const cl_int result = driver(queue, buffer, memory, count, events, event);
   if (result == CL_SUCCESS) faults::count_mapped(-1);
   return result;
+}
+
+// Only calls of the C++ library count: those of a driver are its own affair.
+extern "C" int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*function)(void*),
+                              void* argument) noexcept {
+  static auto* const real =
+      loader<int(pthread_t*, const pthread_attr_t*, void* (*)(void*), void*)>("pthread_create");
+  Dl_info caller;
+  const bool counts = ::dladdr(__builtin_return_address(0), &caller) != 0 &&
+                      std::string(caller.dli_fname).find("libstdc++") != std::string::npos;
+  if (const int error = counts ? plan().error_of("pthread_create") : 0; error != 0) return error;
+  return real(thread, attributes, function, argument);
 }

@@ -30,7 +30,7 @@ using namespace phlux::test;
 namespace {
 
 constexpr int width = 32, height = 16; // two tiles of the film
-constexpr int sample_counts[] = {8, 32, 128, 512, 2048};
+constexpr int sample_counts[] = {8, 32, 128, 512, 2048, 4096};
 constexpr int reference_samples = 2048;
 
 struct Case {
@@ -39,7 +39,7 @@ struct Case {
   std::vector<Method> methods = {path, light, bidir};
 };
 
-// Light tracing cannot show the ball of mirror-ball.xml, which no sample reveals.
+// Light tracing cannot show mirrors and glass, which no sample reveals.
 const std::vector<Case> cases = {
     {"cornell-box", path},
     {"furnace-sphere", path},
@@ -49,6 +49,11 @@ const std::vector<Case> cases = {
     {"mirror-ball", bidir, {path, bidir}},
     {"two-phong-spheres", path},
     {"mesh", path},
+    {"prism", path, {path, bidir}},
+    {"leaves", path},
+    {"textures", path},
+    {"mirror-and-glass", bidir, {path, bidir}},
+    {"glass-caustic", path, {path, bidir}},
     {"stability/caustic", light},
     {"stability/corner", path, {path, light, bidir, bidir_uniform, path_hits, path_light_samples}},
     {"stability/corridor", light, {path, light}}, // bidir takes 210 rays a sample
@@ -152,7 +157,7 @@ TEST_CASE("renders whose intervals fail are not trusted, and those whose interva
   const int seeds = std::stoi(environment("PHLUX_COVERAGE_SEEDS", "50"));
   const std::string only = environment("PHLUX_COVERAGE_SCENE", "");
   const bool lattice = environment("PHLUX_COVERAGE_SAMPLER", "") == "lattice";
-  const int most_samples = std::stoi(environment("PHLUX_COVERAGE_SAMPLES", "2048"));
+  const int most_samples = std::stoi(environment("PHLUX_COVERAGE_SAMPLES", "4096"));
   std::ofstream table(environment("PHLUX_COVERAGE_TABLE", "coverage.csv"));
   table << "scene,method,samples,seed,coverage,error,relative_standard_error,predicted_coverage,predicted_"
            "error,"
