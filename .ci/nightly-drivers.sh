@@ -2,10 +2,10 @@
 # shellcheck shell=bash disable=SC2034,SC2154 # variables that nightly sets and reads
 
 # The Debian release in whose root each driver runs.
-declare -A release_of=([pocl-3.1]=12 [pocl-6]=13 [intel]=12)
-drivers=(pocl-3.1 pocl-6 intel) # the others are compared with the first
+declare -A release_of=([pocl-3.1]=12 [pocl-6]=13 [intel]=12 [rusticl]=13)
+drivers=(pocl-3.1 pocl-6 intel rusticl) # the others are compared with the first
 
-widths="1 4 8 16"
+widths_of() { if [[ $1 == rusticl ]]; then echo 1; else echo 1 4 8 16; fi; } # rusticl compiles the others for minutes
 image="--size 24x24 --spp 64 --seed 1 --moments --png none -q"
 # The same samples on each driver, so that images differ only by rounding and its consequences: far less than noise, unless a
 # driver is wrong. The limits are nevertheless those of noise: of 400,000 normal z-values one exceeds 6 in 1 of 1000 runs.
@@ -18,6 +18,8 @@ on() {
   root=$folder/debian${release_of[$driver]}-root
   if [[ $driver == intel ]]; then # it needs a newer TBB than Embree, and both use the one loaded first
     more=(OCL_ICD_VENDORS=/opt/intel-vendors LD_PRELOAD=/opt/intel/libtbb.so.12)
+  elif [[ $driver == rusticl ]]; then # on the processor, by llvmpipe
+    more=(OCL_ICD_VENDORS=/etc/OpenCL/vendors/rusticl.icd RUSTICL_ENABLE=llvmpipe)
   fi
   enter "$root" root env "${more[@]}" PHLUX_CACHE_DIR="/var/cache/phlux-$driver" POCL_CACHE_DIR="/var/cache/pocl-$driver" "$@"
 }
@@ -38,12 +40,15 @@ set_up() { # DRIVER
   # The one scene whose mesh is generated, with the python3 of this machine.
   [[ -s $root$clone/scenes/stability/million-lights.ply ]] || python3 "$root$clone/scenes/stability/million_lights.py" || return
   if [[ $1 == intel ]]; then install_intel "$root" || return; fi
+  if [[ $1 == rusticl ]]; then
+    enter "$root" root apt-get install -y --no-remove --no-install-recommends mesa-opencl-icd || return
+  fi
   on "$1" ./phlux --version && on "$1" ./phlux devices
 }
 
 verify_on() { # DRIVER
   local width
-  for width in $widths; do
+  for width in $(widths_of "$1"); do
     JUDGE=verdict timed "$1: verify --quick --width $width" "$1-verify-$width" on "$1" ./phlux verify --quick --width "$width" ||
       true
   done

@@ -26,6 +26,7 @@ static inline RandomWords philox(RandomWords counter, uint2 key) {
     Uint high0, low0, high1, low1;
     multiply_wide(c.x, 0xD2511F53u, &high0, &low0);
     multiply_wide(c.z, 0xCD9E8D57u, &high1, &low1);
+    // Mesa 25.0 (rusticl) loses a RandomWords that is copied here.
     c.x = high1 ^ c.y ^ k.x;
     c.y = low1;
     c.z = high0 ^ c.w ^ k.y;
