@@ -29,8 +29,8 @@ namespace phlux::settings {
 
 template<class Archive>
 void serialize(Archive& archive, Choices& choices) {
-  auto& [definitions, size, texts] = choices;
-  archive(definitions, size, texts);
+  auto& [definitions, size, texts, auto_reasons] = choices;
+  archive(definitions, size, texts, auto_reasons);
 }
 
 // As texts, so that a new setting does not change the format.
@@ -92,7 +92,7 @@ void serialize(Archive& archive, Session& session) {
 namespace {
 
 // Must be raised with every change of the format; tests/checkpoint knows the length of a small file.
-constexpr int format_version = 4;
+constexpr int format_version = 5;
 constexpr std::string_view magic = "phlux checkpoint ";
 constexpr std::uint64_t longest_session = 1 << 20; // bytes; what a forged one may take is in proportion
 

@@ -30,8 +30,6 @@ struct RenderOptions : settings::Choices {
   std::optional<double> exposure; ///< of the preview, in stops; absent: automatic
   std::vector<std::string> aov;   ///< names of files::aov_names
   bool moments = false, advise = false, quiet = false, verbose = false;
-  std::string
-      choice; ///< why `--integrator auto` stands for the integrator in `texts`; empty: it was not auto
 };
 
 /// Options of `phlux info`: those of a render that decide on its kernel and memory.

@@ -64,8 +64,8 @@ void choose_integrator(RenderOptions& options, const scene::Scene& scene, const 
   if (integrator == options.texts.end() || integrator->second != "auto") return;
   const advice::MethodChoice choice = advice::choose_method(scene, options, defaults_of(options, group));
   for (const auto& [name, text] : choice.texts) options.texts.insert_or_assign(name, text);
-  options.choice = with_options(choice.words);
-  if (!options.quiet) say("auto: {}\n", printable(options.choice));
+  options.auto_reasons = with_options(choice.words);
+  if (!options.quiet) say("auto: {}\n", printable(options.auto_reasons));
 }
 
 // Adds the file name, which the renderer does not know, to its errors.
@@ -202,7 +202,7 @@ void write_all(const Outputs& outputs, const RenderOptions& options, const check
   LastSteps steps(options.quiet, [&] { return interrupt.requested(); });
   Patience for_channels(10s), for_rest(1s); // image and checkpoint are written in any case
   const render::Settings& settings = session.settings;
-  const files::RenderInfo info = info_of(session, options.choice, scene, film, statistics);
+  const files::RenderInfo info = info_of(session, options.auto_reasons, scene, film, statistics);
   std::filesystem::path image_file, checkpoint_file;
   std::vector<film::FirstHit> hits;
   if (!outputs.aov.empty())

@@ -32,7 +32,7 @@ struct Counts {
 } // namespace
 
 void add(const settings::Choices& choices, Packer& to) {
-  const auto& [definitions, size, texts] = choices;
+  const auto& [definitions, size, texts, auto_reasons] = choices; // workers write no files
   add(definitions, to);
   to.add(size.value_or(std::array{0, 0}));
   add(texts, to);

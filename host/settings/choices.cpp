@@ -34,6 +34,11 @@ bool Choices::has_amount() const {
 void Choices::complete(const Choices& earlier) {
   definitions.insert(earlier.definitions.begin(), earlier.definitions.end());
   if (!size) size = earlier.size;
+  if (const auto integrator = texts.find("integrator");
+      !earlier.auto_reasons.empty() && (integrator == texts.end() || integrator->second == "auto")) {
+    if (integrator != texts.end()) texts.erase(integrator);
+    auto_reasons = earlier.auto_reasons;
+  }
   const bool amount = has_amount();
   const auto precision = texts.find("precision");
   const bool in_double = precision != texts.end() && precision->second == "double"; // excludes a width

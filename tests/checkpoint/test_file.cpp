@@ -83,8 +83,8 @@ TEST_CASE("A checkpoint read from its file is complete") {
 }
 
 TEST_CASE("The format is that of its version: who changes one raises the other, and then this length") {
-  CHECK(Saved().bytes.substr(0, 19) == "phlux checkpoint 4 ");
-  CHECK(Saved().bytes.size() == 10022);
+  CHECK(Saved().bytes.substr(0, 19) == "phlux checkpoint 5 ");
+  CHECK(Saved().bytes.size() == 10030);
 }
 
 TEST_CASE("A file that is not a complete checkpoint of this version is refused with the reason") {
@@ -104,7 +104,7 @@ TEST_CASE("A file that is not a complete checkpoint of this version is refused w
   }
   std::string later = saved.bytes;
   later[17] = '9';
-  CHECK_THAT(saved.refusal(later), Contains("is a checkpoint of format 9") && Contains("reads format 4"));
+  CHECK_THAT(saved.refusal(later), Contains("is a checkpoint of format 9") && Contains("reads format 5"));
   CHECK_THROWS_WITH(checkpoint::read(saved / "missing"), Contains("missing: cannot be read: No such file"));
   CHECK_THROWS_WITH(checkpoint::read(saved.path()), Contains("is not a file"));
 }
@@ -255,7 +255,7 @@ TEST_CASE("A file with any byte changed and the right digest is refused, or has 
                                                                                  : 1));
     const XXH128_hash_t hash = XXH3_128bits(forged.data() + begin, forged.size() - begin);
     forged.replace(0, begin,
-                   fmt::format("phlux checkpoint 4 {:016x}{:016x} {:020}\n", hash.high64, hash.low64,
+                   fmt::format("phlux checkpoint 5 {:016x}{:016x} {:020}\n", hash.high64, hash.low64,
                                forged.size() - begin));
     place.write("forged", forged);
     try {

@@ -134,6 +134,22 @@ TEST_CASE("integrator auto chooses what --contributions needs") {
   CHECK(std::filesystem::exists(place / "techniques/contributions.png"));
 }
 
+TEST_CASE("A render by integrator auto resumes by what it chose, and still says why") {
+  const Renders place;
+  place.render({"-i", "auto", "-n", "64", "--checkpoint", "c", "--stats", "begun.json"});
+  const nlohmann::json begun = place.json("begun.json");
+  CHECK(begun["choice"].is_string());
+  for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"-i", "auto"}}) {
+    std::vector<std::string> arguments = {"--resume", "c", "-n", "128", "--stats", "on.json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    place.render(arguments);
+    const nlohmann::json on = place.json("on.json");
+    CHECK(on["samples_per_pixel"] == 128.0);
+    for (const char* key : {"choice", "integrator", "connect", "weights", "sampler"})
+      CHECK(on[key] == begun[key]);
+  }
+}
+
 TEST_CASE("Statistics have the contract's keys with values of the right kind") {
   const Renders place;
   place.render({"-n", "4", "--stats", "stats.json"});

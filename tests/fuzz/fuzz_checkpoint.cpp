@@ -21,7 +21,7 @@ checkpoint::Session session_of(const settings::Settings& settings) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t count) {
   const XXH128_hash_t hash = XXH3_128bits(bytes, count);
   std::string file =
-      fmt::format("phlux checkpoint 4 {:016x}{:016x} {:020}\n", hash.high64, hash.low64, count);
+      fmt::format("phlux checkpoint 5 {:016x}{:016x} {:020}\n", hash.high64, hash.low64, count);
   file.append(reinterpret_cast<const char*>(bytes), count);
   const Input input(file);
   try {
