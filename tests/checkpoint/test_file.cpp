@@ -49,6 +49,13 @@ film::Film film_of_session() {
   return film;
 }
 
+// A file of these bytes after its first line, with the right digest.
+std::string with_first_line(const std::string& bytes) {
+  const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());
+  return fmt::format("phlux checkpoint 5 {:016x}{:016x} {:020}\n", hash.high64, hash.low64, bytes.size()) +
+         bytes;
+}
+
 struct Saved : TemporaryFolder {
   std::string bytes = checkpoint::encode(small_session(), small_film());
 
@@ -240,6 +247,16 @@ TEST_CASE("A forged state is refused, whatever number is wrong") {
   });
 }
 
+TEST_CASE("The first inputs of the fuzzer are checkpoints of this version") {
+  const Saved place;
+  for (const char* integrator : {"path", "light", "bidir"}) {
+    const std::string bytes =
+        TemporaryFolder::read(std::string(PHLUX_SOURCE_DIR "/tests/fuzz/corpus/checkpoint/") + integrator);
+    place.write("input", with_first_line(bytes));
+    CHECK(checkpoint::read(place / "input").session.settings.integrator == integrator);
+  }
+}
+
 TEST_CASE("A file with any byte changed and the right digest is refused, or has a state of the render") {
   const Saved place;
   const std::string bytes = checkpoint::encode(small_session(), film_of_session());
@@ -253,11 +270,7 @@ TEST_CASE("A file with any byte changed and the right digest is refused, or has 
     forged[place_of] = static_cast<char>(forged[place_of] ^ (place_of % 3 == 0   ? 0x80
                                                              : place_of % 3 == 1 ? 0xff
                                                                                  : 1));
-    const XXH128_hash_t hash = XXH3_128bits(forged.data() + begin, forged.size() - begin);
-    forged.replace(0, begin,
-                   fmt::format("phlux checkpoint 5 {:016x}{:016x} {:020}\n", hash.high64, hash.low64,
-                               forged.size() - begin));
-    place.write("forged", forged);
+    place.write("forged", with_first_line(forged.substr(begin)));
     try {
       checkpoint::Checkpoint earlier = checkpoint::read(place / "forged");
       checkpoint::check_same(earlier, now, 3, 2, "forged");
