@@ -16,7 +16,7 @@ namespace phlux::film {
 inline constexpr double least_samples = 8.0;
 /// The least coverage of a trusted image. Of the renders of tests/images/coverage_table.cpp it rejects 2% of
 /// those with a true coverage of 93% to 97%, and 96% of those below 85%.
-inline constexpr double least_coverage = 0.86;
+inline constexpr double least_coverage = 0.865;
 
 /// Largest Reliability::variance_error of a trusted image: eleven samples cause the whole variance.
 inline constexpr double largest_variance_error = 0.3;
