@@ -14,7 +14,7 @@ struct Choices {
   std::map<std::string, std::string> definitions; ///< values of the scene's $names
   std::optional<std::array<int, 2>> size;         ///< width, height
   std::map<std::string, std::string> texts;       ///< of the chosen settings, by name
-  std::string auto_reasons; ///< why `--integrator auto` has chosen some of the texts; empty: it was not auto
+  std::string auto_reasons; ///< why `integrator auto` has chosen some of the texts; empty: it was not auto
 
   /// @throws UsageError "`NAME` TEXT: what would be right"
   void choose(const Setting& setting, const std::string& text);
@@ -23,7 +23,7 @@ struct Choices {
   [[nodiscard]] bool has_amount() const;
 
   /// Adds choices of `earlier` that are absent here; settings with Affects::amount only if none is chosen
-  /// here. `--integrator auto` stays what it was then.
+  /// here. `integrator auto` stays what it was then.
   void complete(const Choices& earlier);
 };
 
