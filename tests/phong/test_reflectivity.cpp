@@ -1,4 +1,6 @@
 // The reflectivity of a lobe on the host.
+// In debug builds Boost 1.74 asserts that tanh_sinh rounds no point to an end of the interval, but it does.
+#define BOOST_DISABLE_ASSERTS
 #include <catch2/catch.hpp>
 
 #include <cmath>
