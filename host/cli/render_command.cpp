@@ -119,16 +119,15 @@ std::string missed_light(const scene::Scene& scene, const render::Settings& sett
                               : "light that mirrors or glass bring to the camera";
 }
 
-files::RenderInfo info_of(const checkpoint::Session& session, const std::string& choice,
-                          const scene::Scene& scene, const film::Film& film,
-                          const render::Statistics& statistics) {
+files::RenderInfo info_of(const checkpoint::Session& session, const scene::Scene& scene,
+                          const film::Film& film, const render::Statistics& statistics) {
   const render::Settings& settings = session.settings;
   return {
       .version = PHLUX_VERSION,
       .scene = session.scene,
       .scene_digest = session.scene_digest,
       .settings = files::stored(settings),
-      .choice = choice,
+      .choice = session.choices.auto_reasons,
       .samples = film.samples_per_pixel(),
       .seed = settings.seed,
       .ranges = {{settings.seed, settings.first_sample, settings.first_sample + statistics.position.end()}},
@@ -202,7 +201,7 @@ void write_all(const Outputs& outputs, const RenderOptions& options, const check
   LastSteps steps(options.quiet, [&] { return interrupt.requested(); });
   Patience for_channels(10s), for_rest(1s); // image and checkpoint are written in any case
   const render::Settings& settings = session.settings;
-  const files::RenderInfo info = info_of(session, options.auto_reasons, scene, film, statistics);
+  const files::RenderInfo info = info_of(session, scene, film, statistics);
   std::filesystem::path image_file, checkpoint_file;
   std::vector<film::FirstHit> hits;
   if (!outputs.aov.empty())

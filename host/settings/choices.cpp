@@ -34,9 +34,9 @@ bool Choices::has_amount() const {
 void Choices::complete(const Choices& earlier) {
   definitions.insert(earlier.definitions.begin(), earlier.definitions.end());
   if (!size) size = earlier.size;
-  if (const auto integrator = texts.find("integrator");
-      !earlier.auto_reasons.empty() && (integrator == texts.end() || integrator->second == "auto")) {
-    if (integrator != texts.end()) texts.erase(integrator);
+  const auto integrator = texts.find("integrator");
+  if (!earlier.auto_reasons.empty() && (integrator == texts.end() || integrator->second == "auto")) {
+    texts.erase("integrator");
     auto_reasons = earlier.auto_reasons;
   }
   const bool amount = has_amount();

@@ -3,10 +3,9 @@
 #include <random>
 
 #include <catch2/catch.hpp>
-#include <fmt/format.h>
-#include <xxhash.h>
 
 #include "checkpoint/checkpoint.h"
+#include "checkpoint/first_line.h"
 #include "checkpoint/sameness.h"
 #include "errors.h"
 #include "film/reliability.h"
@@ -47,13 +46,6 @@ film::Film film_of_session() {
   film::Film film(3, 2);
   for (std::size_t pixel = 0; pixel < 6; ++pixel) film.add(pixel, {{1, 2, 3}, {1, 4, 9}}, 16);
   return film;
-}
-
-// A file of these bytes after its first line, with the right digest.
-std::string with_first_line(const std::string& bytes) {
-  const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());
-  return fmt::format("phlux checkpoint 5 {:016x}{:016x} {:020}\n", hash.high64, hash.low64, bytes.size()) +
-         bytes;
 }
 
 struct Saved : TemporaryFolder {
@@ -252,7 +244,7 @@ TEST_CASE("The first inputs of the fuzzer are checkpoints of this version") {
   for (const char* integrator : {"path", "light", "bidir"}) {
     const std::string bytes =
         TemporaryFolder::read(std::string(PHLUX_SOURCE_DIR "/tests/fuzz/corpus/checkpoint/") + integrator);
-    place.write("input", with_first_line(bytes));
+    place.write("input", test::with_first_line(bytes));
     CHECK(checkpoint::read(place / "input").session.settings.integrator == integrator);
   }
 }
@@ -270,7 +262,7 @@ TEST_CASE("A file with any byte changed and the right digest is refused, or has 
     forged[place_of] = static_cast<char>(forged[place_of] ^ (place_of % 3 == 0   ? 0x80
                                                              : place_of % 3 == 1 ? 0xff
                                                                                  : 1));
-    place.write("forged", with_first_line(forged.substr(begin)));
+    place.write("forged", test::with_first_line(forged.substr(begin)));
     try {
       checkpoint::Checkpoint earlier = checkpoint::read(place / "forged");
       checkpoint::check_same(earlier, now, 3, 2, "forged");

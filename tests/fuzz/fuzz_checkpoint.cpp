@@ -1,8 +1,6 @@
 // Checkpoints with the right digest: a state of the render that resumes, or an Error. The input is a file
 // without its first line.
-#include <fmt/format.h>
-#include <xxhash.h>
-
+#include "checkpoint/first_line.h"
 #include "checkpoint/sameness.h"
 #include "errors.h"
 #include "film/reliability.h"
@@ -19,11 +17,7 @@ checkpoint::Session session_of(const settings::Settings& settings) {
 } // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t count) {
-  const XXH128_hash_t hash = XXH3_128bits(bytes, count);
-  std::string file =
-      fmt::format("phlux checkpoint 5 {:016x}{:016x} {:020}\n", hash.high64, hash.low64, count);
-  file.append(reinterpret_cast<const char*>(bytes), count);
-  const Input input(file);
+  const Input input(test::with_first_line({reinterpret_cast<const char*>(bytes), count}));
   try {
     checkpoint::Checkpoint earlier = checkpoint::read(input.file());
     earlier.session.scene_digest = "1234";

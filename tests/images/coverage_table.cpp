@@ -3,8 +3,8 @@
 // predicts.
 //   PHLUX_COVERAGE_SEEDS=20 PHLUX_COVERAGE_TABLE=coverage.csv test_images "[.coverage]"
 // writes a line for each render and prints the share of the renders that are not trusted, for those whose
-// intervals contain the true value in 93% to 97% of the pixels and in less than 85%. An hour and a half on one
-// core for 50 seeds. PHLUX_COVERAGE_SAMPLER=lattice selects that sampler for path and bidir, and
+// intervals contain the true value in 93% to 97% of the pixels and in less than 85%. 90 minutes on one core
+// for 50 seeds. PHLUX_COVERAGE_SAMPLER=lattice selects that sampler for path and bidir, and
 // PHLUX_COVERAGE_SAMPLES=N leaves out renders of more than N samples.
 #include <algorithm>
 #include <cmath>
@@ -39,8 +39,8 @@ struct Case {
   std::vector<Method> methods = {path, light, bidir};
 };
 
-// Light tracing cannot show mirrors and glass, which no sample reveals. The light of glass-caustic.xml is not known
-// well enough: 40,000 samples of a pixel miss a part of it.
+// Light tracing cannot show mirrors and glass, which no sample reveals. The light of glass-caustic.xml is not
+// known well enough: 40,000 samples of a pixel miss a part of it.
 const std::vector<Case> cases = {
     {"cornell-box", path},
     {"furnace-sphere", path},
