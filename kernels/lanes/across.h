@@ -36,6 +36,8 @@ static inline Scalar min_of_lanes(Real v) {
 #endif
 }
 
+static inline Scalar max_of_lanes(Real v) { return -min_of_lanes(-v); }
+
 static inline uint sum_of_lanes(Uint v) {
 #if WIDTH == 1
   return v;

@@ -118,6 +118,17 @@ static inline void int_lanes_to_array(Int v, int* array) { *(IntWords*)array = v
 static inline Real lanes_from_array(const Scalar* array) { return *(const ScalarWords*)array; }
 static inline Int int_lanes_from_array(const int* array) { return *(const IntWords*)array; }
 
+// base[index] in every lane, of a private array.
+static inline Real array_reals(const Scalar* base, Int index) {
+#ifdef LANES_GATHER
+  return native_gather((const __global float*)(size_t)base, index);
+#elif WIDTH == 1
+  return base[index];
+#else
+  return (Real)(LANE_EACH(LANE_LOAD));
+#endif
+}
+
 // WIDTH consecutive words from `base`.
 static inline Real load_reals(const __global float* base) { return *(const __global FloatWords*)base; }
 static inline Int load_ints(const __global int* base) { return *(const __global IntWords*)base; }

@@ -40,19 +40,20 @@ static inline BoxRay box_ray(const Scalar* r) {
   return b;
 }
 
-// Pushes the children of a node that the ray hits before `limit`, the nearest last. The error of distances is at most 2
-// ulp; the far one is increased by 3 ulp, so that no box is missed (Ize 2013).
-static inline int push_children(const __global float* node, const BoxRay* b, Scalar limit, Scalar* nears, int* children,
-                                int top) {
+// Pushes the children of a node that the ray hits before `limit`, the nearest last. Distances to far planes use
+// `far_inverse`, which is b->inverse for a single ray. The error of distances is at most 2 ulp; the far one is
+// increased by 3 ulp, so that no box is missed (Ize 2013).
+static inline int push_children(const __global float* node, const BoxRay* b, Vec3 far_inverse, Scalar limit,
+                                Scalar* nears, int* children, int top) {
   const int first = top;
   for (int group = 0; group < CHILDREN; group += LANES) {
     const __global float* boxes = node + group;
     const Real near_x = (load_reals(boxes + b->near_x * CHILDREN) - b->ray.origin.x) * b->inverse.x;
     const Real near_y = (load_reals(boxes + b->near_y * CHILDREN) - b->ray.origin.y) * b->inverse.y;
     const Real near_z = (load_reals(boxes + b->near_z * CHILDREN) - b->ray.origin.z) * b->inverse.z;
-    const Real far_x = (load_reals(boxes + b->far_x * CHILDREN) - b->ray.origin.x) * b->inverse.x;
-    const Real far_y = (load_reals(boxes + b->far_y * CHILDREN) - b->ray.origin.y) * b->inverse.y;
-    const Real far_z = (load_reals(boxes + b->far_z * CHILDREN) - b->ray.origin.z) * b->inverse.z;
+    const Real far_x = (load_reals(boxes + b->far_x * CHILDREN) - b->ray.origin.x) * far_inverse.x;
+    const Real far_y = (load_reals(boxes + b->far_y * CHILDREN) - b->ray.origin.y) * far_inverse.y;
+    const Real far_z = (load_reals(boxes + b->far_z * CHILDREN) - b->ray.origin.z) * far_inverse.z;
     const Real enter = larger(larger(near_x, near_y), larger(near_z, (Real)(0.0f)));
     const Real leave = smaller(smaller(far_x, far_y), far_z) * 1.0000004f;
     const Mask met = (enter <= leave) & (enter < limit);
@@ -79,29 +80,43 @@ static inline Vec3 load_planar(const __global Scalar* block, int value) {
               load_scalars(block + (value + 2) * LANES));
 }
 
-// The primitives of one block that the ray hits before `limit`, and their distances.
-static inline Mask meet_planars(const Scene* scene, int block, int kind, Ray ray, Scalar limit, Real* distance) {
+// The flat primitives of a block, one in each lane.
+static inline Planar planars_of_block(const Scene* scene, int block) {
   const __global Scalar* values = scene->planars + block * (PLANAR_FLOATS * LANES);
   Planar p;
   p.origin = load_planar(values, PLANAR_ORIGIN);
   p.edge_v = load_planar(values, PLANAR_EDGE_V);
   p.minus_u = load_planar(values, PLANAR_MINUS_U);
   p.normal = load_planar(values, PLANAR_NORMAL);
-  const PlaneCrossing c = cross_plane(ray, p);
-  const Mask inside = HAS_TRIANGLES && kind == REGION_TRIANGLE ? in_triangle(c)
-                      : HAS_ELLIPSES && kind == REGION_ELLIPSE ? in_ellipse(c)
-                                                               : in_parallelogram(c);
+  return p;
+}
+
+// Lanes in which the ray is inside a region of the kind of a leaf, which is the same in every lane.
+static inline Mask in_region(PlaneCrossing c, int kind) {
+  if (HAS_TRIANGLES & (!HAS_MIXED_REGIONS | (kind == REGION_TRIANGLE))) return in_triangle(c);
+  if (HAS_ELLIPSES & (!HAS_PARALLELOGRAMS | (kind == REGION_ELLIPSE))) return in_ellipse(c);
+  return in_parallelogram(c);
+}
+
+// The primitives of one block that the ray hits before `limit`, and their distances.
+static inline Mask meet_planars(const Scene* scene, int block, int kind, Ray ray, Scalar limit, Real* distance) {
+  const PlaneCrossing c = cross_plane(ray, planars_of_block(scene, block));
+  const Mask inside = in_region(c, kind);
   const Mask met = inside & (c.distance > 0.0f) & (c.distance < limit * c.facing);
   *distance = c.distance / c.facing;
   return met;
 }
 
-static inline Mask meet_spheres(const Scene* scene, int block, Ray ray, Scalar limit, Real* distance) {
+static inline SphereShape spheres_of_block(const Scene* scene, int block) {
   const __global Scalar* values = scene->spheres + block * (SPHERE_FLOATS * LANES);
   SphereShape s;
   s.center = vec3(load_scalars(values), load_scalars(values + LANES), load_scalars(values + 2 * LANES));
   s.radius = load_scalars(values + 3 * LANES);
-  *distance = cross_sphere(ray, s);
+  return s;
+}
+
+static inline Mask meet_spheres(const Scene* scene, int block, Ray ray, Scalar limit, Real* distance) {
+  *distance = cross_sphere(ray, spheres_of_block(scene, block));
   return (*distance > 0.0f) & (*distance < limit);
 }
 
@@ -116,16 +131,17 @@ static inline Leaf leaf_of(int child) {
   return leaf;
 }
 
+static inline int has_spheres(int kind) { return HAS_SPHERES & (!HAS_PLANARS | (kind == LEAF_SPHERES)); }
+
 // The primitives of block `block` of a leaf; *first is the primitive index of its lane 0.
 static inline Mask meet_block(const Scene* scene, int block, int kind, Ray ray, Scalar limit, Real* distance,
                               int* first) {
-  if (HAS_SPHERES & (!HAS_PLANARS | (kind == LEAF_SPHERES))) {
+  if (has_spheres(kind)) {
     *first = scene->first_sphere + block * LANES;
     return meet_spheres(scene, block, ray, limit, distance);
   }
   *first = block * LANES;
-  const int only_kind = HAS_TRIANGLES ? REGION_TRIANGLE : HAS_ELLIPSES ? REGION_ELLIPSE : REGION_PARALLELOGRAM;
-  return meet_planars(scene, block, HAS_MIXED_REGIONS ? kind : only_kind, ray, limit, distance);
+  return meet_planars(scene, block, kind, ray, limit, distance);
 }
 
 // Finds the closest primitive before *distance; returns its index, or -1 without changing *distance.
@@ -141,7 +157,8 @@ static inline int closest_along(const Scene* scene, const Scalar* ray, Scalar* d
     if (nears[top] >= *distance) continue;
     const int child = children[top];
     if (child >= 0) {
-      top = push_children(scene->nodes + child * (NODE_WORDS * CHILDREN), &b, *distance, nears, children, top);
+      top =
+          push_children(scene->nodes + child * (NODE_WORDS * CHILDREN), &b, b.inverse, *distance, nears, children, top);
       continue;
     }
     const Leaf leaf = leaf_of(child);
@@ -170,7 +187,8 @@ static inline int blocked_along(const Scene* scene, const Scalar* ray, Scalar di
     --top;
     const int child = children[top];
     if (child >= 0) {
-      top = push_children(scene->nodes + child * (NODE_WORDS * CHILDREN), &b, distance, nears, children, top);
+      top =
+          push_children(scene->nodes + child * (NODE_WORDS * CHILDREN), &b, b.inverse, distance, nears, children, top);
       continue;
     }
     const Leaf leaf = leaf_of(child);

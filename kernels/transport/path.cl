@@ -1,6 +1,7 @@
 // Path tracing (CW 197, 3.3.2): a path starts at the camera and is scattered at every surface, until it leaves the
 // scene or is ended by roulette or the largest depth. CONNECT selects how light is found: by hits, by light samples, or
 // by both with weights.
+#include "transport/camera_packets.cl"
 #include "transport/eye_subpath.cl"
 #include "transport/film.cl"
 
@@ -47,20 +48,24 @@ __kernel void trace_paths(SCENE_PARAMETERS, int pixel_count, int first_pixel, in
   Vec3 radiance = vec_all((Real)(0.0f));
   Uint rays = (Uint)(0u), shadow_rays = (Uint)(0u);
   Mask alive = NO_LANES;
+  const int by_packets = HAS_CAMERA_PACKETS && block_samples >= LEAST_PACKET;
+  CameraHits packets;
 
   for (Mask working = jobs_left(list, job); any_lane(working); working = jobs_left(list, job)) {
     const Mask starting = working & !alive;
     if (any_lane(starting)) start_paths(&scene, &path, &radiance, list, job, starting);
 
-    const Arrival arrival = next_vertex(&scene, &path, 0, limits, working);
+    Hit hit = trace_edge(&scene, &path, 0, by_packets ? working & !starting : working);
+    if (by_packets) hit = camera_hits(&scene, path.sequence, list, job, &packets, hit, starting);
+    const Arrival arrival = arrive(&scene, &path, hit, limits, working);
     rays += working ? (Uint)(1u) : (Uint)(0u);
     const Mask leaves_scene = working & !arrival.hits;
     if (HAS_SKY && any_lane(leaves_scene)) {
       const FoundLight sky = hit_sky(&scene, &path, sky_light, leaves_scene);
       radiance = add_found(radiance, sky, sky.found);
     }
-    const FoundLight hit = hit_light(&scene, &path, arrival.vertex.point, arrival.distance, arrival.hits);
-    if (HAS_AREA_LIGHTS) radiance = add_found(radiance, hit, hit.found);
+    const FoundLight light_hit = hit_light(&scene, &path, arrival.vertex.point, arrival.distance, arrival.hits);
+    if (HAS_AREA_LIGHTS) radiance = add_found(radiance, light_hit, light_hit.found);
 
     if (CONNECT != CONNECT_NONE) {
       LightSample light;

@@ -77,9 +77,8 @@ static inline Hit trace_edge(const Scene* scene, Subpath* s, int adjoint, Mask a
   return first_scattering(scene, s->ray, words, &s->throughput, alive);
 }
 
-// `adjoint`: 1 for light subpaths.
-static inline Arrival next_vertex(const Scene* scene, Subpath* s, int adjoint, PathLimits limits, Mask alive) {
-  const Hit hit = trace_edge(scene, s, adjoint, alive);
+// Adds the edge to `hit`.
+static inline Arrival arrive(const Scene* scene, Subpath* s, Hit hit, PathLimits limits, Mask alive) {
   s->edges += alive ? (Int)(1) : (Int)(0);
   Arrival a;
   a.distance = hit.distance;
@@ -90,6 +89,11 @@ static inline Arrival next_vertex(const Scene* scene, Subpath* s, int adjoint, P
   a.scattered = a.hits & (s->edges < limits.longest) & (a.vertex.fixed.z > 0.0f) &
                 reflects(scene, a.vertex.point.material, a.vertex.point.shaded_front);
   return a;
+}
+
+// Traces the next edge. `adjoint`: 1 for light subpaths.
+static inline Arrival next_vertex(const Scene* scene, Subpath* s, int adjoint, PathLimits limits, Mask alive) {
+  return arrive(scene, s, trace_edge(scene, s, adjoint, alive), limits, alive);
 }
 
 // |cosine| if directions that count may have negative cosines.

@@ -20,6 +20,9 @@ struct Traced {
   float distance;
   int material, blocked;
 };
+struct Bounds {
+  Float3 origin, centre, across, down;
+};
 struct Left {
   int material, front, next_material, outward;
   float distance, next_distance, error;
@@ -127,6 +130,55 @@ void compare(Variant v, const Scene& scene) {
   CHECK(blocked >= r.rays.size() / 60);
 }
 
+// Packets from random points and from the planes of shapes, of pixels from 1e-4 to .5 radians wide, also
+// along the axes.
+struct Packets {
+  std::vector<Bounds> bounds; // one per lane
+  std::vector<float> a, b;
+  std::vector<int> asking;
+};
+Packets random_packets(std::size_t count, int width) {
+  Random random(64);
+  Packets p;
+  for (std::size_t i = 0; i < count; ++i) {
+    const dvec3 origin = random.uniform(0, 15) * random.point();
+    const dvec3 centre =
+        i % 8 == 0 ? dvec3(i % 16 == 0 ? 1 : -1, 0, 0) : glm::normalize(8.0 * random.point() - origin);
+    const dvec3 across = glm::normalize(glm::cross(centre, random.direction()));
+    const dvec3 down = glm::cross(centre, across);
+    const double size = std::exp2(random.uniform(-13, -1)), shape = random.uniform(0.1, 1);
+    const Bounds bounds = {to_float(origin), to_float(centre), to_float(size * across),
+                           to_float(shape * size * down)};
+    for (int lane = 0; lane < width; ++lane) {
+      p.bounds.push_back(bounds);
+      p.a.push_back(static_cast<float>(random.uniform(-1, 1)));
+      p.b.push_back(static_cast<float>(random.uniform(-1, 1)));
+      p.asking.push_back(random.word() % 8 != 0);
+    }
+  }
+  return p;
+}
+
+void compare_packets(Variant v, const Scene& scene) {
+  const SceneProgram program(v, "traverse.cl", scene, "exact", phlux::render::Traversal::bvh);
+  const Packets p = random_packets(thinned(4000, 200), v.width);
+  std::vector<float> packet_distance(p.a.size()), distance(p.a.size());
+  std::vector<int> packet_material(p.a.size()), material(p.a.size()), together(p.a.size());
+  program.run("trace_packets", p.a.size(), p.bounds, p.a, p.b, p.asking, out(packet_distance),
+              out(packet_material), out(distance), out(material), out(together));
+  std::size_t packets = 0, hits = 0;
+  for (std::size_t i = 0; i < p.a.size(); ++i) {
+    if (p.asking[i] == 0) continue;
+    packets += together[i] != 0;
+    hits += together[i] != 0 && material[i] >= 0;
+    CAPTURE(i, together[i], packet_distance[i], distance[i]);
+    REQUIRE(packet_material[i] == material[i]);
+    if (material[i] >= 0) REQUIRE(packet_distance[i] == distance[i]);
+  }
+  CHECK(packets > p.a.size() / 2);
+  CHECK(hits > p.a.size() / 100);
+}
+
 // One shape under test and, to the side, small ones that move the centre of the scene away from it.
 Scene alone(double size, int kind, double aside) {
   Shapes shapes;
@@ -201,6 +253,14 @@ TEST_CASE("traverse: brute force and hierarchy find the same primitives at the s
     for (const unsigned kinds : {15u, v.width == 1 ? 1u : v.width == 4 ? 8u : v.width == 8 ? 7u : 12u}) {
       CAPTURE(v, kinds);
       compare(v, random_scene(kinds));
+    }
+}
+
+TEST_CASE("traverse: rays of a packet have the hits that they have one by one") {
+  for (const Variant v : variants)
+    for (const unsigned kinds : {15u, 1u, 2u, 4u, 8u}) {
+      CAPTURE(v, kinds);
+      compare_packets(v, random_scene(kinds));
     }
 }
 

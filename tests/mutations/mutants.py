@@ -129,6 +129,7 @@ MAPS, MAP_RENDERS = ("test_kernels", "environment maps:*"), ("test_images", "env
 CAMERA_RENDERS = ("test_images", "cameras:*")
 REMEDIES = ("test_images", "light samples by power*,roulette of connections leaves*")
 ROULETTES = ("test_images", "every roulette*")
+PACKETS = ("test_kernels", "traverse: rays of a packet*")
 
 INTEGRATOR_MUTANTS = [
     ("splat without its cosine", "transport/light_subpath.cl",
@@ -303,4 +304,12 @@ INTEGRATOR_MUTANTS = [
      "to_real(a) * (1.0f / (float)b)", BATCHES),
     ("a small image ends once in a batch", "transport/batch.cl",
      "1 + quotient(max(beyond, (Int)(0)), list.pixel_count)", "(Int)(1)", BATCHES),
+    ("bounds of a packet without one side", "scene/traverse_packet.cl", "+ fabs(vec_dot(v, vec_of(packet->down)))", "",
+     PACKETS),
+    ("far planes met by the fastest ray", "scene/traverse_packet.cl", "first, last->inverse, limit",
+     "first, first->inverse, limit", PACKETS),
+    ("bounds of half a pixel", "transport/camera_packets.cl", "(right - left) / width * camera->left[axis]",
+     "0.5f * (right - left) / width * camera->left[axis]", CAMERA),
+    ("hit of another sample's camera ray", "transport/camera_packets.cl", "LANE_NUMBERS * LANES + number",
+     "LANE_NUMBERS * LANES + ((number + 1) & (LANES - 1))", ("test_images", "a hierarchy finds*")),
 ]

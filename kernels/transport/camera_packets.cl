@@ -1,0 +1,71 @@
+// Path tracing traces the camera rays of the next LANES samples of a pixel together, as a packet, before they are
+// needed. A path takes its hit when it starts.
+#ifndef PHLUX_CAMERA_PACKETS_CL
+#define PHLUX_CAMERA_PACKETS_CL
+
+#include "scene/camera.cl"
+#include "scene/traverse_packet.cl"
+#include "transport/film.cl"
+
+#define HAS_CAMERA_PACKETS (HAS_BVH & (LANES > 1) & !HAS_MASKS & !HAS_LENS & !HAS_ORTHOGRAPHIC)
+// Fewer rays take less time one by one.
+#define LEAST_PACKET 4
+
+// Hits of the camera rays of the job of each lane: that of its sample s is record lane LANES + s % LANES.
+typedef struct {
+  Scalar distance[LANES * LANES], primitive[LANES * LANES];
+} CameraHits;
+
+// Bounds of the camera rays through points of a pixel, those of `sample` in the lanes of m.
+static inline void bound_camera_rays(const Scene* scene, int pixel, CameraSample sample, Mask m, Packet* packet) {
+  const __global CameraRecord* camera = scene->camera;
+  const int row = pixel / camera->width, column = pixel - row * camera->width;
+  const Real none = (Real)(INFINITY);
+  const Scalar left = min_of_lanes(m ? sample.x : none), right = max_of_lanes(m ? sample.x : -none);
+  const Scalar top = min_of_lanes(m ? sample.y : none), bottom = max_of_lanes(m ? sample.y : -none);
+  const Scalar width = (Scalar)camera->width, height = (Scalar)camera->height;
+  const Scalar leftwards = 1.0f - 2.0f * ((0.5f * (left + right) + (Scalar)column) / width + camera->principal_x);
+  const Scalar upwards = 1.0f - 2.0f * ((0.5f * (top + bottom) + (Scalar)row) / height + camera->principal_y);
+  for (int axis = 0; axis < 3; ++axis) {
+    packet->origin[axis] = camera->position[axis];
+    packet->centre[axis] = camera->forward[axis] + leftwards * camera->left[axis] + upwards * camera->up[axis];
+    packet->across[axis] = (right - left) / width * camera->left[axis];
+    packet->down[axis] = (bottom - top) / height * camera->up[axis];
+  }
+}
+
+// Traces the camera rays of the next samples of the jobs of m.
+static inline void trace_camera_packets(const Scene* scene, RandomSequence sequence, JobList list, Job job,
+                                        CameraHits* hits, Mask m) {
+  int pixels[LANES], samples[LANES], lengths[LANES];
+  int_lanes_to_array(job.pixel, pixels);
+  int_lanes_to_array(sample_number(list, job), samples);
+  int_lanes_to_array(list.block_samples - job.samples, lengths);
+  for (Mask left = m; any_lane(left);) {
+    const int lane = first_lane(left);
+    left &= LANE_NUMBERS != lane;
+    const Mask traced = LANE_NUMBERS < lengths[lane];
+    sequence.pixel = (Uint)((uint)pixels[lane]);
+    sequence.sample = int_to_uint(samples[lane] + LANE_NUMBERS);
+    const CameraSample sample = camera_sample(scene, random_words(sequence, (Uint)(0), 0));
+    Packet packet;
+    bound_camera_rays(scene, pixels[lane], sample, traced, &packet);
+    const Hit hit = packet_intersect(scene, camera_ray(scene, sequence.pixel, sample), &packet, traced);
+    lanes_to_array(hit.distance, hits->distance + lane * LANES);
+    lanes_to_array(carry_int(hit.primitive), hits->primitive + lane * LANES);
+  }
+}
+
+// The hits of the camera rays of `starting`; the other lanes keep `hit`.
+static inline Hit camera_hits(const Scene* scene, RandomSequence sequence, JobList list, Job job, CameraHits* hits,
+                              Hit hit, Mask starting) {
+  const Int number = job.samples & (LANES - 1);
+  const Mask untraced = starting & (number == 0);
+  if (any_lane(untraced)) trace_camera_packets(scene, sequence, list, job, hits, untraced);
+  const Int record = LANE_NUMBERS * LANES + number;
+  hit.distance = starting ? array_reals(hits->distance, record) : hit.distance;
+  hit.primitive = starting ? carried_int(array_reals(hits->primitive, record)) : hit.primitive;
+  return hit;
+}
+
+#endif
