@@ -96,7 +96,9 @@ static inline void load_members(const __global void* table, int words, float (*m
 
 // base[index] = value in the lanes of m, in lane order.
 static inline void scatter_real(__global float* base, Int index, Real value, Mask m) {
-#if WIDTH == 1
+#ifdef LANES_GATHER
+  native_scatter(base, index, value, m);
+#elif WIDTH == 1
   if (m) base[index] = (float)value;
 #else
 #define LANE_STORE(k) (m.s##k ? (void)(base[index.s##k] = value.s##k) : (void)0)
@@ -105,7 +107,9 @@ static inline void scatter_real(__global float* base, Int index, Real value, Mas
 }
 
 static inline void scatter_int(__global int* base, Int index, Int value, Mask m) {
-#if WIDTH == 1
+#ifdef LANES_GATHER
+  native_scatter_int(base, index, value, m);
+#elif WIDTH == 1
   if (m) base[index] = value;
 #else
   LANE_EACH(LANE_STORE);

@@ -11,6 +11,7 @@
 // clang before 8 declares the indices of gathersiv16sf as floats.
 #if WIDTH == 16 && defined(__AVX512F__) && __clang_major__ >= 8
 #if __has_builtin(__builtin_ia32_gathersiv16sf) && __has_builtin(__builtin_ia32_gathersiv16si) &&                      \
+    __has_builtin(__builtin_ia32_scattersiv16sf) && __has_builtin(__builtin_ia32_scattersiv16si) &&                    \
     __has_builtin(__builtin_ia32_cmpd512_mask) && __has_builtin(__builtin_ia32_compresssf512_mask) &&                  \
     __has_builtin(__builtin_ia32_expandsf512_mask) && __has_builtin(__builtin_ia32_expandsi512_mask) &&                \
     __has_builtin(__builtin_ia32_permvarsf512)
@@ -48,6 +49,14 @@ static inline Real native_gather(const __global float* base, Int index) {
 static inline Int native_gather_int(const __global int* base, Int index) {
   return LANE_INTS(__builtin_ia32_gathersiv16si(LANE_NATIVE_INTS((Int)(0)), (const void*)(size_t)base,
                                                 LANE_NATIVE_INTS(index), (ushort)0xffff, 4));
+}
+static inline void native_scatter(__global float* base, Int index, Real v, Mask m) {
+  __builtin_ia32_scattersiv16sf((void*)(size_t)base, (ushort)native_bits(m), LANE_NATIVE_INTS(index),
+                                LANE_NATIVE_FLOATS(v), 4);
+}
+static inline void native_scatter_int(__global int* base, Int index, Int v, Mask m) {
+  __builtin_ia32_scattersiv16si((void*)(size_t)base, (ushort)native_bits(m), LANE_NATIVE_INTS(index),
+                                LANE_NATIVE_INTS(v), 4);
 }
 static inline Real native_permute(Real v, Int index) {
   return LANE_REALS(__builtin_ia32_permvarsf512(LANE_NATIVE_FLOATS(v), LANE_NATIVE_INTS(index)));
