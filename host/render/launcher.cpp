@@ -64,9 +64,17 @@ void Launcher::begin(const Settings& settings) {
   planner_.set_launch_seconds(std::min(settings.launch_seconds, settings.time_limit.value_or(INFINITY) / 40));
 }
 
+Launcher::Buffers Launcher::spare_buffers() {
+  if (spare_.empty())
+    return {.queue = cl::CommandQueue(device_.context, device_.handle, CL_QUEUE_PROFILING_ENABLE)};
+  Buffers buffers = std::move(spare_.back());
+  spare_.pop_back();
+  return buffers;
+}
+
 bool Launcher::finish() const noexcept {
   try {
-    device_.queue.finish();
+    for (const Flight& flight : flights_) flight.buffers.queue.finish();
     return true;
   } catch (const cl::Error&) {
     return false;
@@ -95,19 +103,18 @@ bool Launcher::shrink() {
 
 void Launcher::warm_up() {
   Flight flight;
+  flight.buffers = spare_buffers();
   start(flight);
-  device_.queue.finish();
+  flight.buffers.queue.finish();
   spare_.push_back(std::move(flight.buffers));
 }
 
 void Launcher::enqueue(const Launch& launch) {
   last_jobs_ = launch.jobs;
+  Buffers buffers = spare_buffers();
   Flight& flight = flights_.emplace_back();
   flight.result.launch = launch;
-  if (!spare_.empty()) {
-    flight.buffers = std::move(spare_.back());
-    spare_.pop_back();
-  }
+  flight.buffers = std::move(buffers);
   start(flight);
   read_back(flight);
 }
@@ -162,16 +169,16 @@ void Launcher::start(Flight& flight) {
     set("record_counts", to.record_counts, plan.batches * sizeof(cl_int), "counts of splats");
   }
   if (integrator.bidirectional()) set("scratch", to.scratch, plan.scratch_bytes, "vertices");
-  device_.queue.enqueueNDRangeKernel(kernel_.ready(), cl::NullRange, cl::NDRange(plan.items),
-                                     cl::NDRange(plan.local_size), nullptr, &flight.kernel_done);
+  to.queue.enqueueNDRangeKernel(kernel_.ready(), cl::NullRange, cl::NDRange(plan.items),
+                                cl::NDRange(plan.local_size), nullptr, &flight.kernel_done);
 }
 
 void Launcher::read_back(Flight& flight) {
   flight.copies.clear();
   const auto read = [&](const cl::Buffer& buffer, auto& to, std::size_t count) {
     to.resize(count);
-    device_.queue.enqueueReadBuffer(buffer, CL_FALSE, 0, count * sizeof(to[0]), to.data(), nullptr,
-                                    &flight.copies.emplace_back());
+    flight.buffers.queue.enqueueReadBuffer(buffer, CL_FALSE, 0, count * sizeof(to[0]), to.data(), nullptr,
+                                           &flight.copies.emplace_back());
   };
   const Buffers& from = flight.buffers;
   if (flight.plan.batches > 0) {
@@ -179,13 +186,13 @@ void Launcher::read_back(Flight& flight) {
     const std::size_t words =
         flight.plan.batches * static_cast<std::size_t>(flight.plan.record_capacity) * record_words(parts_);
     flight.host_records = static_cast<float*>(
-        device_.queue.enqueueMapBuffer(from.records.memory, CL_FALSE, CL_MAP_READ | CL_MAP_WRITE, 0,
-                                       words * sizeof(float), nullptr, &flight.copies.emplace_back()));
+        from.queue.enqueueMapBuffer(from.records.memory, CL_FALSE, CL_MAP_READ | CL_MAP_WRITE, 0,
+                                    words * sizeof(float), nullptr, &flight.copies.emplace_back()));
   }
   if (settings::info_of(parts_.integrator).eye_paths)
     read(from.sums.memory, flight.result.sums, static_cast<std::size_t>(flight.result.launch.jobs));
   read(from.counters.memory, flight.host_counters, flight.plan.items * counters_per_item);
-  device_.queue.flush();
+  from.queue.flush();
 }
 
 void Launcher::wait(const Flight& flight) {
@@ -223,7 +230,7 @@ void Launcher::settle() {
 
 void Launcher::unmap(Flight& flight) {
   if (flight.host_records)
-    device_.queue.enqueueUnmapMemObject(flight.buffers.records.memory, flight.host_records);
+    flight.buffers.queue.enqueueUnmapMemObject(flight.buffers.records.memory, flight.host_records);
   flight.host_records = nullptr;
 }
 

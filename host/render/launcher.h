@@ -43,13 +43,15 @@ public:
   [[nodiscard]] std::string name() const override;
 
 private:
-  // Buffers of a launch. They are reused, as allocation takes longer than the copies.
+  // Buffers of a launch, and a queue of their own, so that the next launch can begin while work-items of this
+  // one still run. They are reused, as allocation takes longer than the copies.
   struct Buffer {
     cl::Buffer memory;
     std::size_t bytes = 0;
   };
   struct Buffers {
-    Buffer sums, counters, records, record_counts, scratch;
+    cl::CommandQueue queue;
+    Buffer sums = {}, counters = {}, records = {}, record_counts = {}, scratch = {};
   };
   struct Flight {
     LaunchPlan plan;
@@ -61,11 +63,12 @@ private:
     std::vector<cl_int> host_record_counts;
     float* host_records = nullptr; // mapped
   };
+  [[nodiscard]] Buffers spare_buffers();
   void start(Flight& flight);
   void reserve(Buffer& buffer, std::size_t bytes, const char* what) const;
   void read_back(Flight& flight);
   static void wait(const Flight& flight);
-  void unmap(Flight& flight);
+  static void unmap(Flight& flight);
   [[nodiscard]] bool finish() const noexcept;
 
   device::Device device_;
