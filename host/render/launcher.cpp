@@ -64,17 +64,17 @@ void Launcher::begin(const Settings& settings) {
   planner_.set_launch_seconds(std::min(settings.launch_seconds, settings.time_limit.value_or(INFINITY) / 40));
 }
 
-Launcher::Buffers Launcher::spare_buffers() {
+Launcher::Slot Launcher::spare_slot() {
   if (spare_.empty())
     return {.queue = cl::CommandQueue(device_.context, device_.handle, CL_QUEUE_PROFILING_ENABLE)};
-  Buffers buffers = std::move(spare_.back());
+  Slot slot = std::move(spare_.back());
   spare_.pop_back();
-  return buffers;
+  return slot;
 }
 
 bool Launcher::finish() const noexcept {
   try {
-    for (const Flight& flight : flights_) flight.buffers.queue.finish();
+    for (const Flight& flight : flights_) flight.slot.queue.finish();
     return true;
   } catch (const cl::Error&) {
     return false;
@@ -103,18 +103,18 @@ bool Launcher::shrink() {
 
 void Launcher::warm_up() {
   Flight flight;
-  flight.buffers = spare_buffers();
+  flight.slot = spare_slot();
   start(flight);
-  flight.buffers.queue.finish();
-  spare_.push_back(std::move(flight.buffers));
+  flight.slot.queue.finish();
+  spare_.push_back(std::move(flight.slot));
 }
 
 void Launcher::enqueue(const Launch& launch) {
   last_jobs_ = launch.jobs;
-  Buffers buffers = spare_buffers();
+  Slot slot = spare_slot();
   Flight& flight = flights_.emplace_back();
   flight.result.launch = launch;
-  flight.buffers = std::move(buffers);
+  flight.slot = std::move(slot);
   start(flight);
   read_back(flight);
 }
@@ -143,7 +143,7 @@ void Launcher::start(Flight& flight) {
   const Launch& launch = flight.result.launch;
   flight.plan = planner_.plan(launch);
   const LaunchPlan& plan = flight.plan;
-  Buffers& to = flight.buffers;
+  Slot& to = flight.slot;
   kernel_.set("first_pixel", static_cast<cl_int>(launch.first_job));
   kernel_.set("job_count", static_cast<cl_int>(launch.jobs));
   kernel_.set("first_sample", static_cast<cl_int>(launch.first_sample));
@@ -177,10 +177,10 @@ void Launcher::read_back(Flight& flight) {
   flight.copies.clear();
   const auto read = [&](const cl::Buffer& buffer, auto& to, std::size_t count) {
     to.resize(count);
-    flight.buffers.queue.enqueueReadBuffer(buffer, CL_FALSE, 0, count * sizeof(to[0]), to.data(), nullptr,
-                                           &flight.copies.emplace_back());
+    flight.slot.queue.enqueueReadBuffer(buffer, CL_FALSE, 0, count * sizeof(to[0]), to.data(), nullptr,
+                                        &flight.copies.emplace_back());
   };
-  const Buffers& from = flight.buffers;
+  const Slot& from = flight.slot;
   if (flight.plan.batches > 0) {
     read(from.record_counts.memory, flight.host_record_counts, flight.plan.batches);
     const std::size_t words =
@@ -230,7 +230,7 @@ void Launcher::settle() {
 
 void Launcher::unmap(Flight& flight) {
   if (flight.host_records)
-    flight.buffers.queue.enqueueUnmapMemObject(flight.buffers.records.memory, flight.host_records);
+    flight.slot.queue.enqueueUnmapMemObject(flight.slot.records.memory, flight.host_records);
   flight.host_records = nullptr;
 }
 
@@ -238,7 +238,7 @@ void Launcher::release() noexcept {
   Flight& flight = flights_.front();
   try {
     unmap(flight);
-    spare_.push_back(std::move(flight.buffers));
+    spare_.push_back(std::move(flight.slot));
   } catch (const std::exception&) { // the launch is done; buffers that are still mapped are not used again
   }
   flights_.pop_front();

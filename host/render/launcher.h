@@ -30,7 +30,8 @@ public:
   [[nodiscard]] Pace pace() const override { return planner_.pace(); }
   void enqueue(const Launch& launch) override;
   [[nodiscard]] std::size_t in_flight() const override { return flights_.size(); }
-  /// One launch runs while the results of the previous one are added to the film, if there is memory.
+  /// Two, if there is memory: the second begins when the first leaves cores idle, and runs while the results
+  /// of the first are added to the film.
   [[nodiscard]] std::size_t most_in_flight() const override { return memory_is_short_ ? 1 : 2; }
   /// Repeats the launch with larger buffers until its results fit.
   void settle() override;
@@ -43,19 +44,19 @@ public:
   [[nodiscard]] std::string name() const override;
 
 private:
-  // Buffers of a launch, and a queue of their own, so that the next launch can begin while work-items of this
-  // one still run. They are reused, as allocation takes longer than the copies.
   struct Buffer {
     cl::Buffer memory;
     std::size_t bytes = 0;
   };
-  struct Buffers {
+  // What a launch needs on the device. Each has a queue, so that the next launch can begin while the last
+  // work-items of this one run. They are reused, as allocation takes longer than the copies.
+  struct Slot {
     cl::CommandQueue queue;
     Buffer sums = {}, counters = {}, records = {}, record_counts = {}, scratch = {};
   };
   struct Flight {
     LaunchPlan plan;
-    Buffers buffers;
+    Slot slot;
     cl::Event kernel_done;
     std::vector<cl::Event> copies; // to the members below
     LaunchResult result;
@@ -63,7 +64,7 @@ private:
     std::vector<cl_int> host_record_counts;
     float* host_records = nullptr; // mapped
   };
-  [[nodiscard]] Buffers spare_buffers();
+  [[nodiscard]] Slot spare_slot();
   void start(Flight& flight);
   void reserve(Buffer& buffer, std::size_t bytes, const char* what) const;
   void read_back(Flight& flight);
@@ -78,7 +79,7 @@ private:
   Planner planner_;
   std::int64_t first_sample_ = 0; // of the render
   std::deque<Flight> flights_;
-  std::vector<Buffers> spare_;
+  std::vector<Slot> spare_;
   bool memory_is_short_ = false;
   std::int64_t last_jobs_ = 0; // of the last launch
 };

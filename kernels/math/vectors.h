@@ -50,6 +50,7 @@ static inline Real vec_largest(Vec3 a) { return larger(fabs(a.x), larger(fabs(a.
 
 // Three words of memory, the same in every lane.
 static inline Vec3 broadcast_vec(const __global float* v) { return vec3((Real)(v[0]), (Real)(v[1]), (Real)(v[2])); }
+// The same with `stride` words from one to the next.
 static inline Vec3 broadcast_scalars(const __global Scalar* v, int stride) {
   return vec3((Real)(v[0]), (Real)(v[stride]), (Real)(v[2 * stride]));
 }

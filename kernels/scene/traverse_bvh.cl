@@ -1,6 +1,6 @@
 // Traversal of a bounding volume hierarchy, one ray after another: the lanes test the children of a node or the
-// primitives of a leaf together (with one lane the hierarchy is binary). This is the fastest traversal of meshes on
-// CPUs, because rays are incoherent.
+// primitives of a leaf together (with one lane the hierarchy is binary). On CPUs this is the fastest for scattered rays
+// and shadow rays, which are incoherent. For camera rays see traverse_packet.cl.
 #ifndef PHLUX_TRAVERSE_BVH_CL
 #define PHLUX_TRAVERSE_BVH_CL
 

@@ -7,52 +7,56 @@
 #include "scene/traverse_brute.cl"
 #include "scene/traverse_bvh.cl"
 
-// Bounds of the rays: they start at `origin`, and each has the direction of centre + a across + b down for some |a| <=
-// 1 and |b| <= 1. This vector is not shorter than 1, so that distances in units of its length are not larger.
+// Bounds of the rays of a packet: they start at `origin`, with the directions direction + a across + b down for |a| <=
+// 1 and |b| <= 1. These vectors are not normalized; their lengths are at least 1, so that the parameter t of a point is
+// at most its distance, and what begins at t >= limit can be left out.
 typedef struct {
-  Scalar origin[3], centre[3], across[3], down[3];
-} Packet;
+  Scalar origin[3], direction[3], across[3], down[3];
+  Scalar terms; // at least the sum of the absolute values of the terms of any direction's components
+} PacketBounds;
 
-// Relative to its terms, more than the rounding error of an intersection test.
+// A bound on the rounding errors of directions and intersection tests, relative to the sum of their terms' absolute
+// values.
 #define PACKET_MARGIN 4e-6f
 
 // Three scalars, in every lane.
 static inline Vec3 vec_of(const Scalar* v) { return vec3((Real)(v[0]), (Real)(v[1]), (Real)(v[2])); }
 
-// Rays for box tests: *first meets near planes no later than any ray of the packet, *last meets far planes no earlier.
-// Returns 0 if there are none, because the directions differ in a sign.
-static inline int bounding_rays(const Packet* packet, BoxRay* first, BoxRay* last) {
-  Scalar fast[6], slow[6];
+// For planes in front of the origin: *fast meets near planes no later than any ray of the packet, and a ray with
+// *far_inverse meets far planes no earlier. Returns 0 if the directions differ in a sign.
+static inline int bounding_rays(const PacketBounds* packet, BoxRay* fast, Vec3* far_inverse) {
+  Scalar fastest[6], slowest[6];
   int same_signs = 1;
   for (int axis = 0; axis < 3; ++axis) {
-    const Scalar centre = packet->centre[axis], margin = PACKET_MARGIN * fabs(centre);
-    const Scalar spread = fabs(packet->across[axis]) + fabs(packet->down[axis]) + margin;
-    same_signs &= fabs(centre) > spread;
-    fast[axis] = slow[axis] = packet->origin[axis];
-    fast[axis + 3] = centre + copysign(spread, centre);
-    slow[axis + 3] = centre - copysign(spread, centre);
+    const Scalar middle = packet->direction[axis];
+    const Scalar spread = fabs(packet->across[axis]) + fabs(packet->down[axis]) + PACKET_MARGIN * packet->terms;
+    same_signs &= fabs(middle) > spread;
+    fastest[axis] = slowest[axis] = packet->origin[axis];
+    fastest[axis + 3] = middle + copysign(spread, middle);
+    slowest[axis + 3] = middle - copysign(spread, middle);
   }
-  *first = box_ray(fast);
-  *last = box_ray(slow);
+  *fast = box_ray(fastest);
+  *far_inverse = box_ray(slowest).inverse;
   return same_signs;
 }
 
-// The largest |v . (direction - centre)|, and for its rounding error a part of `terms`.
-static inline Real spread_of(const Packet* packet, Vec3 v, Real terms) {
-  return fabs(vec_dot(v, vec_of(packet->across))) + fabs(vec_dot(v, vec_of(packet->down))) + PACKET_MARGIN * terms;
+// A bound on |v . (the direction of a ray - packet->direction)|, including rounding errors; `size` bounds v.
+static inline Real spread_of(const PacketBounds* packet, Vec3 v, Real size) {
+  return fabs(vec_dot(v, vec_of(packet->across))) + fabs(vec_dot(v, vec_of(packet->down))) +
+         PACKET_MARGIN * packet->terms * size;
 }
 
-// The primitives of a block that rays of the packet may hit before `limit`. All quantities of cross_plane but the
-// distance are linear in the direction.
-static inline Mask planars_near(const Packet* packet, Planar p, int kind, Scalar limit) {
-  const Vec3 centre = vec_of(packet->centre);
+// The primitives of a block that rays of the packet may hit before `limit`. Up to the sign of `towards`, u, v and
+// facing of cross_plane are linear in the direction, and its distance does not depend on it.
+static inline Mask planars_near(const PacketBounds* packet, Planar p, int kind, Scalar limit) {
+  const Vec3 direction = vec_of(packet->direction);
   const Vec3 from_origin = vec_sub(vec_of(packet->origin), p.origin);
   const Real length = vec_largest(from_origin);
   const Vec3 for_u = vec_cross(p.edge_v, from_origin), for_v = vec_cross(p.minus_u, from_origin);
-  const Real towards = -vec_dot(p.normal, centre), towards_spread = spread_of(packet, p.normal, (Real)(1.0f));
+  const Real towards = -vec_dot(p.normal, direction), towards_spread = spread_of(packet, p.normal, (Real)(1.0f));
   const Real facing = fabs(towards) + towards_spread;
-  const Real u = times_sign(vec_dot(for_u, centre), towards);
-  const Real v = times_sign(vec_dot(for_v, centre), towards);
+  const Real u = times_sign(vec_dot(for_u, direction), towards);
+  const Real v = times_sign(vec_dot(for_v, direction), towards);
   const Real u_spread = spread_of(packet, for_u, length * vec_largest(p.edge_v));
   const Real v_spread = spread_of(packet, for_v, length * vec_largest(p.minus_u));
   const Real distance = times_sign(vec_dot(p.normal, from_origin), towards);
@@ -65,13 +69,14 @@ static inline Mask planars_near(const Packet* packet, Planar p, int kind, Scalar
   return (edge_on | !missed) & (distance != 0.0f);
 }
 
-static inline Mask spheres_near(const Packet* packet, SphereShape s) {
-  const Vec3 centre = vec_of(packet->centre);
+// The same for spheres, without a limit, by the distances of their centres from the rays.
+static inline Mask spheres_near(const PacketBounds* packet, SphereShape s) {
+  const Vec3 direction = vec_of(packet->direction);
   const Vec3 from_center = vec_sub(vec_of(packet->origin), s.center);
-  const Vec3 across = vec_of(packet->across), down = vec_of(packet->down), moment = vec_cross(from_center, centre);
-  const Real spread = sqrt(vec_dot(across, across)) + sqrt(vec_dot(down, down)) + PACKET_MARGIN;
+  const Vec3 across = vec_of(packet->across), down = vec_of(packet->down), moment = vec_cross(from_center, direction);
+  const Real spread = sqrt(vec_dot(across, across)) + sqrt(vec_dot(down, down)) + PACKET_MARGIN * packet->terms;
   const Real reach =
-      sqrt(vec_dot(from_center, from_center)) * spread + s.radius * (sqrt(vec_dot(centre, centre)) + spread);
+      sqrt(vec_dot(from_center, from_center)) * spread + s.radius * (sqrt(vec_dot(direction, direction)) + spread);
   return vec_dot(moment, moment) <= reach * reach;
 }
 
@@ -97,8 +102,8 @@ static inline void meet_primitive(const Scene* scene, int block, int lane, int k
 }
 
 // Finds the closest primitive along each ray of m, whose bounds are `packet`.
-static inline Hit closest_of_packet(const Scene* scene, Ray ray, const Packet* packet, const BoxRay* first,
-                                    const BoxRay* last, Mask m) {
+static inline Hit closest_of_packet(const Scene* scene, Ray ray, const PacketBounds* packet, const BoxRay* fast,
+                                    Vec3 far_inverse, Mask m) {
   Scalar nears[STACK_SIZE];
   int children[STACK_SIZE];
   Hit hit;
@@ -113,8 +118,8 @@ static inline Hit closest_of_packet(const Scene* scene, Ray ray, const Packet* p
     if (nears[top] >= limit) continue;
     const int child = children[top];
     if (child >= 0) {
-      top = push_children(scene->nodes + child * (NODE_WORDS * CHILDREN), first, last->inverse, limit, nears, children,
-                          top);
+      top =
+          push_children(scene->nodes + child * (NODE_WORDS * CHILDREN), fast, far_inverse, limit, nears, children, top);
       continue;
     }
     const Leaf leaf = leaf_of(child);
@@ -133,10 +138,11 @@ static inline Hit closest_of_packet(const Scene* scene, Ray ray, const Packet* p
 }
 
 // As bvh_intersect, for rays of which `packet` has the bounds.
-static inline Hit packet_intersect(const Scene* scene, Ray ray, const Packet* packet, Mask alive) {
-  BoxRay first, last;
-  if (!bounding_rays(packet, &first, &last)) return bvh_intersect(scene, ray, alive);
-  return closest_of_packet(scene, ray, packet, &first, &last, alive);
+static inline Hit packet_intersect(const Scene* scene, Ray ray, const PacketBounds* packet, Mask alive) {
+  BoxRay fast;
+  Vec3 far_inverse;
+  if (!bounding_rays(packet, &fast, &far_inverse)) return bvh_intersect(scene, ray, alive);
+  return closest_of_packet(scene, ray, packet, &fast, far_inverse, alive);
 }
 
 #endif

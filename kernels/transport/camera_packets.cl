@@ -7,48 +7,53 @@
 #include "scene/traverse_packet.cl"
 #include "transport/film.cl"
 
+// A packet has one origin (no lens, no parallel rays), and its first hits are final (no masks).
 #define HAS_CAMERA_PACKETS (HAS_BVH & (LANES > 1) & !HAS_MASKS & !HAS_LENS & !HAS_ORTHOGRAPHIC)
-// Fewer rays take less time one by one.
+// Blocks of fewer samples take less time ray by ray.
 #define LEAST_PACKET 4
 
-// Hits of the camera rays of the job of each lane: that of its sample s is record lane LANES + s % LANES.
+// Hits of the camera rays of the job of each lane: that of its sample s is record
+// lane * LANES + s % LANES.
 typedef struct {
   Scalar distance[LANES * LANES], primitive[LANES * LANES];
 } CameraHits;
 
 // Bounds of the camera rays through points of a pixel, those of `sample` in the lanes of m.
-static inline void bound_camera_rays(const Scene* scene, int pixel, CameraSample sample, Mask m, Packet* packet) {
+static inline void bound_camera_rays(const Scene* scene, int pixel, CameraSample sample, Mask m, PacketBounds* packet) {
   const __global CameraRecord* camera = scene->camera;
   const int row = pixel / camera->width, column = pixel - row * camera->width;
   const Real none = (Real)(INFINITY);
-  const Scalar left = min_of_lanes(m ? sample.x : none), right = max_of_lanes(m ? sample.x : -none);
-  const Scalar top = min_of_lanes(m ? sample.y : none), bottom = max_of_lanes(m ? sample.y : -none);
+  const Scalar low_x = min_of_lanes(m ? sample.x : none), high_x = max_of_lanes(m ? sample.x : -none);
+  const Scalar low_y = min_of_lanes(m ? sample.y : none), high_y = max_of_lanes(m ? sample.y : -none);
   const Scalar width = (Scalar)camera->width, height = (Scalar)camera->height;
-  const Scalar leftwards = 1.0f - 2.0f * ((0.5f * (left + right) + (Scalar)column) / width + camera->principal_x);
-  const Scalar upwards = 1.0f - 2.0f * ((0.5f * (top + bottom) + (Scalar)row) / height + camera->principal_y);
+  const Scalar leftwards = 1.0f - 2.0f * ((0.5f * (low_x + high_x) + (Scalar)column) / width + camera->principal_x);
+  const Scalar upwards = 1.0f - 2.0f * ((0.5f * (low_y + high_y) + (Scalar)row) / height + camera->principal_y);
+  const Scalar left_size = fabs(camera->left[0]) + fabs(camera->left[1]) + fabs(camera->left[2]);
+  const Scalar up_size = fabs(camera->up[0]) + fabs(camera->up[1]) + fabs(camera->up[2]);
   for (int axis = 0; axis < 3; ++axis) {
     packet->origin[axis] = camera->position[axis];
-    packet->centre[axis] = camera->forward[axis] + leftwards * camera->left[axis] + upwards * camera->up[axis];
-    packet->across[axis] = (right - left) / width * camera->left[axis];
-    packet->down[axis] = (bottom - top) / height * camera->up[axis];
+    packet->direction[axis] = camera->forward[axis] + leftwards * camera->left[axis] + upwards * camera->up[axis];
+    packet->across[axis] = (high_x - low_x) / width * camera->left[axis];
+    packet->down[axis] = (high_y - low_y) / height * camera->up[axis];
   }
+  packet->terms = 1.0f + (1.0f + fabs(leftwards)) * left_size + (1.0f + fabs(upwards)) * up_size;
 }
 
 // Traces the camera rays of the next samples of the jobs of m.
 static inline void trace_camera_packets(const Scene* scene, RandomSequence sequence, JobList list, Job job,
                                         CameraHits* hits, Mask m) {
-  int pixels[LANES], samples[LANES], lengths[LANES];
+  int pixels[LANES], samples[LANES], samples_left[LANES];
   int_lanes_to_array(job.pixel, pixels);
   int_lanes_to_array(sample_number(list, job), samples);
-  int_lanes_to_array(list.block_samples - job.samples, lengths);
-  for (Mask left = m; any_lane(left);) {
-    const int lane = first_lane(left);
-    left &= LANE_NUMBERS != lane;
-    const Mask traced = LANE_NUMBERS < lengths[lane];
+  int_lanes_to_array(list.block_samples - job.samples, samples_left);
+  for (Mask waiting = m; any_lane(waiting);) {
+    const int lane = first_lane(waiting);
+    waiting &= LANE_NUMBERS != lane;
+    const Mask traced = LANE_NUMBERS < samples_left[lane];
     sequence.pixel = (Uint)((uint)pixels[lane]);
     sequence.sample = int_to_uint(samples[lane] + LANE_NUMBERS);
     const CameraSample sample = camera_sample(scene, random_words(sequence, (Uint)(0), 0));
-    Packet packet;
+    PacketBounds packet;
     bound_camera_rays(scene, pixels[lane], sample, traced, &packet);
     const Hit hit = packet_intersect(scene, camera_ray(scene, sequence.pixel, sample), &packet, traced);
     lanes_to_array(hit.distance, hits->distance + lane * LANES);

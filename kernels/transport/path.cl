@@ -49,14 +49,14 @@ __kernel void trace_paths(SCENE_PARAMETERS, int pixel_count, int first_pixel, in
   Uint rays = (Uint)(0u), shadow_rays = (Uint)(0u);
   Mask alive = NO_LANES;
   const int by_packets = HAS_CAMERA_PACKETS && block_samples >= LEAST_PACKET;
-  CameraHits packets;
+  CameraHits next_hits;
 
   for (Mask working = jobs_left(list, job); any_lane(working); working = jobs_left(list, job)) {
     const Mask starting = working & !alive;
     if (any_lane(starting)) start_paths(&scene, &path, &radiance, list, job, starting);
 
     Hit hit = trace_edge(&scene, &path, 0, by_packets ? working & !starting : working);
-    if (by_packets) hit = camera_hits(&scene, path.sequence, list, job, &packets, hit, starting);
+    if (by_packets) hit = camera_hits(&scene, path.sequence, list, job, &next_hits, hit, starting);
     const Arrival arrival = arrive(&scene, &path, hit, limits, working);
     rays += working ? (Uint)(1u) : (Uint)(0u);
     const Mask leaves_scene = working & !arrival.hits;

@@ -10,9 +10,9 @@ static inline CameraSample sample_at(Real u, Real v) {
 }
 
 // The camera's pixel and density for its own rays.
-__kernel void see_rays(SCENE_PARAMETERS, __global const Uint* pixel, __global const Real* u,
-                       __global const Real* v, __global Vec3* direction, __global Int* seen,
-                       __global Int* seen_pixel, __global Real* density, __global Real* density_alone) {
+__kernel void see_rays(SCENE_PARAMETERS, __global const Uint* pixel, __global const Real* u, __global const Real* v,
+                       __global Vec3* direction, __global Int* seen, __global Int* seen_pixel, __global Real* density,
+                       __global Real* density_alone) {
   SCENE_FROM_PARAMETERS
   const size_t i = get_global_id(0);
   const Ray ray = camera_ray(&scene, pixel[i], sample_at(u[i], v[i]));
@@ -34,22 +34,29 @@ __kernel void see_directions(SCENE_PARAMETERS, __global const Vec3* direction, _
   density[i] = point.density;
 }
 
-// The bounds of a packet, in every lane.
+// The bounds of a packet, in every lane, and the inverse directions for near and far planes.
 typedef struct {
-  Vec3 origin, centre, across, down;
+  Vec3 origin, direction, across, down, fast_inverse, slow_inverse;
+  Int same_signs;
 } Bounds;
 
-// The bounds of the camera rays through the points (u, v) of a pixel, the same pixel in every lane.
-__kernel void bound_pixels(SCENE_PARAMETERS, __global const Int* pixel, __global const Real* u,
-                           __global const Real* v, __global const Int* counts, __global Bounds* bounds) {
+// The bounds of the camera rays through the points (u, v) of a pixel, the same pixel in every lane, and these rays.
+__kernel void bound_pixels(SCENE_PARAMETERS, __global const Int* pixel, __global const Real* u, __global const Real* v,
+                           __global const Int* counts, __global Bounds* bounds, __global Vec3* direction) {
   SCENE_FROM_PARAMETERS
   const size_t i = get_global_id(0);
   int pixels[LANES];
   int_lanes_to_array(pixel[i], pixels);
-  Packet packet;
+  PacketBounds packet;
   bound_camera_rays(&scene, pixels[0], sample_at(u[i], v[i]), counts[i] != 0, &packet);
+  BoxRay fast;
+  Vec3 far_inverse;
+  bounds[i].same_signs = (Int)(bounding_rays(&packet, &fast, &far_inverse));
+  bounds[i].slow_inverse = far_inverse;
+  bounds[i].fast_inverse = fast.inverse;
   bounds[i].origin = vec_of(packet.origin);
-  bounds[i].centre = vec_of(packet.centre);
+  bounds[i].direction = vec_of(packet.direction);
   bounds[i].across = vec_of(packet.across);
   bounds[i].down = vec_of(packet.down);
+  direction[i] = camera_ray(&scene, int_to_uint(pixel[i]), sample_at(u[i], v[i])).direction;
 }

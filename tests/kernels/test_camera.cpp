@@ -124,49 +124,68 @@ TEST_CASE("camera: each pixel sees its own rays, up to its borders") {
 
 TEST_CASE("camera: the rays of a pixel are within the bounds of its packet, which are tight") {
   struct Bounds {
-    Float3 origin, centre, across, down;
+    Float3 origin, direction, across, down, fast_inverse, slow_inverse;
+    int same_signs;
   };
+  // Next to the plane x = 0 in which the second camera looks, a component is a small difference of large
+  // terms.
   for (const Variant v : variants)
-    for (const Film& film : films) {
-      CAPTURE(v, film.width, film.height);
-      const Scene scene = scene_of(film);
-      const SceneProgram program = program_for(v, scene);
-      const dvec3 origin = scene.camera.position - program.host().geometry.origin;
-      Random random(82);
-      std::vector<int> pixel, counts;
-      std::vector<float> us, vs;
-      const int items = 50,
-                first = v.width / 3; // the first lane that counts, at the left edge; the last is at the right
-      for (int item = 0; item < items; ++item) {
-        const int of_item = static_cast<int>(random.uniform(0, film.width * film.height - 0.01));
-        for (int lane = 0; lane < v.width; ++lane) {
-          pixel.push_back(of_item);
-          us.push_back(lane < first ? -9.0f : lane == first ? -0.5f : lane == v.width - 1 ? 1.5f : 0.7f);
-          vs.push_back(static_cast<float>(random.uniform(-0.5, 1.5)));
-          counts.push_back(lane >= first);
+    for (const bool along_axis : {false, true})
+      for (const Film& film : films) {
+        CAPTURE(v, along_axis, film.width, film.height);
+        Scene scene = scene_of(film);
+        phlux::scene::Camera& camera = scene.camera;
+        if (along_axis) {
+          camera.forward = {0, 0, 1};
+          camera.left = {1, 0, 0};
+          camera.up = {0, 1, 0};
+        }
+        const SceneProgram program = program_for(v, scene);
+        const dvec3 origin = camera.position - program.host().geometry.origin;
+        Random random(82);
+        std::vector<int> pixel, counts;
+        std::vector<float> us, vs;
+        // The first lane that counts is at the left edge, the last at the right.
+        const int items = 50, first = v.width / 3;
+        for (int item = 0; item < items; ++item) {
+          const int row = static_cast<int>(random.uniform(0, film.height - 0.01));
+          const int column = along_axis ? std::clamp(film.width / 2 + item % 9 - 4, 0, film.width - 1)
+                                        : static_cast<int>(random.uniform(0, film.width - 0.01));
+          const auto low = static_cast<float>(-random.uniform(0, 0.5)), high = 1.0f - low;
+          for (int lane = 0; lane < v.width; ++lane) {
+            pixel.push_back(row * film.width + column);
+            us.push_back(lane < first ? -9.0f : lane == first ? low : lane == v.width - 1 ? high : 0.7f);
+            vs.push_back(static_cast<float>(random.uniform(low, high)));
+            counts.push_back(lane >= first);
+          }
+        }
+        std::vector<Bounds> bounds(pixel.size());
+        std::vector<Float3> direction(pixel.size());
+        program.run("bound_pixels", pixel.size(), pixel, us, vs, counts, out(bounds), out(direction));
+        for (std::size_t i = 0; i < pixel.size(); ++i) {
+          if (counts[i] == 0) continue;
+          CAPTURE(i, pixel[i], us[i], vs[i]);
+          const Bounds& b = bounds[i];
+          const dvec3 across = to_double(b.across), down = to_double(b.down), ray = to_double(direction[i]);
+          const dvec3 unscaled = ray / glm::dot(ray, camera.forward);
+          const dvec3 difference = unscaled - to_double(b.direction);
+          const double rounding = 2e-6 * (1 + camera.tan_half_fov_x) * glm::length(unscaled);
+          REQUIRE(glm::length(to_double(b.origin) - origin) < 1e-6);
+          REQUIRE(std::abs(glm::dot(difference, camera.left)) <= glm::length(across) + rounding);
+          REQUIRE(std::abs(glm::dot(difference, camera.up)) <= glm::length(down) + rounding);
+          const double across_film = static_cast<double>(us[i / v.width * v.width + v.width - 1]) -
+                                     us[i / v.width * v.width + first];
+          if (v.width > 1)
+            REQUIRE(glm::length(across) ==
+                    Approx(2 * camera.tan_half_fov_x * across_film / (2 * film.width)).epsilon(1e-4));
+          if (b.same_signs == 0) continue;
+          for (int axis = 0; axis < 3; ++axis) {
+            const double size = std::abs(unscaled[axis]);
+            REQUIRE(size * (1 - 1e-6) <= 1 / std::abs(to_double(b.fast_inverse)[axis]));
+            REQUIRE(size * (1 + 1e-6) >= 1 / std::abs(to_double(b.slow_inverse)[axis]));
+          }
         }
       }
-      std::vector<Bounds> bounds(pixel.size());
-      program.run("bound_pixels", pixel.size(), pixel, us, vs, counts, out(bounds));
-      for (std::size_t i = 0; i < pixel.size(); ++i) {
-        if (counts[i] == 0) continue;
-        CAPTURE(i, pixel[i], us[i], vs[i]);
-        const dvec3 centre = to_double(bounds[i].centre), across = to_double(bounds[i].across),
-                    down = to_double(bounds[i].down);
-        const double x = (pixel[i] % film.width + double(us[i])) / film.width,
-                     y = (pixel[i] / film.width + double(vs[i])) / film.height;
-        const dvec3 ray = through(scene.camera, x, y);
-        const dvec3 from_centre = ray / glm::dot(ray, scene.camera.forward) - centre;
-        const double rounding = 1e-6 * glm::length(centre);
-        const double a = glm::dot(from_centre, glm::normalize(scene.camera.left));
-        const double b = glm::dot(from_centre, glm::normalize(scene.camera.up));
-        REQUIRE(glm::length(to_double(bounds[i].origin) - origin) < 1e-6);
-        REQUIRE(std::abs(a) <= glm::length(across) + rounding);
-        REQUIRE(std::abs(b) <= glm::length(down) + rounding);
-        if (v.width > 1)
-          REQUIRE(glm::length(across) == Approx(2 * scene.camera.tan_half_fov_x / film.width).epsilon(1e-4));
-      }
-    }
 }
 
 TEST_CASE("camera: what is beyond the film's borders, or behind, is not seen") {

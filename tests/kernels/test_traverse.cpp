@@ -130,8 +130,7 @@ void compare(Variant v, const Scene& scene) {
   CHECK(blocked >= r.rays.size() / 60);
 }
 
-// Packets from random points and from the planes of shapes, of pixels from 1e-4 to .5 radians wide, also
-// along the axes.
+// Packets from random points, 2^-12 to 1 radian wide, some of them along an axis.
 struct Packets {
   std::vector<Bounds> bounds; // one per lane
   std::vector<float> a, b;

@@ -13,8 +13,8 @@ static inline Int material_of(const Scene* scene, Hit hit) {
 
 // First hit of each ray with `asks` (the others: any), and whether a hit is before `limit` (the others:
 // never).
-__kernel void trace(SCENE_PARAMETERS, __global const Ray* ray, __global const Real* limit,
-                    __global const Int* asks, __global Traced* traced) {
+__kernel void trace(SCENE_PARAMETERS, __global const Ray* ray, __global const Real* limit, __global const Int* asks,
+                    __global Traced* traced) {
   SCENE_FROM_PARAMETERS
   const size_t i = get_global_id(0);
   const Mask asking = asks[i] != 0;
@@ -48,23 +48,23 @@ __kernel void trace_packets(SCENE_PARAMETERS, __global const Bounds* bounds, __g
   SCENE_FROM_PARAMETERS
   const size_t i = get_global_id(0);
   const Mask asking = asks[i] != 0;
-  Packet packet;
+  PacketBounds packet;
   first_of(bounds[i].origin, packet.origin);
-  first_of(bounds[i].centre, packet.centre);
+  first_of(bounds[i].centre, packet.direction);
   first_of(bounds[i].across, packet.across);
   first_of(bounds[i].down, packet.down);
+  packet.terms = 4.0f;
   Ray ray;
   ray.origin = bounds[i].origin;
-  ray.direction =
-      vec_normalize(vec_along(vec_along(bounds[i].centre, a[i], bounds[i].across), b[i], bounds[i].down));
-  const Hit by_packet = packet_intersect(&scene, ray, &packet, asking),
-            alone = bvh_intersect(&scene, ray, asking);
+  ray.direction = vec_normalize(vec_along(vec_along(bounds[i].centre, a[i], bounds[i].across), b[i], bounds[i].down));
+  const Hit by_packet = packet_intersect(&scene, ray, &packet, asking), alone = bvh_intersect(&scene, ray, asking);
   packet_distance[i] = by_packet.distance;
   packet_material[i] = material_of(&scene, by_packet);
   distance[i] = alone.distance;
   material[i] = material_of(&scene, alone);
-  BoxRay first, last;
-  together[i] = (Int)(bounding_rays(&packet, &first, &last));
+  BoxRay fast;
+  Vec3 far_inverse;
+  together[i] = (Int)(bounding_rays(&packet, &fast, &far_inverse));
 }
 
 typedef struct {
@@ -75,8 +75,7 @@ typedef struct {
 
 // Rays that leave the surface that was hit: along `given`, in a frame whose z is the normal on the side of
 // the arriving ray.
-__kernel void leave(SCENE_PARAMETERS, __global const Ray* ray, __global const Vec3* given,
-                    __global Left* left) {
+__kernel void leave(SCENE_PARAMETERS, __global const Ray* ray, __global const Vec3* given, __global Left* left) {
   SCENE_FROM_PARAMETERS
   const size_t i = get_global_id(0);
   const Hit hit = scene_intersect(&scene, ray[i], ALL_LANES);
