@@ -153,8 +153,7 @@ Choice choice_of(const std::vector<std::string>& specifications, const Found& fo
 Device open(const DeviceInfo& info, const cl::Device& handle) {
   try {
     const cl::Context context(handle);
-    const cl::CommandQueue queue(context, handle, CL_QUEUE_PROFILING_ENABLE);
-    return {info, handle, context, queue};
+    return {info, handle, context, make_queue(context, handle)};
   } catch (const cl::Error& error) {
     throw DeviceError(fmt::format("OpenCL device {}:{} ({}) cannot be used: {}", info.platform_index,
                                   info.device_index, info.name, describe(error)));
@@ -200,6 +199,10 @@ Opened& opened() {
 
 std::vector<PlatformInfo> list_platforms() {
   return all_found().platforms;
+}
+
+cl::CommandQueue make_queue(const cl::Context& context, const cl::Device& handle) {
+  return {context, handle, CL_QUEUE_PROFILING_ENABLE};
 }
 
 std::vector<DeviceInfo> list_devices() {

@@ -46,6 +46,9 @@ struct Device {
   cl::CommandQueue queue;
 };
 
+/// An in-order queue with profiling. @throws cl::Error
+[[nodiscard]] cl::CommandQueue make_queue(const cl::Context& context, const cl::Device& handle);
+
 /// Opens the devices that choose() selects; without specifications, by the environment variable PHLUX_DEVICE
 /// if set. Each note of the choice is logged once, as a warning. With `threads`, each is a CPU of which only
 /// so many compute units are used, as a sub-device.

@@ -65,8 +65,7 @@ void Launcher::begin(const Settings& settings) {
 }
 
 Launcher::Slot Launcher::spare_slot() {
-  if (spare_.empty())
-    return {.queue = cl::CommandQueue(device_.context, device_.handle, CL_QUEUE_PROFILING_ENABLE)};
+  if (spare_.empty()) return {.queue = device::make_queue(device_.context, device_.handle)};
   Slot slot = std::move(spare_.back());
   spare_.pop_back();
   return slot;

@@ -48,8 +48,8 @@ private:
     cl::Buffer memory;
     std::size_t bytes = 0;
   };
-  // What a launch needs on the device. Each has a queue, so that the next launch can begin while the last
-  // work-items of this one run. They are reused, as allocation takes longer than the copies.
+  // The queue and the buffers of one launch in flight. Launches in two queues may overlap. Slots are reused,
+  // because allocation takes longer than the copies.
   struct Slot {
     cl::CommandQueue queue;
     Buffer sums = {}, counters = {}, records = {}, record_counts = {}, scratch = {};

@@ -62,22 +62,37 @@ static inline Vec3 lens_position(const Scene* scene, CameraSample sample) {
                    broadcast_vec(camera->up));
 }
 
-// The ray through a sampled point of a pixel. Pixels are numbered row by row.
-static inline Ray camera_ray(const Scene* scene, Uint pixel, CameraSample sample) {
+// A point of the image plane, in units of `left` and `up` of the camera's record.
+typedef struct {
+  Real leftwards, upwards;
+} ImagePoint;
+
+// The point of the image plane through which the ray of a sampled point of a pixel goes; with a lens, relative to the
+// point of the lens. Pixels are numbered row by row.
+static inline ImagePoint image_point(const Scene* scene, Uint pixel, CameraSample sample) {
   const __global CameraRecord* camera = scene->camera;
   const float width = (float)camera->width, height = (float)camera->height;
   const Int row = row_of(uint_to_int(pixel), camera->width);
   const Int column = uint_to_int(pixel) - row * camera->width;
   const Real x = (to_real(column) + sample.x) / width + camera->principal_x;
   const Real y = (to_real(row) + sample.y) / height + camera->principal_y;
-  Real leftwards = 1.0f - 2.0f * x, upwards = 1.0f - 2.0f * y;
+  ImagePoint point;
+  point.leftwards = 1.0f - 2.0f * x;
+  point.upwards = 1.0f - 2.0f * y;
   if (HAS_LENS) { // towards the point of the plane in focus
-    leftwards -= sample.lens_x * camera->inv_focus_distance;
-    upwards -= sample.lens_y * camera->inv_focus_distance;
+    point.leftwards -= sample.lens_x * camera->inv_focus_distance;
+    point.upwards -= sample.lens_y * camera->inv_focus_distance;
   }
+  return point;
+}
+
+// The ray through a sampled point of a pixel.
+static inline Ray camera_ray(const Scene* scene, Uint pixel, CameraSample sample) {
+  const __global CameraRecord* camera = scene->camera;
+  const ImagePoint point = image_point(scene, pixel, sample);
   const Vec3 start = broadcast_vec(HAS_ORTHOGRAPHIC ? camera->position : camera->forward);
-  const Vec3 across =
-      vec_along(vec_along(start, leftwards, broadcast_vec(camera->left)), upwards, broadcast_vec(camera->up));
+  const Vec3 across = vec_along(vec_along(start, point.leftwards, broadcast_vec(camera->left)), point.upwards,
+                                broadcast_vec(camera->up));
   Ray ray;
   ray.origin = HAS_ORTHOGRAPHIC ? across : lens_position(scene, sample);
   ray.direction = HAS_ORTHOGRAPHIC ? broadcast_vec(camera->forward) : vec_normalize(across);

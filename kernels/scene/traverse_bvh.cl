@@ -91,9 +91,13 @@ static inline Planar planars_of_block(const Scene* scene, int block) {
   return p;
 }
 
+// Whether the primitives of a leaf of this kind are triangles, or spheres.
+static inline int has_triangles(int kind) { return HAS_TRIANGLES & (!HAS_MIXED_REGIONS | (kind == REGION_TRIANGLE)); }
+static inline int has_spheres(int kind) { return HAS_SPHERES & (!HAS_PLANARS | (kind == LEAF_SPHERES)); }
+
 // Lanes in which the ray is inside a region of the kind of a leaf, which is the same in every lane.
 static inline Mask in_region(PlaneCrossing c, int kind) {
-  if (HAS_TRIANGLES & (!HAS_MIXED_REGIONS | (kind == REGION_TRIANGLE))) return in_triangle(c);
+  if (has_triangles(kind)) return in_triangle(c);
   if (HAS_ELLIPSES & (!HAS_PARALLELOGRAMS | (kind == REGION_ELLIPSE))) return in_ellipse(c);
   return in_parallelogram(c);
 }
@@ -130,8 +134,6 @@ static inline Leaf leaf_of(int child) {
   const Leaf leaf = {first, first + ((code >> 2) & 7) + 1, code & 3};
   return leaf;
 }
-
-static inline int has_spheres(int kind) { return HAS_SPHERES & (!HAS_PLANARS | (kind == LEAF_SPHERES)); }
 
 // The primitives of block `block` of a leaf; *first is the primitive index of its lane 0.
 static inline Mask meet_block(const Scene* scene, int block, int kind, Ray ray, Scalar limit, Real* distance,

@@ -61,7 +61,7 @@ static inline Mask planars_near(const PacketBounds* packet, Planar p, int kind, 
   const Real v_spread = spread_of(packet, for_v, length * vec_largest(p.minus_u));
   const Real distance = times_sign(vec_dot(p.normal, from_origin), towards);
   Mask missed = (distance < 0.0f) | (distance > limit * facing);
-  if (HAS_TRIANGLES & (!HAS_MIXED_REGIONS | (kind == REGION_TRIANGLE)))
+  if (has_triangles(kind))
     missed |= (u + u_spread < 0.0f) | (v + v_spread < 0.0f) | (u + v - u_spread - v_spread > facing);
   else
     missed |= (fabs(u) - u_spread > facing) | (fabs(v) - v_spread > facing);

@@ -12,29 +12,27 @@
 // Blocks of fewer samples take less time ray by ray.
 #define LEAST_PACKET 4
 
-// Hits of the camera rays of the job of each lane: that of its sample s is record
-// lane * LANES + s % LANES.
+// Hits of the camera rays of the job of each lane: that of its sample s is record lane * LANES + s % LANES.
 typedef struct {
   Scalar distance[LANES * LANES], primitive[LANES * LANES];
 } CameraHits;
 
-// Bounds of the camera rays through points of a pixel, those of `sample` in the lanes of m.
-static inline void bound_camera_rays(const Scene* scene, int pixel, CameraSample sample, Mask m, PacketBounds* packet) {
+// Bounds of the camera rays of the lanes of m, which are those of `pixel` and `sample`.
+static inline void bound_camera_rays(const Scene* scene, Uint pixel, CameraSample sample, Mask m,
+                                     PacketBounds* packet) {
   const __global CameraRecord* camera = scene->camera;
-  const int row = pixel / camera->width, column = pixel - row * camera->width;
+  const ImagePoint point = image_point(scene, pixel, sample);
   const Real none = (Real)(INFINITY);
-  const Scalar low_x = min_of_lanes(m ? sample.x : none), high_x = max_of_lanes(m ? sample.x : -none);
-  const Scalar low_y = min_of_lanes(m ? sample.y : none), high_y = max_of_lanes(m ? sample.y : -none);
-  const Scalar width = (Scalar)camera->width, height = (Scalar)camera->height;
-  const Scalar leftwards = 1.0f - 2.0f * ((0.5f * (low_x + high_x) + (Scalar)column) / width + camera->principal_x);
-  const Scalar upwards = 1.0f - 2.0f * ((0.5f * (low_y + high_y) + (Scalar)row) / height + camera->principal_y);
+  const Scalar right = min_of_lanes(m ? point.leftwards : none), left = max_of_lanes(m ? point.leftwards : -none);
+  const Scalar bottom = min_of_lanes(m ? point.upwards : none), top = max_of_lanes(m ? point.upwards : -none);
+  const Scalar leftwards = 0.5f * (left + right), upwards = 0.5f * (top + bottom);
   const Scalar left_size = fabs(camera->left[0]) + fabs(camera->left[1]) + fabs(camera->left[2]);
   const Scalar up_size = fabs(camera->up[0]) + fabs(camera->up[1]) + fabs(camera->up[2]);
   for (int axis = 0; axis < 3; ++axis) {
     packet->origin[axis] = camera->position[axis];
     packet->direction[axis] = camera->forward[axis] + leftwards * camera->left[axis] + upwards * camera->up[axis];
-    packet->across[axis] = (high_x - low_x) / width * camera->left[axis];
-    packet->down[axis] = (high_y - low_y) / height * camera->up[axis];
+    packet->across[axis] = 0.5f * (left - right) * camera->left[axis];
+    packet->down[axis] = 0.5f * (top - bottom) * camera->up[axis];
   }
   packet->terms = 1.0f + (1.0f + fabs(leftwards)) * left_size + (1.0f + fabs(upwards)) * up_size;
 }
@@ -54,7 +52,7 @@ static inline void trace_camera_packets(const Scene* scene, RandomSequence seque
     sequence.sample = int_to_uint(samples[lane] + LANE_NUMBERS);
     const CameraSample sample = camera_sample(scene, random_words(sequence, (Uint)(0), 0));
     PacketBounds packet;
-    bound_camera_rays(scene, pixels[lane], sample, traced, &packet);
+    bound_camera_rays(scene, sequence.pixel, sample, traced, &packet);
     const Hit hit = packet_intersect(scene, camera_ray(scene, sequence.pixel, sample), &packet, traced);
     lanes_to_array(hit.distance, hits->distance + lane * LANES);
     lanes_to_array(carry_int(hit.primitive), hits->primitive + lane * LANES);

@@ -45,10 +45,8 @@ __kernel void bound_pixels(SCENE_PARAMETERS, __global const Int* pixel, __global
                            __global const Int* counts, __global Bounds* bounds, __global Vec3* direction) {
   SCENE_FROM_PARAMETERS
   const size_t i = get_global_id(0);
-  int pixels[LANES];
-  int_lanes_to_array(pixel[i], pixels);
   PacketBounds packet;
-  bound_camera_rays(&scene, pixels[0], sample_at(u[i], v[i]), counts[i] != 0, &packet);
+  bound_camera_rays(&scene, int_to_uint(pixel[i]), sample_at(u[i], v[i]), counts[i] != 0, &packet);
   BoxRay fast;
   Vec3 far_inverse;
   bounds[i].same_signs = (Int)(bounding_rays(&packet, &fast, &far_inverse));

@@ -11,8 +11,7 @@ static inline Int material_of(const Scene* scene, Hit hit) {
   return hit.primitive >= 0 ? material : (Int)(-1);
 }
 
-// First hit of each ray with `asks` (the others: any), and whether a hit is before `limit` (the others:
-// never).
+// First hit of each ray with `asks` (the others: any), and whether a hit is before `limit` (the others: never).
 __kernel void trace(SCENE_PARAMETERS, __global const Ray* ray, __global const Real* limit, __global const Int* asks,
                     __global Traced* traced) {
   SCENE_FROM_PARAMETERS
@@ -73,8 +72,8 @@ typedef struct {
   Vec3 position, normal;
 } Left;
 
-// Rays that leave the surface that was hit: along `given`, in a frame whose z is the normal on the side of
-// the arriving ray.
+// Rays that leave the surface that was hit: along `given`, in a frame whose z is the normal on the side of the arriving
+// ray.
 __kernel void leave(SCENE_PARAMETERS, __global const Ray* ray, __global const Vec3* given, __global Left* left) {
   SCENE_FROM_PARAMETERS
   const size_t i = get_global_id(0);
