@@ -22,6 +22,9 @@ public:
         size > 0.0 ? static_cast<float>(std::min(size, double{std::numeric_limits<float>::max()})) : 0.0F;
     counts_[std::bit_cast<std::uint32_t>(bounded) >> dropped_bits] += count;
   }
+  void add(const ContributionSizes& others) {
+    for (std::size_t bin = 0; bin < bins; ++bin) counts_[bin] += others.counts_[bin];
+  }
   [[nodiscard]] double largest() const; ///< 0 if empty
   /// Share of the `count` largest in the sum of all; 0 if empty.
   [[nodiscard]] double share_of_largest(double count) const;

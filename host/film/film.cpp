@@ -37,6 +37,19 @@ Film::Film(int width, int height, Storage storage)
 }
 
 void Film::add(std::size_t pixel, const BlockSum& block, std::uint32_t samples) {
+  add(pixel, block, samples, evidence_.tally());
+  if (clamp_) clamped_ += block.clamped; // not written by the device otherwise
+  count_blocks(1, samples);
+}
+
+void Film::count_blocks(std::uint64_t blocks, std::uint32_t samples) {
+  blocks_ += blocks;
+  own_samples_ += blocks * samples;
+  squared_block_samples_ += static_cast<double>(blocks) * samples * samples; // whole numbers: no rounding
+  if (splats_.empty()) evidence_.note_growth(this->samples());
+}
+
+void Film::add(std::size_t pixel, const BlockSum& block, std::uint32_t samples, Evidence::Tally& tally) {
   assert(pixel < pixels_.size());
   Pixel& sums = pixels_[pixel];
   const double block_sum = std::accumulate(block.radiance, block.radiance + channel_count, 0.0);
@@ -58,18 +71,13 @@ void Film::add(std::size_t pixel, const BlockSum& block, std::uint32_t samples) 
   }
   if (dependent_samples()) blocks_of_pixels_[pixel].add(block, samples);
   sums.sum_of_fourths += square * square;
-  evidence_.add_block(pixel, square, block_sum, samples, mean_before);
-  if (clamp_) clamped_ += block.clamped; // not written by the device otherwise
-  own_samples_ += samples;
-  squared_block_samples_ += static_cast<double>(samples) * samples;
-  ++blocks_;
-  if (splats_.empty()) evidence_.note_growth(this->samples());
+  evidence_.add_block(pixel, square, block_sum, samples, mean_before, tally);
 }
 
-void Film::count_splat(std::size_t pixel, double square, double sum) {
+void Film::count_splat(std::size_t pixel, double square, double sum, Evidence::Tally& tally) {
   const std::array<double, 3>& splats = splats_[pixel].sum;
   const double before = std::accumulate(splats.begin(), splats.end(), 0.0) - sum;
-  evidence_.add_splat(pixel, square, sum, sized_one_in, before);
+  evidence_.add_splat(pixel, square, sum, sized_one_in, before, tally);
 }
 
 void Film::add_splatting_paths(std::uint64_t paths) {

@@ -88,6 +88,10 @@ public:
   }
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
+  /// Pixels of a row of tiles of TileMeans.
+  [[nodiscard]] std::size_t row_of_tiles() const {
+    return static_cast<std::size_t>(width_) * TileMeans::tile_edge;
+  }
   /// Row by row from the top; sums are in units, see set_unit().
   [[nodiscard]] auto pixels() const { return Elements(pixels_); }
   [[nodiscard]] auto pixels() { return Elements(pixels_); }
@@ -113,24 +117,57 @@ public:
   /// time.
   void add_splat(std::size_t pixel, std::array<double, 3> value, bool sized = true) {
     if (clamp_) clamp(value);
-    Splats& sums = splats_[pixel];
-    double square = 0.0;
-    for (std::size_t channel = 0; channel < 3; ++channel) {
-      sums.sum[channel] += value[channel];
-      const double channel_square = value[channel] * value[channel];
-      sums.sum_of_squares[channel] += channel_square;
-      square += channel_square;
-    }
-    sums.sum_of_fourths += square * square;
-    if (sized) count_splat(pixel, square, value[0] + value[1] + value[2]);
+    add_splat(pixel, value, sized, evidence_.tally());
   }
   static constexpr std::uint32_t sized_one_in = 16;
   void use_splats() { splats_.resize(pixels_.size()); } ///< before the first add_splat()
-  /// Prefetches the pixel for add_splat().
-  void expect_splat(std::size_t pixel) const { __builtin_prefetch(&splats_[pixel], 1); }
+  /// Prefetches the pixel for add_splat(). Inlined always: GCC drops calls of a function that only
+  /// prefetches.
+  [[gnu::always_inline]] void expect_splat(std::size_t pixel) const {
+    __builtin_prefetch(&splats_[pixel], 1);
+  }
   /// Counts paths of the whole image that may splat; to be called before their splats are added.
   void add_splatting_paths(std::uint64_t paths);
   [[nodiscard]] bool splats() const { return !splats_.empty(); }
+
+  /// Part `number` of `parts` of the film, to whose pixels one thread adds while others add to the other
+  /// parts. It has the rows of tiles number, number + parts, number + 2 parts, ... After join() and the two
+  /// functions that count, the film is the same, bit for bit, as if it had added everything itself.
+  class Part {
+  public:
+    Part(Film& film, std::size_t number, std::size_t parts) : film_(film), number_(number), parts_(parts) {
+      tally_.pixels_per_path = film.evidence_.tally().pixels_per_path;
+      paths_ = film.splatting_paths_;
+    }
+    [[nodiscard]] bool has_row_of_tiles(std::size_t row) const { return row % parts_ == number_; }
+    void add(std::size_t pixel, const BlockSum& block, std::uint32_t samples) {
+      film_.add(pixel, block, samples, tally_);
+    }
+    void add_splat(std::size_t pixel, const std::array<double, 3>& value, bool sized) {
+      film_.add_splat(pixel, value, sized, tally_);
+    }
+    [[gnu::always_inline]] void expect_splat(std::size_t pixel) const { film_.expect_splat(pixel); }
+    void add_splatting_paths(std::uint64_t paths) {
+      paths_ += paths;
+      tally_.pixels_per_path = film_.evidence_.pixels_per_path(paths_);
+    }
+
+  private:
+    friend Film;
+    Film& film_;
+    std::size_t number_, parts_;
+    Evidence::Tally tally_;
+    std::uint64_t paths_; // splatting ones of the film so far
+  };
+  [[nodiscard]] bool has_row_of_tiles(std::size_t) const { return true; }
+  void join(const Part& part) { evidence_.add(part.tally_); }
+  /// Counts blocks that parts have added.
+  void count_blocks(std::uint64_t blocks, std::uint32_t samples);
+  /// Whether parts may add the next `samples` samples: not if something depends on the order of all pixels.
+  [[nodiscard]] bool can_be_divided(std::uint64_t samples) const {
+    return storage_ == Storage::memory && !clamp_ && !techniques_ &&
+           !evidence_.notes_growth(this->samples() + samples);
+  }
 
   /// Samples of a block are not independent of each other, but blocks are: variances are estimated from the
   /// sums of blocks. To be called before the first add().
@@ -224,7 +261,20 @@ public:
 
 private:
   void clamp(std::array<double, 3>& value);
-  void count_splat(std::size_t pixel, double square, double sum);
+  void add(std::size_t pixel, const BlockSum& block, std::uint32_t samples, Evidence::Tally& tally);
+  void add_splat(std::size_t pixel, const std::array<double, 3>& value, bool sized, Evidence::Tally& tally) {
+    Splats& sums = splats_[pixel];
+    double square = 0.0;
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      sums.sum[channel] += value[channel];
+      const double channel_square = value[channel] * value[channel];
+      sums.sum_of_squares[channel] += channel_square;
+      square += channel_square;
+    }
+    sums.sum_of_fourths += square * square;
+    if (sized) count_splat(pixel, square, value[0] + value[1] + value[2], tally);
+  }
+  void count_splat(std::size_t pixel, double square, double sum, Evidence::Tally& tally);
   [[nodiscard]] double splatting_paths_per_pixel() const;
   [[nodiscard]] double equal_blocks_per_pixel() const;
   // The sum over a pixel's independent values (samples or blocks) of (value - number of samples x mean of the

@@ -40,7 +40,8 @@ private:
 
 /// Numbers that are 0 when they are new. Of a file, only a window is in memory, which moves to each element
 /// that is accessed: that is fast for elements in order, and a reference is valid until the next access.
-/// Access to a file is for one thread at a time, and throws WriteError.
+/// In memory, threads may access different elements at the same time; access to a file is for one thread at a
+/// time, and throws WriteError.
 template<class T>
 class PagedArray {
 public:
@@ -63,7 +64,7 @@ public:
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] bool empty() const { return size_ == 0; }
   [[nodiscard]] T& operator[](std::size_t i) {
-    has_changed_ = true;
+    if (file_) has_changed_ = true;
     return at(i);
   }
   [[nodiscard]] const T& operator[](std::size_t i) const { return at(i); }
@@ -86,8 +87,8 @@ private:
   [[nodiscard]] std::size_t in_window() const { return std::min(window_.size(), size_ - first_); }
 
   std::size_t size_ = 0;
-  mutable std::size_t first_ = 0; // in the window
-  mutable bool has_changed_ = false;
+  mutable std::size_t first_ = 0;    // in the window
+  mutable bool has_changed_ = false; // since the file was read
   mutable std::vector<T, ZeroedMemory<T>> window_;
   std::unique_ptr<ScratchFile> file_; // null: all is in the window
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 #include "scene/scene_data.h"
 
@@ -20,6 +21,10 @@ void fetch(const SplatRecords& records, std::size_t i) {
     __builtin_prefetch(records.words + array * records.capacity + i);
 }
 
+std::int32_t* pixels_of(const SplatRecords& records) {
+  return reinterpret_cast<std::int32_t*>(records.words + RECORD_PIXEL * records.capacity);
+}
+
 std::size_t path_of(const SplatRecords& records, std::size_t i) {
   return std::bit_cast<std::uint32_t>(records.words[RECORD_PATH * records.capacity + i]);
 }
@@ -29,12 +34,84 @@ std::uint64_t bit_of(std::int32_t pixel) {
   return std::uint64_t{1} << (static_cast<std::uint32_t>(pixel) * 0x9E3779B1u >> 26);
 }
 
+// Their pixels are prefetched: about the latency of memory.
+constexpr std::size_t splats_ahead = 16;
+
+struct Words {
+  explicit Words(const SplatRecords& records)
+      : pixels(pixels_of(records)), red(records.words + RECORD_VALUE * records.capacity),
+        green(red + records.capacity), blue(green + records.capacity) {}
+  [[nodiscard]] bool is_finite(std::size_t i) const { return std::isfinite(red[i] + green[i] + blue[i]); }
+  template<class Target> // a film or a part of it
+  void add(std::size_t i, Target& to) const {
+    to.add_splat(static_cast<std::size_t>(pixels[i]), {red[i], green[i], blue[i]},
+                 i % Film::sized_one_in == 0);
+  }
+  const std::int32_t* pixels;
+  const float *red, *green, *blue;
+};
+
 } // namespace
+
+void DividedSplats::begin(std::span<const SplatRecords> batches, const Film& film, std::size_t parts) {
+  batches_ = batches;
+  rows_per_pixel_ = 1.0 / static_cast<double>(film.row_of_tiles());
+  part_of_row_.resize(film.pixels().size() / film.row_of_tiles() + 1);
+  for (std::size_t row = 0; row < part_of_row_.size(); ++row)
+    part_of_row_[row] = static_cast<std::uint8_t>(row % parts);
+  first_.clear();
+  std::size_t records = 0;
+  for (const SplatRecords& batch : batches) {
+    first_.push_back(records);
+    records += batch.count;
+  }
+  part_of_.resize(std::max(part_of_.size(), records));
+}
+
+std::vector<std::size_t> DividedSplats::divide(std::size_t batch) {
+  const SplatRecords& records = batches_[batch];
+  const Words words(records);
+  std::uint8_t* const part_of = part_of_.data() + first_[batch];
+  std::vector<std::size_t> not_finite;
+  for (std::size_t i = 0; i < records.count; ++i) {
+    part_of[i] = no_part;
+    if (words.pixels[i] == none) continue;
+    // Faster than an integer division; see TileMeans::tile_of().
+    if (words.is_finite(i))
+      part_of[i] = part_of_row_[static_cast<std::uint32_t>((words.pixels[i] + 0.5) * rows_per_pixel_)];
+    else
+      not_finite.push_back(path_of(records, i));
+  }
+  return not_finite;
+}
+
+void DividedSplats::add(std::size_t batch, std::size_t part, Film::Part& to) const {
+  const SplatRecords& records = batches_[batch];
+  const Words words(records);
+  const std::uint8_t* const part_of = part_of_.data() + first_[batch];
+  std::array<std::uint32_t, 256> own; // the part's records among the next ones
+  for (std::size_t begin = 0; begin < records.count; begin += own.size()) {
+    const std::size_t end = std::min(begin + own.size(), records.count);
+    for (std::size_t i = begin; i < end; i += words_per_line) fetch(records, i + own.size());
+    std::size_t count = 0;
+    for (std::size_t i = begin; i < end; ++i) { // without branches, which could not be predicted
+      own[count] = static_cast<std::uint32_t>(i);
+      count += part_of[i] == part ? 1 : 0;
+    }
+    for (std::size_t k = 0; k < std::min(count, splats_ahead); ++k)
+      to.expect_splat(static_cast<std::size_t>(words.pixels[own[k]]));
+    for (std::size_t k = 0; k < count; ++k) {
+      if (k + splats_ahead < count)
+        to.expect_splat(static_cast<std::size_t>(words.pixels[own[k + splats_ahead]]));
+      words.add(own[k], to);
+    }
+  }
+}
 
 // Adds each record to an earlier one of the same path and pixel, if there is one. Most paths have two or
 // three records, rarely two of the same pixel.
 void SplatFolder::merge(const SplatRecords& records) {
-  auto* const pixels = reinterpret_cast<std::int32_t*>(records.words + RECORD_PIXEL * records.capacity);
+  std::int32_t* const pixels = pixels_of(records);
   const auto* const paths =
       reinterpret_cast<const std::int32_t*>(records.words + RECORD_PATH * records.capacity);
   paths_.assign(records.paths, {});
@@ -62,18 +139,13 @@ void SplatFolder::merge(const SplatRecords& records) {
 
 std::vector<std::size_t> SplatFolder::fold(const SplatRecords& records, Film& film) {
   std::vector<std::size_t> not_finite;
-  const auto* const pixels =
-      reinterpret_cast<const std::int32_t*>(records.words + RECORD_PIXEL * records.capacity);
-  const float* const red = records.words + RECORD_VALUE * records.capacity;
-  const float *const green = red + records.capacity, *const blue = green + records.capacity;
-  constexpr std::size_t ahead = 16; // about the latency of memory
+  const Words words(records);
   for (std::size_t i = 0; i < records.count; ++i) {
-    if (i + ahead < records.count && pixels[i + ahead] != none)
-      film.expect_splat(static_cast<std::size_t>(pixels[i + ahead]));
-    if (pixels[i] == none) continue;
-    if (std::isfinite(red[i] + green[i] + blue[i]))
-      film.add_splat(static_cast<std::size_t>(pixels[i]), {red[i], green[i], blue[i]},
-                     i % Film::sized_one_in == 0);
+    if (i + splats_ahead < records.count && words.pixels[i + splats_ahead] != none)
+      film.expect_splat(static_cast<std::size_t>(words.pixels[i + splats_ahead]));
+    if (words.pixels[i] == none) continue;
+    if (words.is_finite(i))
+      words.add(i, film);
     else
       not_finite.push_back(path_of(records, i));
   }
@@ -85,7 +157,7 @@ void SplatFolder::fold_techniques(const SplatRecords& records, Film& film) {
     return reinterpret_cast<std::int32_t*>(records.words + array * records.capacity);
   };
   const auto reals = [&](std::size_t array) { return records.words + array * records.capacity; };
-  std::int32_t* const pixels = integers(RECORD_PIXEL);
+  std::int32_t* const pixels = pixels_of(records);
   for (std::size_t i = 0; i < records.count; ++i) {
     const std::int32_t tag = integers(RECORD_TECHNIQUE)[i];
     const bool own = tag < 0;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "film/film.h"
@@ -17,6 +18,27 @@ struct SplatRecords {
   std::size_t paths = 0; ///< of the batch; records have path indices below it
 };
 
+/// Divides the splats of several batches among the parts of a film.
+class DividedSplats {
+public:
+  static constexpr std::size_t most_parts = 255;
+  /// Forgets what was divided before, and makes room for these batches. 1 <= parts <= most_parts.
+  void begin(std::span<const SplatRecords> batches, const Film& film, std::size_t parts);
+  /// Finds the parts of the records of a batch that SplatFolder::merge() has summed. Those that are not
+  /// finite are left out; returns their paths. Different batches may be divided at the same time.
+  std::vector<std::size_t> divide(std::size_t batch);
+  /// Adds the splats of a batch that are in a part, in the order of their records.
+  void add(std::size_t batch, std::size_t part, Film::Part& to) const;
+
+private:
+  static constexpr std::uint8_t no_part = most_parts;
+  std::span<const SplatRecords> batches_;
+  double rows_per_pixel_ = 1.0;           // rows of tiles
+  std::vector<std::uint8_t> part_of_row_; // of tiles
+  std::vector<std::size_t> first_;        // of each batch in part_of_
+  std::vector<std::uint8_t> part_of_;     // each record
+};
+
 /// Sums the splats of each path to each pixel and adds the sums to the film, which needs their squares.
 class SplatFolder {
 public:
@@ -26,7 +48,6 @@ public:
   /// Adds records that merge() has summed to a film that uses splats. Sums that are not finite are left out;
   /// returns their paths.
   static std::vector<std::size_t> fold(const SplatRecords& records, Film& film);
-
   /// For records with techniques, before fold(): adds each to the film's techniques, multiplies it by its
   /// weight, and removes those of the paths' own pixels, which the film already has. Values that are not
   /// finite are left to fold().

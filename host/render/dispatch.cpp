@@ -60,14 +60,14 @@ void pause(const Settings& settings) {
 }
 
 DispatchLoop::DispatchLoop(const Settings& settings, film::Film& film, const Events& events,
-                           const RenderState& from)
+                           const RenderState& from, std::size_t folding_threads)
     : settings_(settings), film_(film), events_(events), begin_(Clock::now()),
       seconds_before_(from.seconds_render), open_ended_(settings.time_limit || settings.target_error),
       schedule_(static_cast<std::int64_t>(film.pixels().size()),
                 open_ended_ ? std::nullopt : std::optional<std::int64_t>(settings.samples_per_pixel),
                 from.position, samples_point_sets(settings) ? Blocks::of_point_sets : Blocks::of_independent),
-      folder_(static_cast<std::int64_t>(film.pixels().size()), settings.techniques), counts_(from),
-      started_paths_(from.paths) {
+      folder_(static_cast<std::int64_t>(film.pixels().size()), settings.techniques, folding_threads),
+      counts_(from), started_paths_(from.paths) {
   if (settings.target_error) target_.emplace(*settings.target_error, film.pixels().size());
   ended_ = from.paths > 0 && precise_enough();
 }

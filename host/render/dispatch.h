@@ -36,7 +36,9 @@ void pause(const Settings& settings);
 /// launches that others wait for begin.
 class DispatchLoop {
 public:
-  DispatchLoop(const Settings& settings, film::Film& film, const Events& events, const RenderState& from);
+  /// Up to `folding_threads` threads add a launch to the film.
+  DispatchLoop(const Settings& settings, film::Film& film, const Events& events, const RenderState& from,
+               std::size_t folding_threads = 1);
 
   /// Runs the processors, each in a thread, until the work is done or ended, or all have failed. Reports
   /// progress after each launch. @throws what is no failure of a device, such as an exception of `events`

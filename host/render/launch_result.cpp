@@ -1,8 +1,12 @@
 #include "render/launch_result.h"
 
 #include <algorithm>
+#include <mutex>
+#include <tuple>
 #include <utility>
 #include <vector>
+
+#include "in_parallel.h"
 
 namespace phlux::render {
 
@@ -21,54 +25,122 @@ void own_batches(LaunchResult& result) {
   result.memory = std::move(words);
 }
 
-// Counts contributions that were not finite, among the given samples of a job's block.
-void ResultFolder::count_nonfinite(const Launch& launch, std::size_t job, std::uint64_t count, int sample,
-                                   int samples) {
-  counts_.nonfinite += count;
-  if (counts_.first_nonfinite) return;
-  const std::int64_t place = launch.first_job + static_cast<std::int64_t>(job);
-  counts_.first_nonfinite = {place % pixels_,
-                             launch.first_sample + place / pixels_ * launch.block_samples + sample, samples};
+void ResultFolder::NotFinite::add(const NotFinite& others) {
+  if (others.count == 0) return;
+  if (count == 0 || std::tuple(others.job, others.sample, others.samples) < std::tuple(job, sample, samples))
+    std::tie(job, sample, samples) = std::tie(others.job, others.sample, others.samples);
+  count += others.count;
 }
 
-void ResultFolder::fold_sums(const LaunchResult& result, std::size_t first_job, std::size_t jobs,
-                             film::Film& film) {
-  const Launch& launch = result.launch;
-  std::int64_t pixel = (launch.first_job + static_cast<std::int64_t>(first_job)) % pixels_;
-  for (std::size_t job = first_job; job < first_job + jobs; ++job) {
-    const film::BlockSum& sum = result.sums[job];
-    film.add(static_cast<std::size_t>(pixel), sum, static_cast<std::uint32_t>(launch.block_samples));
-    if (++pixel == pixels_) pixel = 0;
-    if (sum.nonfinite > 0)
-      count_nonfinite(launch, job, static_cast<std::uint64_t>(sum.nonfinite), 0, launch.block_samples);
+// Adds the sums of those jobs whose rows of tiles `to` has.
+template<class Target>
+void ResultFolder::fold_sums(const LaunchResult& result, Jobs jobs, Target& to, NotFinite& lost) const {
+  const int samples = result.launch.block_samples;
+  const std::size_t end = jobs.first + jobs.count;
+  for (std::size_t job = jobs.first; job < end;) {
+    std::size_t pixel = (static_cast<std::size_t>(result.launch.first_job) + job) % pixels_;
+    const std::size_t row = pixel / row_of_tiles_;
+    const std::size_t row_end = job + std::min((row + 1) * row_of_tiles_, pixels_) - pixel;
+    if (!to.has_row_of_tiles(row)) {
+      job = row_end;
+      continue;
+    }
+    for (; job < std::min(row_end, end); ++job, ++pixel) {
+      const film::BlockSum& sum = result.sums[job];
+      to.add(pixel, sum, static_cast<std::uint32_t>(samples));
+      if (sum.nonfinite > 0) lost.add({static_cast<std::uint64_t>(sum.nonfinite), job, 0, samples});
+    }
   }
 }
 
-void ResultFolder::fold_batch(LaunchResult& result, std::size_t batch, film::Film& film) {
-  const auto samples = static_cast<std::size_t>(result.launch.block_samples);
-  const std::size_t first_job = batch * result.batch_jobs;
-  const std::size_t jobs =
-      std::min(result.batch_jobs, static_cast<std::size_t>(result.launch.jobs) - first_job);
-  if (!result.sums.empty()) fold_sums(result, first_job, jobs, film);
+ResultFolder::Jobs ResultFolder::jobs_of(const LaunchResult& result, std::size_t batch) const {
+  const auto jobs = static_cast<std::size_t>(result.launch.jobs);
+  if (result.batches.empty()) return {0, jobs};
+  const std::size_t first = batch * result.batch_jobs;
+  return {first, std::min(result.batch_jobs, jobs - first)};
+}
 
-  const film::SplatRecords& records = result.batches[batch];
-  film.add_splatting_paths(jobs * samples);
-  if (techniques_) film::SplatFolder::fold_techniques(records, film);
-  if (!result.merged) splats_.merge(records);
-  for (const std::size_t path : film::SplatFolder::fold(records, film))
-    count_nonfinite(result.launch, first_job + path / samples, 1, static_cast<int>(path % samples), 1);
+// Adds what `to`, the film or a part of it, has of a batch. add_splats() adds the splats.
+template<class Target, class AddSplats>
+void ResultFolder::fold_batch(const LaunchResult& result, std::size_t batch, Target& to, NotFinite& lost,
+                              const AddSplats& add_splats) const {
+  const Jobs jobs = jobs_of(result, batch);
+  if (!result.sums.empty()) fold_sums(result, jobs, to, lost);
+  if (result.batches.empty()) return;
+  to.add_splatting_paths(jobs.count * static_cast<std::size_t>(result.launch.block_samples));
+  add_splats();
+}
+
+ResultFolder::NotFinite ResultFolder::lost_paths(const LaunchResult& result, std::size_t batch,
+                                                 const std::vector<std::size_t>& paths) const {
+  const auto samples = static_cast<std::size_t>(result.launch.block_samples);
+  NotFinite lost;
+  for (const std::size_t path : paths)
+    lost.add({1, jobs_of(result, batch).first + path / samples, static_cast<int>(path % samples), 1});
+  return lost;
+}
+
+void ResultFolder::fold_whole(const LaunchResult& result, film::Film& film, NotFinite& lost) {
+  for (std::size_t batch = 0; batch < std::max<std::size_t>(result.batches.size(), 1); ++batch)
+    fold_batch(result, batch, film, lost, [&] {
+      const film::SplatRecords& records = result.batches[batch];
+      if (techniques_) film::SplatFolder::fold_techniques(records, film);
+      if (!result.merged) splats_.front().merge(records);
+      lost.add(lost_paths(result, batch, film::SplatFolder::fold(records, film)));
+    });
+}
+
+// Each thread divides whole batches first; then it adds its part of all batches.
+void ResultFolder::fold_in_parts(const LaunchResult& result, film::Film& film, NotFinite& lost) {
+  const std::size_t threads = std::min(splats_.size(), film::DividedSplats::most_parts);
+  const std::size_t batches = result.batches.size();
+  std::mutex mutex; // of what all threads have in common
+  divided_.begin(result.batches, film, threads);
+  in_parallel(threads, batches, [&](std::size_t batch, std::size_t thread) {
+    if (!result.merged) splats_[thread].merge(result.batches[batch]);
+    const std::vector<std::size_t> paths = divided_.divide(batch);
+    const std::lock_guard lock(mutex);
+    lost.add(lost_paths(result, batch, paths));
+  });
+  in_parallel(threads, threads, [&](std::size_t number, std::size_t) {
+    film::Film::Part part(film, number, threads);
+    NotFinite lost_here;
+    for (std::size_t batch = 0; batch < std::max<std::size_t>(batches, 1); ++batch)
+      fold_batch(result, batch, part, lost_here, [&] { divided_.add(batch, number, part); });
+    const std::lock_guard lock(mutex);
+    film.join(part);
+    lost.add(lost_here);
+  });
+  const auto samples = static_cast<std::uint32_t>(result.launch.block_samples);
+  film.count_blocks(result.sums.size(), samples);
+  if (batches > 0) film.add_splatting_paths(static_cast<std::uint64_t>(result.launch.jobs) * samples);
 }
 
 Counts ResultFolder::fold(LaunchResult& result, film::Film& film) {
-  counts_ = {};
+  row_of_tiles_ = film.row_of_tiles();
   if (!result.batches.empty()) film.use_splats();
-  for (std::size_t batch = 0; batch < result.batches.size(); ++batch) fold_batch(result, batch, film);
-  if (result.batches.empty()) fold_sums(result, 0, result.sums.size(), film);
-  counts_.paths = static_cast<std::uint64_t>(result.launch.jobs) *
-                  static_cast<std::uint64_t>(result.launch.block_samples);
-  counts_.rays = result.rays;
-  counts_.shadow_rays = result.shadow_rays;
-  return counts_;
+  const Launch& launch = result.launch;
+  Counts counts;
+  counts.paths = static_cast<std::uint64_t>(launch.jobs) * static_cast<std::uint64_t>(launch.block_samples);
+  counts.rays = result.rays;
+  counts.shadow_rays = result.shadow_rays;
+  std::size_t additions = result.sums.size();
+  for (const film::SplatRecords& batch : result.batches) additions += batch.count;
+  constexpr std::size_t worth_dividing = 20'000; // additions, which take about as long as starting threads
+  NotFinite lost;
+  if (splats_.size() > 1 && additions >= worth_dividing && film.can_be_divided(counts.paths))
+    fold_in_parts(result, film, lost);
+  else
+    fold_whole(result, film, lost);
+  counts.nonfinite = lost.count;
+  if (lost.count > 0) {
+    const std::int64_t place = launch.first_job + static_cast<std::int64_t>(lost.job);
+    const auto pixels = static_cast<std::int64_t>(pixels_);
+    counts.first_nonfinite = {place % pixels,
+                              launch.first_sample + place / pixels * launch.block_samples + lost.sample,
+                              lost.samples};
+  }
+  return counts;
 }
 
 } // namespace phlux::render

@@ -32,23 +32,44 @@ struct LaunchResult {
 /// Copies the batches into the result's own memory, without their unused parts. @throws std::bad_alloc
 void own_batches(LaunchResult& result);
 
-/// Adds results to a film. The film depends on their order, by rounding.
+/// Adds results to a film. The film depends on their order, by rounding, but not on the number of threads.
 class ResultFolder {
 public:
-  /// For an image of `pixels` pixels. Records tell their techniques if `techniques` is set.
-  ResultFolder(std::int64_t pixels, bool techniques) : pixels_(pixels), techniques_(techniques) {}
+  /// For an image of `pixels` pixels. Records tell their techniques if `techniques` is set. Up to `threads`
+  /// threads add the results, each to other rows of the film.
+  ResultFolder(std::int64_t pixels, bool techniques, std::size_t threads)
+      : pixels_(static_cast<std::size_t>(pixels)), techniques_(techniques), splats_(threads) {}
   /// Changes the records. Returns what was counted. If it throws, the film is no longer valid.
   Counts fold(LaunchResult& result, film::Film& film);
 
 private:
-  void fold_sums(const LaunchResult& result, std::size_t first_job, std::size_t jobs, film::Film& film);
-  void fold_batch(LaunchResult& result, std::size_t batch, film::Film& film);
-  void count_nonfinite(const Launch& launch, std::size_t job, std::uint64_t count, int sample, int samples);
+  // Contributions that were not finite: their number, and those of the first job that has some.
+  struct NotFinite {
+    std::uint64_t count = 0;
+    std::size_t job = 0;
+    int sample = 0, samples = 1; ///< the first of `samples` samples of the job's block
 
-  std::int64_t pixels_;
+    void add(const NotFinite& others);
+  };
+  struct Jobs {
+    std::size_t first, count;
+  };
+  // All jobs if there are no batches.
+  [[nodiscard]] Jobs jobs_of(const LaunchResult& result, std::size_t batch) const;
+  template<class Target>
+  void fold_sums(const LaunchResult& result, Jobs jobs, Target& to, NotFinite& lost) const;
+  template<class Target, class AddSplats>
+  void fold_batch(const LaunchResult& result, std::size_t batch, Target& to, NotFinite& lost,
+                  const AddSplats& add_splats) const;
+  [[nodiscard]] NotFinite lost_paths(const LaunchResult& result, std::size_t batch,
+                                     const std::vector<std::size_t>& paths) const;
+  void fold_whole(const LaunchResult& result, film::Film& film, NotFinite& lost);
+  void fold_in_parts(const LaunchResult& result, film::Film& film, NotFinite& lost);
+
+  std::size_t pixels_, row_of_tiles_ = 1;
   bool techniques_;
-  film::SplatFolder splats_;
-  Counts counts_; // of the result at hand
+  std::vector<film::SplatFolder> splats_; // of each thread
+  film::DividedSplats divided_;
 };
 
 } // namespace phlux::render

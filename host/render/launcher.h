@@ -42,6 +42,7 @@ public:
   void abandon() noexcept override;
   [[nodiscard]] bool shrink() override;
   [[nodiscard]] std::string name() const override;
+  [[nodiscard]] const device::DeviceInfo& device() const { return device_.info; }
 
 private:
   struct Buffer {

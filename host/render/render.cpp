@@ -4,6 +4,7 @@
 #include <deque>
 #include <limits>
 #include <memory>
+#include <thread>
 
 #include <fmt/format.h>
 
@@ -152,6 +153,23 @@ private:
   int lanes_ = 0;
 };
 
+// Threads that add results to the film. On CPUs one suffices up to the number of cores that trace as fast as
+// it adds; beyond it, as many take part as have twice the share of adding in the processor time, since the
+// threads of the device compete for the same cores. A GPU leaves the cores to them.
+std::size_t folding_threads(const std::vector<Worker>& workers) {
+  const settings::IntegratorInfo& integrator = settings::info_of(workers.front().parts.integrator);
+  const double share = !integrator.light_paths ? 0.03
+                       : integrator.eye_paths  ? 0.11
+                                               : 0.25; // bench/PERFORMANCE.md
+  unsigned cores = 0;
+  for (const Worker& worker : workers) {
+    const device::DeviceInfo& device = worker.launcher->device();
+    if (device.type != "cpu") return std::max(1U, std::thread::hardware_concurrency());
+    cores += device.compute_units;
+  }
+  return share * cores < 1.5 ? 1 : static_cast<std::size_t>(2.0 * share * cores);
+}
+
 void add_names(Statistics& statistics, const device::DeviceInfo& device) {
   statistics.device += (statistics.device.empty() ? "" : ", ") + device.name;
   statistics.driver += (statistics.driver.empty() ? "" : ", ") + device.driver;
@@ -236,7 +254,7 @@ Statistics Renderer::render(const Settings& settings, film::Film& film, const Ev
     if (samples_point_sets(settings)) film.use_dependent_samples();
     std::vector<Processor*> all = processors();
     all.insert(all.end(), others.begin(), others.end());
-    DispatchLoop loop(settings, film, events, from);
+    DispatchLoop loop(settings, film, events, from, folding_threads(ready_->workers));
     loop.run(all);
     Statistics statistics = ready_->statistics;
     static_cast<RenderState&>(statistics) = loop.state();
