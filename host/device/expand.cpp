@@ -47,7 +47,7 @@ public:
     for (std::string line; std::getline(lines, line);) {
       ++number;
       std::smatch found;
-      if (!in_comment && std::regex_match(line, found, include)) {
+      if (!in_comment && line.find('#') != std::string::npos && std::regex_match(line, found, include)) {
         add_included(found, name, number);
         tagged = false;
         continue;

@@ -159,6 +159,7 @@ public:
     Evidence::Tally tally_;
     std::uint64_t paths_; // splatting ones of the film so far
   };
+  /// As Part's: what adds to a film or to a part may be one template.
   [[nodiscard]] bool has_row_of_tiles(std::size_t) const { return true; }
   void join(const Part& part) { evidence_.add(part.tally_); }
   /// Counts blocks that parts have added.

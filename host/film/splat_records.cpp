@@ -37,6 +37,7 @@ std::uint64_t bit_of(std::int32_t pixel) {
 // Their pixels are prefetched: about the latency of memory.
 constexpr std::size_t splats_ahead = 16;
 
+// The arrays of merged records.
 struct Words {
   explicit Words(const SplatRecords& records)
       : pixels(pixels_of(records)), red(records.words + RECORD_VALUE * records.capacity),

@@ -3,6 +3,7 @@
 #include <cctype>
 #include <optional>
 #include <regex>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -23,11 +24,10 @@ public:
       text_.replace(at, 2, "\f "); // joins continued lines and keeps positions
   }
 
-  [[nodiscard]] bool has(const std::string& name) const {
-    return std::regex_search(text_, std::regex("(^|\n)\\s*#\\s*define\\s+" + name + "\\b"));
-  }
+  [[nodiscard]] bool has(const std::string& name) const { return after_define(name).has_value(); }
   [[nodiscard]] bool is_one(const std::string& name) const {
-    return std::regex_search(text_, std::regex("(^|\n)\\s*#\\s*define\\s+" + name + "\\s+1\\s*(//|\n)"));
+    const auto value = after_define(name);
+    return value && trimmed(value->substr(0, value->find("//"))) == "1";
   }
 
   struct List {
@@ -36,11 +36,15 @@ public:
     std::size_t at = 0; ///< of the body in the text
   };
   [[nodiscard]] std::optional<List> list(const std::string& name) const {
-    std::smatch found;
-    const std::regex define("(^|\n)\\s*#\\s*define\\s+" + name +
-                            "\\(\\s*(\\w+)\\s*,\\s*(\\w+)\\s*\\)([^\n]*)");
-    if (!std::regex_search(text_, found, define)) return std::nullopt;
-    return List{{found[2], found[3]}, found[4], static_cast<std::size_t>(found.position(4))};
+    const auto found = after_define(name);
+    if (!found || !found->starts_with('(')) return std::nullopt;
+    const std::size_t comma = found->find(','), end = found->find(')');
+    if (end == std::string_view::npos || comma > end) return std::nullopt;
+    const std::string_view body = found->substr(end + 1);
+    return List{{std::string(trimmed(found->substr(1, comma - 1))),
+                 std::string(trimmed(found->substr(comma + 1, end - comma - 1)))},
+                std::string(body),
+                static_cast<std::size_t>(body.data() - text_.data())};
   }
 
   [[noreturn]] void fail(std::size_t at, const std::string& wrong, const std::string& right) const {
@@ -50,6 +54,29 @@ public:
   }
 
 private:
+  static constexpr const char* blanks = " \t\r\f";
+  static std::string_view trimmed(std::string_view words) {
+    const std::size_t begin = std::min(words.find_first_not_of(blanks), words.size());
+    return words.substr(begin, words.find_last_not_of(blanks) + 1 - begin);
+  }
+  // The rest of the line after "#define NAME"; nothing if no line begins with that. Without regular
+  // expressions: with them a fifth of the time of a start passed here.
+  [[nodiscard]] std::optional<std::string_view> after_define(const std::string& name) const {
+    const std::string_view text = text_;
+    for (std::size_t at = text.find(name); at != std::string_view::npos; at = text.find(name, at + 1)) {
+      const std::size_t line = text.rfind('\n', at) + 1;
+      std::string_view before = text.substr(line, at - line);
+      const bool apart = !before.empty() && trimmed(before.substr(before.size() - 1)).empty();
+      before = trimmed(before);
+      const bool defines = apart && before.starts_with('#') && trimmed(before.substr(1)) == "define";
+      const std::string_view rest = text.substr(at + name.size(), text.find('\n', at) - at - name.size());
+      const bool whole =
+          rest.empty() || (std::isalnum(static_cast<unsigned char>(rest[0])) == 0 && rest[0] != '_');
+      if (defines && whole) return rest;
+    }
+    return std::nullopt;
+  }
+
   std::string file_, text_;
 };
 
@@ -84,7 +111,8 @@ std::vector<scene::Parameter> read_parameters(const Defines& defines, const Defi
     parameters.push_back(read_entry(defines, list, *each, list.at + at));
     end = at + static_cast<std::size_t>(each->length());
   }
-  if (!std::regex_match(list.body.substr(end), std::regex("[\\s\f]*(//.*)?")))
+  static const std::regex blank_or_comment("[\\s\f]*(//.*)?");
+  if (!std::regex_match(list.body.substr(end), blank_or_comment))
     defines.fail(list.at + end, "this is no parameter", entry_syntax);
   return parameters;
 }
@@ -108,7 +136,7 @@ scene::Model read_declaration(const std::string& name, const std::string& file, 
                  "a model " + name + " declares its parameters by it (kernels/lobes/lobe.h)");
   model.parameters = read_parameters(defines, *parameters);
   if (const auto derived = defines.list(prefix + "_DERIVED")) {
-    const std::regex member(R"((\w+)\s*\(\s*\w+\s*\))");
+    static const std::regex member(R"((\w+)\s*\(\s*\w+\s*\))");
     model.derived_words = static_cast<int>(
         std::distance(std::sregex_iterator(derived->body.begin(), derived->body.end(), member), {}));
   }

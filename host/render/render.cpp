@@ -158,9 +158,8 @@ private:
 // threads of the device compete for the same cores. A GPU leaves the cores to them.
 std::size_t folding_threads(const std::vector<Worker>& workers) {
   const settings::IntegratorInfo& integrator = settings::info_of(workers.front().parts.integrator);
-  const double share = !integrator.light_paths ? 0.03
-                       : integrator.eye_paths  ? 0.11
-                                               : 0.25; // bench/PERFORMANCE.md
+  double share = 0.03; // of adding in the processor time (bench/PERFORMANCE.md)
+  if (integrator.light_paths) share = integrator.eye_paths ? 0.11 : 0.25;
   unsigned cores = 0;
   for (const Worker& worker : workers) {
     const device::DeviceInfo& device = worker.launcher->device();
