@@ -131,8 +131,9 @@ public:
   [[nodiscard]] bool splats() const { return !splats_.empty(); }
 
   /// Part `number` of `parts` of the film, to whose pixels one thread adds while others add to the other
-  /// parts. It has the rows of tiles number, number + parts, number + 2 parts, ... After join() and the two
-  /// functions that count, the film is the same, bit for bit, as if it had added everything itself.
+  /// parts. It has the rows of tiles number, number + parts, number + 2 parts, ... After join(),
+  /// count_blocks() and add_splatting_paths() the film is the same, bit for bit, as if it had added
+  /// everything itself.
   class Part {
   public:
     Part(Film& film, std::size_t number, std::size_t parts) : film_(film), number_(number), parts_(parts) {

@@ -20,14 +20,16 @@ constexpr const char* entry_syntax = "COLOUR or NUMBER(name, default, lowest, hi
 class Defines {
 public:
   Defines(std::string file, std::string text) : file_(std::move(file)), text_(std::move(text)) {
+    std::erase(text_, '\r');
     for (std::size_t at = text_.find("\\\n"); at != std::string::npos; at = text_.find("\\\n", at))
       text_.replace(at, 2, "\f "); // joins continued lines and keeps positions
   }
 
   [[nodiscard]] bool has(const std::string& name) const { return after_define(name).has_value(); }
   [[nodiscard]] bool is_one(const std::string& name) const {
-    const auto value = after_define(name);
-    return value && trimmed(value->substr(0, value->find("//"))) == "1";
+    for (auto value = after_define(name); value; value = after_define(name, *value))
+      if (trimmed(value->substr(0, value->find("//"))) == "1") return true;
+    return false;
   }
 
   struct List {
@@ -59,11 +61,15 @@ private:
     const std::size_t begin = std::min(words.find_first_not_of(blanks), words.size());
     return words.substr(begin, words.find_last_not_of(blanks) + 1 - begin);
   }
-  // The rest of the line after "#define NAME"; nothing if no line begins with that. Without regular
-  // expressions: with them a fifth of the time of a start passed here.
-  [[nodiscard]] std::optional<std::string_view> after_define(const std::string& name) const {
+  // The rest of the next line after "#define NAME", after the one that returned `earlier`; nothing if no line
+  // begins with that. Without regular expressions, which took a fifth of the time of a start.
+  [[nodiscard]] std::optional<std::string_view> after_define(const std::string& name,
+                                                             std::string_view earlier = {}) const {
     const std::string_view text = text_;
-    for (std::size_t at = text.find(name); at != std::string_view::npos; at = text.find(name, at + 1)) {
+    const std::size_t first =
+        earlier.data() == nullptr ? 0 : static_cast<std::size_t>(earlier.data() - text.data());
+    for (std::size_t at = text.find(name, first); at != std::string_view::npos;
+         at = text.find(name, at + 1)) {
       const std::size_t line = text.rfind('\n', at) + 1;
       std::string_view before = text.substr(line, at - line);
       const bool apart = !before.empty() && trimmed(before.substr(before.size() - 1)).empty();

@@ -92,7 +92,8 @@ void ResultFolder::fold_whole(const LaunchResult& result, film::Film& film, NotF
 
 // Each thread divides whole batches first; then it adds its part of all batches.
 void ResultFolder::fold_in_parts(const LaunchResult& result, film::Film& film, NotFinite& lost) {
-  const std::size_t threads = std::min(splats_.size(), film::DividedSplats::most_parts);
+  const std::size_t rows = (pixels_ + row_of_tiles_ - 1) / row_of_tiles_;
+  const std::size_t threads = std::min({splats_.size(), film::DividedSplats::most_parts, rows});
   const std::size_t batches = result.batches.size();
   std::mutex mutex; // of what all threads have in common
   divided_.begin(result.batches, film, threads);

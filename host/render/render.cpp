@@ -153,20 +153,26 @@ private:
   int lanes_ = 0;
 };
 
-// Threads that add results to the film. On CPUs one suffices up to the number of cores that trace as fast as
-// it adds; beyond it, as many take part as have twice the share of adding in the processor time, since the
-// threads of the device compete for the same cores. A GPU leaves the cores to them.
-std::size_t folding_threads(const std::vector<Worker>& workers) {
+// Threads that add results to the film. Those of CPU devices compete for the same cores, and several adding
+// threads take more processor time than one. One is therefore enough until its share of the time is 1.5
+// cores; then twice as many take part as have that share. If other processes trace too, half of the cores
+// add; beside a GPU all of them.
+std::size_t folding_threads(const std::vector<Worker>& workers, bool other_processes) {
+  constexpr double most = 16.0; // each looks through the records of all
+  double share = 0.03;          // of one thread's adding in the processor time of all (bench/PERFORMANCE.md)
   const settings::IntegratorInfo& integrator = settings::info_of(workers.front().parts.integrator);
-  double share = 0.03; // of adding in the processor time (bench/PERFORMANCE.md)
   if (integrator.light_paths) share = integrator.eye_paths ? 0.11 : 0.25;
-  unsigned cores = 0;
+  double cores = 0.0;
+  bool gpu = false;
   for (const Worker& worker : workers) {
     const device::DeviceInfo& device = worker.launcher->device();
-    if (device.type != "cpu") return std::max(1U, std::thread::hardware_concurrency());
+    gpu = gpu || device.type != "cpu";
     cores += device.compute_units;
   }
-  return share * cores < 1.5 ? 1 : static_cast<std::size_t>(2.0 * share * cores);
+  double threads = share * cores < 1.5 ? 1.0 : 2.0 * share * cores;
+  if (other_processes) threads = cores / 2.0;
+  if (gpu) threads = std::thread::hardware_concurrency();
+  return static_cast<std::size_t>(std::clamp(threads, 1.0, most));
 }
 
 void add_names(Statistics& statistics, const device::DeviceInfo& device) {
@@ -253,7 +259,7 @@ Statistics Renderer::render(const Settings& settings, film::Film& film, const Ev
     if (samples_point_sets(settings)) film.use_dependent_samples();
     std::vector<Processor*> all = processors();
     all.insert(all.end(), others.begin(), others.end());
-    DispatchLoop loop(settings, film, events, from, folding_threads(ready_->workers));
+    DispatchLoop loop(settings, film, events, from, folding_threads(ready_->workers, !others.empty()));
     loop.run(all);
     Statistics statistics = ready_->statistics;
     static_cast<RenderState&>(statistics) = loop.state();

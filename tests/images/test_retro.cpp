@@ -11,6 +11,7 @@
 #include "images/scenes.h"
 #include "phong/reflectivity.h"
 #include "scene_file/load.h"
+#include "temporary_folder.h"
 
 using namespace phlux;
 using namespace phlux::test;
@@ -60,6 +61,24 @@ TEST_CASE("retro.cl declares its parameters, and is short") {
   CHECK_FALSE(model->reflectivity_is_estimate);
   const std::string text = text_of(folder / "retro.cl");
   CHECK(std::ranges::count(text, '\n') < 60);
+}
+
+TEST_CASE("A model's file may have Windows' line ends, and may define a macro in two branches") {
+  TemporaryFolder other;
+  std::string text;
+  for (const char c : text_of(folder / "retro.cl")) text += c == '\n' ? "\r\n" : std::string(1, c);
+  text += "#ifdef RETRO_FAST\r\n#define RETRO_TRANSMITS 0\r\n#else\r\n# define RETRO_TRANSMITS 1 // or "
+          "not\r\n#endif\r\n"
+          "#define RETRO_HAS_DELTA_NOT 1\r\n";
+  std::ofstream(other.path() / "retro.cl", std::ios::binary) << text;
+  lobes::Library library;
+  library.add(other.path() / "retro.cl");
+  const auto model = library.find("retro"), original = library_with_retro().find("retro");
+  CHECK(model->parameters.size() == original->parameters.size());
+  CHECK(model->parameters[2].meaning == original->parameters[2].meaning);
+  CHECK(model->derived_words == original->derived_words);
+  CHECK(model->transmits);
+  CHECK_FALSE(model->has_delta);
 }
 
 TEST_CASE("The page about retro.cl shows every line of it, in order") {

@@ -1,13 +1,18 @@
 // Launches that several threads add to the film.
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <atomic>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <limits>
+#include <memory>
+#include <optional>
 #include <random>
-#include <set>
+#include <stdexcept>
 #include <string>
-#include <system_error>
+#include <vector>
 
 #include "in_parallel.h"
 #include "render/launch_result.h"
@@ -80,6 +85,7 @@ struct Bytes {
     else
       bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
   }
+  void append(std::optional<double>& value) { bytes += value ? std::to_string(*value) : "none"; }
   template<class Value, std::size_t n>
   void append(std::array<Value, n>& values) {
     for (Value& value : values) append(value);
@@ -103,7 +109,7 @@ Folded fold(Kind kind, std::size_t threads, bool point_sets, bool clamps) {
   std::int64_t place = 0;
   for (int i = 0; i < 8; ++i) {
     // The third ends with a pixel's second block; the fourth begins in the middle of a batch of pixels.
-    const Launch launch{place % pixels, 9001 + i, 100 * i, 4};
+    const Launch launch{place % pixels, (kind == Kind::path ? 30'001 : 9001) + i, 100 * i, 4};
     LaunchResult result = random_result(random, kind, launch);
     const Counts counts = folder.fold(result, film);
     CHECK(counts.paths == static_cast<std::uint64_t>(launch.jobs * launch.block_samples));
