@@ -23,6 +23,13 @@ namespace phlux {
   return bytes;
 }
 
+/// bytes_of() a kernel file, without the carriage returns with which lines end on Windows.
+[[nodiscard]] inline std::optional<std::string> kernel_text_of(const std::filesystem::path& file) {
+  std::optional<std::string> text = bytes_of(file);
+  if (text) std::erase(*text, '\r');
+  return text;
+}
+
 /// Removes the mark of UTF-8 (EF BB BF) with which some editors begin a text.
 inline void remove_byte_order_mark(std::string& text) {
   if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);

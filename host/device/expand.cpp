@@ -46,7 +46,6 @@ public:
     int number = 0;
     for (std::string line; std::getline(lines, line);) {
       ++number;
-      if (line.ends_with('\r')) line.pop_back();
       std::smatch found;
       if (!in_comment && line.find('#') != std::string::npos && std::regex_match(line, found, include)) {
         add_included(found, name, number);

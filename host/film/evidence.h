@@ -26,7 +26,8 @@ class Evidence {
 public:
   Evidence(int width, int height);
 
-  /// What is counted over all tiles. Threads that add to different tiles have one each, and add() sums them.
+  /// The sizes of contributions to any tile, and the number of pixels per splatting path. A thread that adds
+  /// to a part of the tiles has its own tally; add() adds its sizes to those of the film.
   struct Tally {
     ContributionSizes sizes;
     double pixels_per_path = 0.0; ///< for the splatting paths so far

@@ -131,7 +131,7 @@ public:
   [[nodiscard]] bool splats() const { return !splats_.empty(); }
 
   /// Part `number` of `parts` of the film, to whose pixels one thread adds while others add to the other
-  /// parts. It has the rows of tiles number, number + parts, number + 2 parts, ... After join(),
+  /// parts. Rows of tiles are dealt out in turn, see of_row(). After join(),
   /// count_blocks() and add_splatting_paths() the film is the same, bit for bit, as if it had added
   /// everything itself.
   class Part {
@@ -140,7 +140,10 @@ public:
       tally_.pixels_per_path = film.evidence_.tally().pixels_per_path;
       paths_ = film.splatting_paths_;
     }
-    [[nodiscard]] bool has_row_of_tiles(std::size_t row) const { return row % parts_ == number_; }
+    [[nodiscard]] std::size_t row_of_tiles() const { return film_.row_of_tiles(); }
+    /// The part of a row of tiles.
+    [[nodiscard]] static std::size_t of_row(std::size_t row, std::size_t parts) { return row % parts; }
+    [[nodiscard]] bool has_row_of_tiles(std::size_t row) const { return of_row(row, parts_) == number_; }
     void add(std::size_t pixel, const BlockSum& block, std::uint32_t samples) {
       film_.add(pixel, block, samples, tally_);
     }

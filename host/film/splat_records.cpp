@@ -59,7 +59,7 @@ void DividedSplats::begin(std::span<const SplatRecords> batches, const Film& fil
   rows_per_pixel_ = 1.0 / static_cast<double>(film.row_of_tiles());
   part_of_row_.resize(film.pixels().size() / film.row_of_tiles() + 1);
   for (std::size_t row = 0; row < part_of_row_.size(); ++row)
-    part_of_row_[row] = static_cast<std::uint8_t>(row % parts);
+    part_of_row_[row] = static_cast<std::uint8_t>(Film::Part::of_row(row, parts));
   first_.clear();
   std::size_t records = 0;
   for (const SplatRecords& batch : batches) {

@@ -20,7 +20,6 @@ constexpr const char* entry_syntax = "COLOUR or NUMBER(name, default, lowest, hi
 class Defines {
 public:
   Defines(std::string file, std::string text) : file_(std::move(file)), text_(std::move(text)) {
-    std::erase(text_, '\r');
     for (std::size_t at = text_.find("\\\n"); at != std::string::npos; at = text_.find("\\\n", at))
       text_.replace(at, 2, "\f "); // joins continued lines and keeps positions
   }
@@ -56,7 +55,7 @@ public:
   }
 
 private:
-  static constexpr const char* blanks = " \t\r\f";
+  static constexpr const char* blanks = " \t\f";
   static std::string_view trimmed(std::string_view words) {
     const std::size_t begin = std::min(words.find_first_not_of(blanks), words.size());
     return words.substr(begin, words.find_last_not_of(blanks) + 1 - begin);

@@ -71,7 +71,7 @@ void Library::add(const std::filesystem::path& file) {
                                  path));
   if (find(name))
     throw SceneError(fmt::format("{}: there is a model {} already: give the file another name", path, name));
-  const auto read = bytes_of(file);
+  const auto read = kernel_text_of(file);
   if (!read)
     throw SceneError(fmt::format("{}: the reflectance model cannot be read: an existing file", path));
   const std::string& text = *read;

@@ -39,8 +39,8 @@ void ResultFolder::fold_sums(const LaunchResult& result, Jobs jobs, Target& to, 
   const std::size_t end = jobs.first + jobs.count;
   for (std::size_t job = jobs.first; job < end;) {
     std::size_t pixel = (static_cast<std::size_t>(result.launch.first_job) + job) % pixels_;
-    const std::size_t row = pixel / row_of_tiles_;
-    const std::size_t row_end = job + std::min((row + 1) * row_of_tiles_, pixels_) - pixel;
+    const std::size_t row = pixel / to.row_of_tiles();
+    const std::size_t row_end = job + std::min((row + 1) * to.row_of_tiles(), pixels_) - pixel;
     if (!to.has_row_of_tiles(row)) {
       job = row_end;
       continue;
@@ -74,9 +74,10 @@ void ResultFolder::fold_batch(const LaunchResult& result, std::size_t batch, Tar
 ResultFolder::NotFinite ResultFolder::lost_paths(const LaunchResult& result, std::size_t batch,
                                                  const std::vector<std::size_t>& paths) const {
   const auto samples = static_cast<std::size_t>(result.launch.block_samples);
+  const std::size_t first = jobs_of(result, batch).first;
   NotFinite lost;
   for (const std::size_t path : paths)
-    lost.add({1, jobs_of(result, batch).first + path / samples, static_cast<int>(path % samples), 1});
+    lost.add({1, first + path / samples, static_cast<int>(path % samples), 1});
   return lost;
 }
 
@@ -92,7 +93,7 @@ void ResultFolder::fold_whole(const LaunchResult& result, film::Film& film, NotF
 
 // Each thread divides whole batches first; then it adds its part of all batches.
 void ResultFolder::fold_in_parts(const LaunchResult& result, film::Film& film, NotFinite& lost) {
-  const std::size_t rows = (pixels_ + row_of_tiles_ - 1) / row_of_tiles_;
+  const std::size_t rows = (pixels_ + film.row_of_tiles() - 1) / film.row_of_tiles();
   const std::size_t threads = std::min({splats_.size(), film::DividedSplats::most_parts, rows});
   const std::size_t batches = result.batches.size();
   std::mutex mutex; // of what all threads have in common
@@ -118,7 +119,6 @@ void ResultFolder::fold_in_parts(const LaunchResult& result, film::Film& film, N
 }
 
 Counts ResultFolder::fold(LaunchResult& result, film::Film& film) {
-  row_of_tiles_ = film.row_of_tiles();
   if (!result.batches.empty()) film.use_splats();
   const Launch& launch = result.launch;
   Counts counts;

@@ -66,7 +66,7 @@ private:
   void fold_whole(const LaunchResult& result, film::Film& film, NotFinite& lost);
   void fold_in_parts(const LaunchResult& result, film::Film& film, NotFinite& lost);
 
-  std::size_t pixels_, row_of_tiles_ = 1;
+  std::size_t pixels_;
   bool techniques_;
   std::vector<film::SplatFolder> splats_; // of each thread
   film::DividedSplats divided_;

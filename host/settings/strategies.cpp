@@ -18,7 +18,7 @@ std::string strategy(const std::string& name, const std::string& text) {
 }
 
 std::string read_strategy(const std::string& file) {
-  const auto text = bytes_of(file);
+  const auto text = kernel_text_of(file);
   if (!text)
     throw UsageError(fmt::format("{} {}: cannot be read: must be an existing file, or one of {}",
                                  quoted("strategy"), file, joined(strategy_names())));

@@ -22,7 +22,7 @@ std::string KernelFiles::read(const std::string& name) const {
     return std::string(file->text);
   }
   const auto path = folder_ / name;
-  const auto text = bytes_of(path);
+  const auto text = kernel_text_of(path);
   if (!text) throw DeviceError(fmt::format("{}: no such kernel file", path.string()));
   return *text;
 }

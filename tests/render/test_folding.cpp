@@ -108,7 +108,7 @@ Folded fold(Kind kind, std::size_t threads, bool point_sets, bool clamps) {
   Folded folded;
   std::int64_t place = 0;
   for (int i = 0; i < 8; ++i) {
-    // The third ends with a pixel's second block; the fourth begins in the middle of a batch of pixels.
+    // Launches begin and end anywhere in the image, and have several blocks of a pixel.
     const Launch launch{place % pixels, (kind == Kind::path ? 30'001 : 9001) + i, 100 * i, 4};
     LaunchResult result = random_result(random, kind, launch);
     const Counts counts = folder.fold(result, film);
