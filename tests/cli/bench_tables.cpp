@@ -50,6 +50,12 @@ bool has_charts(const Outcome& outcome) {
   return false;
 }
 
+std::map<std::string, std::string> without_matplotlib(const TemporaryFolder& folder) {
+  std::filesystem::create_directories(folder / "python");
+  folder.write("python/matplotlib.py", "raise ImportError('not installed')\n");
+  return {{"PYTHONPATH", folder / "python"}};
+}
+
 std::string shipped(const std::string& name) {
   return PHLUX_SOURCE_DIR "/scenes/" + name + ".xml";
 }

@@ -1,10 +1,12 @@
 // Output of `phlux bench`: tables as text, and charts.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
 #include "cli/program.h"
+#include "temporary_folder.h"
 
 /// Columns of every table of methods, after the key of the scene.
 inline const char* const method_columns =
@@ -19,6 +21,10 @@ inline const char* const method_columns =
 
 /// Whether the charts were drawn, by the exit code: without matplotlib they cannot be.
 [[nodiscard]] bool has_charts(const Outcome& outcome);
+
+/// An environment in which matplotlib cannot be imported, so that no charts are drawn, which takes seconds.
+/// Writes to `folder`.
+[[nodiscard]] std::map<std::string, std::string> without_matplotlib(const TemporaryFolder& folder);
 
 /// File of a shipped scene.
 [[nodiscard]] std::string shipped(const std::string& name);

@@ -173,10 +173,8 @@ TEST_CASE("phlux bench figures draws the seven figures of CW 197") {
 
 TEST_CASE("phlux bench figures without matplotlib keeps the tables and names the package") {
   const TemporaryFolder folder;
-  std::filesystem::create_directory(folder / "python");
-  folder.write("python/matplotlib.py", "raise ImportError('not installed')\n");
   const Outcome outcome =
-      run({{"bench", "figures", "--out", "out"}, folder.path(), {{"PYTHONPATH", folder / "python"}}, {}});
+      run({{"bench", "figures", "--out", "out"}, folder.path(), without_matplotlib(folder), {}});
   CAPTURE(outcome.err);
   CHECK(outcome.exit_code == 5);
   CHECK(outcome.is_one_line_error());

@@ -48,7 +48,7 @@ def preprocessed(text):
 
 def compiled(text):
     """LLVM's intermediate representation after optimisation."""
-    return run([*CLANG, "-O2", "-Xclang", "-finclude-default-header", "-w", "-S", "-emit-llvm", "-o", "-", "-"], text)
+    return run([*CLANG, "-O1", "-Xclang", "-finclude-default-header", "-w", "-S", "-emit-llvm", "-o", "-", "-"], text)
 
 
 def functions_of(text):
