@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include <boost/math/distributions/normal.hpp>
 #include <fmt/format.h>
 
 #include "errors.h"
@@ -19,7 +20,7 @@ namespace {
 
 using Texts = std::map<std::string, std::string>;
 
-constexpr int first_samples = 16, most_samples = 512;
+constexpr int first_samples = 16, most_samples = 2048;
 constexpr int most_variants = 2; // of variants_of()
 constexpr double path_seconds =
     150e-9; // of a path by `integrator` path, for a render's time before any trial
@@ -33,6 +34,15 @@ double seconds_per_ray(const scene::Scene& scene, const std::string& traversal,
   const double tracing = traversal == "bvh" ? 12e-9 * std::log2(static_cast<double>(shapes)) : 8e-9;
   constexpr std::array of_integrator = {16e-9, 12e-9, 30e-9}; // path, light, bidir
   return tracing + of_integrator[static_cast<std::size_t>(integrator)];
+}
+
+// The relative standard error, which rare bright samples make too small in a short trial, times what would
+// give normal intervals of 95% the coverage that they are expected to have.
+double widened_error(const film::Reliability& reliability) {
+  const boost::math::normal normal;
+  const auto deviations = [&](double coverage) { return boost::math::quantile(normal, (1 + coverage) / 2); };
+  const double coverage = std::clamp(reliability.coverage, 0.01, 0.95);
+  return reliability.relative_standard_error * deviations(0.95) / deviations(coverage);
 }
 
 // A method that is tried.
@@ -70,7 +80,7 @@ public:
     const double rays = static_cast<double>(s.rays + s.shadow_rays) / static_cast<double>(s.paths);
     const auto integrator = settings::integrator_named(with.integrator).integrator;
     c.sample_seconds = rays * seconds_per_ray(scene_, s.traversal, integrator);
-    const double error = c.trial.reliability.relative_standard_error;
+    const double error = widened_error(c.trial.reliability);
     c.trial.cost = error * error * samples * c.sample_seconds;
   }
 
@@ -108,11 +118,10 @@ double seconds_of_render(const render::Settings& settings, double pixels,
   return pixels * best->trial.cost / (*settings.target_error * *settings.target_error);
 }
 
-// Samples per pixel of the render by the method of the trial `best`, the best of `tried`, as far as is known.
-double samples_of_render(const render::Settings& settings, double pixels, const std::vector<Candidate>& tried,
-                         const Candidate& best) {
+// Samples per pixel of a render by a method that was tried, as far as is known.
+double samples_of_render(const render::Settings& settings, double pixels, const Candidate& method) {
   if (!settings.time_limit && !settings.target_error) return settings.samples_per_pixel;
-  return seconds_of_render(settings, pixels, tried) / (pixels * best.sample_seconds);
+  return seconds_of_render(settings, pixels, {method}) / (pixels * method.sample_seconds);
 }
 
 // Other values of a setting, by its name, with which the integrator may be better than with the default.
@@ -125,20 +134,27 @@ std::vector<std::pair<std::string, std::string>> variants_of(const std::string& 
   return {{"connect", "light"}, {"connect", "none"}};
 }
 
-// Lattices need fewer samples than independent points (bench/saved/SAMPLERS.md); trials are too short to
-// measure by how much. With less than about 100 samples the gain is small, and a bad error estimate is more
-// often taken for a good one (bench/saved/COVERAGE.md). They do not help `light`, whose samples are not those
-// of a pixel.
+// Lattices need fewer samples than independent points (bench/saved/SAMPLERS.md). Their MSE decreases as
+// n^-1.1 with the number n of samples of a pixel, from about 32 samples on and until their sets have 64
+// points each. With less than about 100 samples the gain is small, and a bad error estimate is more often
+// taken for a good one (bench/saved/COVERAGE.md). They do not help `light`, whose samples are not those of a
+// pixel.
 constexpr double fewest_for_point_sets = 128;
-void with_point_sets(Candidate& best, double samples, Trials& trials, const settings::Choices& choices) {
-  if (!(samples >= fewest_for_point_sets) || best.settings.integrator == "light" || choices.has("sampler"))
+double cost_ratio_of_point_sets(double samples) {
+  return std::pow(std::min(samples, 1024.0) / 32.0, -0.1);
+}
+
+// Lets a candidate sample by lattices in a render with that many samples per pixel, if they help.
+void use_point_sets(Candidate& c, double samples, Trials& trials, const settings::Choices& choices) {
+  if (!(samples >= fewest_for_point_sets) || c.settings.integrator == "light" || choices.has("sampler"))
     return;
-  Texts texts = best.texts;
+  Texts texts = c.texts;
   texts["sampler"] = "lattice";
   const auto with_lattice = trials.candidate(texts);
   if (!with_lattice) return;
-  best.texts = texts;
-  best.trial.method = method_of(with_lattice->settings);
+  c.texts = texts;
+  c.trial.method = method_of(with_lattice->settings);
+  c.trial.cost *= cost_ratio_of_point_sets(samples);
 }
 
 std::string words_for(const std::vector<Candidate>& sorted) {
@@ -202,10 +218,9 @@ MethodChoice choose_method(scene::Scene scene, const settings::Choices& choices,
     trials.run(*variant, std::max(samples_for(best), first_samples));
     if (variant->trial.refusal.empty()) candidates.push_back(*variant);
   }
+  for (Candidate& c : candidates) use_point_sets(c, samples_of_render(settings, pixels, c), trials, choices);
   std::ranges::sort(candidates, is_better);
-  Candidate& chosen = candidates.front();
-  with_point_sets(chosen, samples_of_render(settings, pixels, candidates, chosen), trials, choices);
-  return {.texts = chosen.texts, .words = words_for(candidates)};
+  return {.texts = candidates.front().texts, .words = words_for(candidates)};
 }
 
 } // namespace phlux::advice

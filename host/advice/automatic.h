@@ -20,10 +20,11 @@ struct MethodChoice {
 [[nodiscard]] bool misses_light(const scene::Scene& scene, const settings::IntegratorInfo& integrator);
 
 /// Chooses among path, light and bidir, and then among the variants of the best: the least variance x cost in
-/// trial renders, of those with reliable error estimates. path and bidir then sample by lattices if there are
-/// at least 128 samples per pixel. The trials take about 3% of the render's time; a render that is too short
-/// for them is by path. Costs are computed from the numbers of rays, not measured, so that a seed always
-/// leads to the same method. `choices` may fix other settings; `integrator` among them is ignored.
+/// trial renders, of those with reliable error estimates. path and bidir sample by lattices if there are at
+/// least 128 samples per pixel, and their costs then include what lattices save on average. The trials take
+/// about 3% of the render's time; a render that is too short for them is by path. Costs are computed from the
+/// numbers of rays, not measured, so that a seed always leads to the same method. `choices` may fix other
+/// settings; `integrator` among them is ignored.
 /// @throws UsageError if the choices exclude every integrator, DeviceError
 [[nodiscard]] MethodChoice choose_method(scene::Scene scene, const settings::Choices& choices,
                                          const render::Settings& defaults);

@@ -106,6 +106,8 @@ TEST_CASE("integrator auto: the method with the least error, the same each time"
   CHECK(choice_for(shipped("stability/near-light", 512, 512), 128).texts.at("sampler") == "lattice");
   CHECK(!choice_for(shipped("stability/near-light", 512, 512), 127).texts.contains("sampler"));
   CHECK(!choice_for(shipped("stability/near-light", 512, 512), 64).texts.contains("sampler")); // few samples
+  // With independent samples light needs 0.9 of the time of bidir.
+  CHECK(choice_for(shipped("point-light", 128, 128), 2000).texts.at("integrator") == "bidir");
   const advice::MethodChoice furnace = choice_for(shipped("furnace-box", 64, 48), 20'000); // light all around
   CHECK(furnace.texts.at("connect") == "none");
 }

@@ -76,8 +76,10 @@ TEST_CASE("phlux bench stability resumes where it was interrupted") {
   // The rows of an added method join the others; another seed is a new measurement.
   (void)run({stability_command({"10,.1"}, {"--method", "path none"}), folder.path(), environment, {}});
   CHECK(rows().size() == 4);
-  (void)run(
-      {stability_command({"10,.1"}, {"--method", "path light", "--seed", "2"}), folder.path(), environment, {}});
+  (void)run({stability_command({"10,.1"}, {"--method", "path light", "--seed", "2"}),
+             folder.path(),
+             environment,
+             {}});
   REQUIRE(rows().size() == 3); // and the row of the other cell
   CHECK(rows()[2] != first[1]);
 }
