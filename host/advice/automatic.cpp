@@ -36,13 +36,13 @@ double seconds_per_ray(const scene::Scene& scene, const std::string& traversal,
   return tracing + of_integrator[static_cast<std::size_t>(integrator)];
 }
 
-// The relative standard error, which rare bright samples make too small in a short trial, times what would
-// give normal intervals of 95% the coverage that they are expected to have.
-double widened_error(const film::Reliability& reliability) {
+// The relative standard error, which rare bright samples make too small in a short trial, times the factor
+// that gives normal intervals of 95% the coverage that is predicted.
+double widened_error(const Trial& trial) {
   const boost::math::normal normal;
   const auto deviations = [&](double coverage) { return boost::math::quantile(normal, (1 + coverage) / 2); };
-  const double coverage = std::clamp(reliability.coverage, 0.01, 0.95);
-  return reliability.relative_standard_error * deviations(0.95) / deviations(coverage);
+  const double coverage = std::clamp(trial.reliability.coverage, 0.01, 0.95);
+  return trial.relative_standard_error * deviations(0.95) / deviations(coverage);
 }
 
 // A method that is tried.
@@ -80,7 +80,7 @@ public:
     const double rays = static_cast<double>(s.rays + s.shadow_rays) / static_cast<double>(s.paths);
     const auto integrator = settings::integrator_named(with.integrator).integrator;
     c.sample_seconds = rays * seconds_per_ray(scene_, s.traversal, integrator);
-    const double error = widened_error(c.trial.reliability);
+    const double error = widened_error(c.trial);
     c.trial.cost = error * error * samples * c.sample_seconds;
   }
 

@@ -27,6 +27,7 @@ Trial try_method(const scene::Scene& scene, const render::Settings& settings, co
   try {
     film::Film film(scene.camera.width, scene.camera.height);
     trial.statistics = render::render(scene, settings, film, events);
+    trial.relative_standard_error = film.relative_standard_error();
     trial.reliability = film::reliability_of(film);
     const double error = trial.reliability.relative_standard_error;
     trial.cost = error * error * trial.statistics.seconds_render;

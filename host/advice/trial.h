@@ -18,6 +18,7 @@ struct Trial {
   std::string refusal; ///< why it cannot render the scene; the rest is empty then
   double cost =
       0.0; ///< Reliability::relative_standard_error^2 x what the trial took, in seconds or by its rays
+  double relative_standard_error = 0.0; ///< Film::relative_standard_error()
   film::Reliability reliability;
   render::Statistics statistics;
 };
