@@ -5,13 +5,14 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
-#include <boost/math/distributions/normal.hpp>
 #include <fmt/format.h>
 
 #include "errors.h"
+#include "measure/statistics.h"
 #include "scene/image_size.h"
 #include "scene/lights.h"
 
@@ -39,10 +40,9 @@ double seconds_per_ray(const scene::Scene& scene, const std::string& traversal,
 // The relative standard error, which rare bright samples make too small in a short trial, times the factor
 // that gives normal intervals of 95% the coverage that is predicted.
 double widened_error(const Trial& trial) {
-  const boost::math::normal normal;
-  const auto deviations = [&](double coverage) { return boost::math::quantile(normal, (1 + coverage) / 2); };
-  const double coverage = std::clamp(trial.reliability.coverage, 0.01, 0.95);
-  return trial.relative_standard_error * deviations(0.95) / deviations(coverage);
+  const double coverage = std::clamp(trial.reliability.coverage, 0.01, film::nominal_coverage);
+  return trial.relative_standard_error * measure::normal_sigmas(1 - film::nominal_coverage) /
+         measure::normal_sigmas(1 - coverage);
 }
 
 // A method that is tried.
@@ -106,8 +106,7 @@ bool is_better(const Candidate& a, const Candidate& b) {
 }
 
 // Seconds of one core that the render takes by the best of the candidates, as far as is known.
-double seconds_of_render(const render::Settings& settings, double pixels,
-                         const std::vector<Candidate>& tried) {
+double seconds_of_render(const render::Settings& settings, double pixels, std::span<const Candidate> tried) {
   if (settings.time_limit) return *settings.time_limit;
   const auto best = std::ranges::min_element(tried, is_better);
   if (!settings.target_error) {
@@ -121,7 +120,7 @@ double seconds_of_render(const render::Settings& settings, double pixels,
 // Samples per pixel of a render by a method that was tried, as far as is known.
 double samples_of_render(const render::Settings& settings, double pixels, const Candidate& method) {
   if (!settings.time_limit && !settings.target_error) return settings.samples_per_pixel;
-  return seconds_of_render(settings, pixels, {method}) / (pixels * method.sample_seconds);
+  return seconds_of_render(settings, pixels, {&method, 1}) / (pixels * method.sample_seconds);
 }
 
 // Other values of a setting, by its name, with which the integrator may be better than with the default.

@@ -16,8 +16,9 @@ inline constexpr int trial_side = 64;
 struct Trial {
   std::string method;  ///< the settings that choose it, such as "`integrator` bidir"
   std::string refusal; ///< why it cannot render the scene; the rest is empty then
-  double cost =
-      0.0; ///< Reliability::relative_standard_error^2 x what the trial took, in seconds or by its rays
+  /// Squared relative standard error x what the trial took: that of the reliability x seconds, or as
+  /// choose_method() estimates both.
+  double cost = 0.0;
   double relative_standard_error = 0.0; ///< Film::relative_standard_error()
   film::Reliability reliability;
   render::Statistics statistics;

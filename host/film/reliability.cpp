@@ -16,7 +16,7 @@ constexpr double infinite_variance = 2.0; // index of the tail
 // Relative variance of a sample below which it is rounding, see Film: 2^-24 times the length of a block.
 constexpr double rounding = 1e-6;
 
-constexpr double nominal_coverage = 0.95, interval = 1.96; // in standard errors
+constexpr double interval = 1.96; // in standard errors, of nominal_coverage
 // What that coverage loses, to first order, per relative variance r = 1/k of a pixel's variance that k rare
 // samples of equal light bring, with z = 1.96 and the normal density phi (Hall 1992, The Bootstrap and
 // Edgeworth Expansion, 2.6): 2 z phi(z) ((z^4 + 2 z^2 - 3) / 18 - (z^2 - 3) / 12).

@@ -14,6 +14,8 @@ namespace phlux::film {
 
 /// Per pixel; with fewer, no error estimate is trusted.
 inline constexpr double least_samples = 8.0;
+/// Coverage of the intervals if errors are normal.
+inline constexpr double nominal_coverage = 0.95;
 /// The least coverage of a trusted image. Of the renders of tests/images/coverage_table.cpp it rejects 2% of
 /// those with a true coverage of 93% to 97%, and 96% of those below 85%.
 inline constexpr double least_coverage = 0.865;
