@@ -28,9 +28,9 @@ const std::vector<Setting>& all() {
   return list;
 }
 
-const Setting& named(const std::string& name) {
+const Setting& named(std::string_view name) {
   const auto found = std::ranges::find(all(), name, &Setting::name);
-  if (found == all().end()) throw UsageError(quoted(name) + ": there is no such setting");
+  if (found == all().end()) throw UsageError(quoted(std::string(name)) + ": there is no such setting");
   return *found;
 }
 

@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "settings/integrators.h"
@@ -214,7 +215,7 @@ struct Settings {
 /// declared_settings(), computed once.
 [[nodiscard]] const std::vector<Setting>& all();
 /// The setting of this name. @throws UsageError if there is none
-[[nodiscard]] const Setting& named(const std::string& name);
+[[nodiscard]] const Setting& named(std::string_view name);
 /// Texts by name of the settings whose `affects` is wanted, without absent values.
 [[nodiscard]] std::map<std::string, std::string> texts_of(const Settings& settings,
                                                           const std::function<bool(Affects)>& wanted);
