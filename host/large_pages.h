@@ -13,9 +13,13 @@ namespace phlux {
 
 inline constexpr std::size_t large_page = std::size_t{2} << 20; ///< bytes
 
+/// Bytes: a multiple of the size of small pages, which is 4 to 64 KiB.
+inline constexpr std::size_t small_page = std::size_t{64} << 10;
+
 /// Bytes that map_large_pages() takes from the system for `bytes`: small arrays stay in small pages.
 [[nodiscard]] constexpr std::size_t mapped_size(std::size_t bytes) {
-  return bytes < large_page / 8 ? bytes : (bytes + large_page - 1) / large_page * large_page;
+  const std::size_t page = bytes < large_page / 8 ? small_page : large_page;
+  return (bytes + page - 1) / page * page;
 }
 
 /// Memory that is 0 and takes no room before it is written, at a multiple of large_page. Its pages are large
@@ -29,6 +33,7 @@ inline constexpr std::size_t large_page = std::size_t{2} << 20; ///< bytes
       (large_page - reinterpret_cast<std::uintptr_t>(mapped) % large_page) % large_page;
   std::byte* const memory = static_cast<std::byte*>(mapped) + before;
   if (before > 0) ::munmap(mapped, before);
+  ::munmap(memory + size, large_page - before);
 #ifdef MADV_HUGEPAGE
   ::madvise(memory, size, MADV_HUGEPAGE); // a kernel without large pages refuses
 #endif
