@@ -2,6 +2,7 @@
 // lost, without ending the program.
 #pragma once
 
+#include <cerrno>
 #include <cstdio>
 #include <string>
 #include <utility>
@@ -10,13 +11,16 @@
 
 namespace phlux {
 
-/// Prints to standard output, at once, so that the log of a long render has it. cli::run() reports a failure
-/// at the end.
+/// errno of the first failure of say(); 0 if there was none. cli::run() reports it at the end.
+inline int say_errno = 0;
+
+/// Prints to standard output, at once, so that the log of a long render has it.
 template<class... Values>
 void say(fmt::format_string<Values...> format, Values&&... values) {
   const std::string text = fmt::format(format, std::forward<Values>(values)...);
-  static_cast<void>(std::fwrite(text.data(), 1, text.size(), stdout));
-  static_cast<void>(std::fflush(stdout));
+  const bool printed =
+      std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
+  if (!printed && say_errno == 0) say_errno = errno;
 }
 
 /// Prints to standard error.

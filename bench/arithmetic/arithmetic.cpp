@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -14,6 +13,7 @@
 #include "bench/common/tables/provenance.h"
 #include "errors.h"
 #include "measure/moments.h"
+#include "terminal.h"
 
 namespace phlux::bench {
 namespace {
@@ -211,8 +211,7 @@ void measure_arithmetic(const ArithmeticOptions& options) {
   write_arithmetic_table(options);
   const device::Device device = device::open_devices(options.devices).front();
   const int lanes = options.lanes_on(device.info);
-  fmt::print("{}\n", (options.folder / "arithmetic.csv").string());
-  std::fflush(stdout);
+  say("{}\n", (options.folder / "arithmetic.csv").string());
   write_provenance(options.folder, "arithmetic",
                    {fmt::format("phlux bench arithmetic{} --width {} --seed {}",
                                 options.quick ? " --quick" : "", lanes, options.seed),

@@ -1,7 +1,6 @@
 #include "bench/figures/figures.h"
 
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <numbers>
 
@@ -12,6 +11,7 @@
 #include "bench/common/tables/csv.h"
 #include "bench/common/tables/provenance.h"
 #include "measure/material_program.h"
+#include "terminal.h"
 
 namespace phlux::bench {
 namespace {
@@ -168,15 +168,14 @@ FigureSums write_figure_tables(const FiguresOptions& options) {
 
 void make_figures(const FiguresOptions& options) {
   const FigureSums sums = write_figure_tables(options);
-  fmt::print("reflectivity {:.5f}; figure 6 sums to {:.5f}, figure 7 to {:.5f}\n", sums.exact, sums.sampled,
-             sums.evaluated);
-  std::fflush(stdout);
+  say("reflectivity {:.5f}; figure 6 sums to {:.5f}, figure 7 to {:.5f}\n", sums.exact, sums.sampled,
+      sums.evaluated);
   const device::DeviceInfo device = device::open_devices(options.devices).front().info;
   write_provenance(options.folder, "figures",
                    {"phlux bench figures", device, options.lanes_on(device), "nothing is timed",
                     std::to_string(options.seed)});
   draw_charts(options.folder, "figures");
-  fmt::print("{}\n", (options.folder / "figure-{1..7}.{csv,svg,png}").string());
+  say("{}\n", (options.folder / "figure-{1..7}.{csv,svg,png}").string());
 }
 
 } // namespace phlux::bench

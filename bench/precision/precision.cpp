@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -21,6 +20,7 @@
 #include "measure/moments.h"
 #include "render/parts.h"
 #include "scene_file/load.h"
+#include "terminal.h"
 
 namespace phlux::bench {
 namespace {
@@ -123,7 +123,7 @@ bool can_be_read(const std::filesystem::path& file) try {
   (void)scene_file::load(file);
   return true;
 } catch (const SceneError& error) {
-  fmt::print("left out: {}\n", error.what());
+  say("left out: {}\n", error.what());
   return false;
 }
 
@@ -156,10 +156,9 @@ std::string name_of(const std::filesystem::path& file, const std::vector<std::fi
 
 void print(const std::string& scene, const Method& method, int lanes, const PrecisionError& error,
            const Timing& time) {
-  fmt::print("{:<20} {:<12} WIDTH {:<3} error of float32 / noise of {:g} samples: {:.2g}, systematic part at "
-             "most {:.2g}; {:.2f} times as fast\n",
-             scene, method.name(), lanes, unit_samples, error.difference, error.systematic_most, time.ratio);
-  std::fflush(stdout);
+  say("{:<20} {:<12} WIDTH {:<3} error of float32 / noise of {:g} samples: {:.2g}, systematic part at "
+      "most {:.2g}; {:.2f} times as fast\n",
+      scene, method.name(), lanes, unit_samples, error.difference, error.systematic_most, time.ratio);
 }
 
 void measure_scene(const PrecisionOptions& options, const std::filesystem::path& file,
@@ -182,7 +181,7 @@ void measure_scene(const PrecisionOptions& options, const std::filesystem::path&
     }
   } catch (const UsageError& refusal) { // the method cannot render this scene
     status.clear();
-    fmt::print("{}, {}: {}\n", scene, method.name(), refusal.what());
+    say("{}, {}: {}\n", scene, method.name(), refusal.what());
   }
 }
 
@@ -227,8 +226,7 @@ bool measure_precision(const PrecisionOptions& options) try {
     for (const auto& file : files)
       measure_scene(options, file, name_of(file, files), method, device.info, table, status);
   status.clear();
-  fmt::print("{}\n", (options.folder / "precision.csv").string());
-  std::fflush(stdout);
+  say("{}\n", (options.folder / "precision.csv").string());
   const int lanes = options.lanes_on(device.info);
   std::string command =
       fmt::format("phlux bench precision{} --width {}", options.quick ? " --quick" : "", lanes);
@@ -241,7 +239,7 @@ bool measure_precision(const PrecisionOptions& options) try {
   draw_charts(options.folder, "precision");
   return true;
 } catch (const Interrupted&) {
-  fmt::print("interrupted: {} contains the finished rows\n", (options.folder / "precision.csv").string());
+  say("interrupted: {} contains the finished rows\n", (options.folder / "precision.csv").string());
   return false;
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <memory>
 #include <numbers>
@@ -22,6 +21,7 @@
 #include "errors.h"
 #include "measure/moments.h"
 #include "render/device_scene.h"
+#include "terminal.h"
 
 namespace phlux::bench {
 namespace {
@@ -140,8 +140,7 @@ constexpr const char* columns =
 
 void print_line(CsvFile& table, const std::string& text) {
   table.line(text);
-  fmt::print("{}\n", text);
-  std::fflush(stdout);
+  say("{}\n", text);
 }
 
 struct Kind {
@@ -172,7 +171,7 @@ void measure(CsvFile& table, const RaysOptions& options, const std::string& labe
 
 void measure_rays(const RaysOptions& options) {
   CsvFile table(options.folder, "rays.csv", columns);
-  fmt::print("{}\n", columns);
+  say("{}\n", columns);
   const device::Device device = device::open_devices(options.devices).front();
   const sources::KernelFiles files(options.kernel_dir);
   const int lanes = options.lanes_on(device.info);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -17,6 +16,7 @@
 #include "bench/stability/stability_scene.h"
 #include "device/device.h"
 #include "measure/moments.h"
+#include "terminal.h"
 
 namespace phlux::bench {
 namespace {
@@ -180,14 +180,11 @@ bool measure_remedies(const RemediesOptions& options) try {
     const Estimate gain = gain_of(m.before, m.after);
     status.clear();
     table.line(row_of(one, m, options, device));
-    fmt::print(
-        "{:<20} {:<24} {:<14} {:>8.3g} +- {:.2g} times as efficient; {:.3g} rays per sample, {:.3g} before\n",
+    say("{:<20} {:<24} {:<14} {:>8.3g} +- {:.2g} times as efficient; {:.3g} rays per sample, {:.3g} before\n",
         one.remedy, one.place, one.method.name(), gain.value, gain.standard_error, m.after.rays_per_sample,
         m.before.rays_per_sample);
-    std::fflush(stdout);
   }
-  fmt::print("{}\n", table.path().string());
-  std::fflush(stdout);
+  say("{}\n", table.path().string());
   write_provenance(
       options.folder, "remedies",
       {command_of(options), device, options.lanes_on(device), "kernels are built before anything is timed",
@@ -196,7 +193,7 @@ bool measure_remedies(const RemediesOptions& options) try {
   draw_charts(options.folder, "remedies");
   return true;
 } catch (const Interrupted&) {
-  fmt::print("interrupted: {} contains the finished rows\n", (options.folder / "remedies.csv").string());
+  say("interrupted: {} contains the finished rows\n", (options.folder / "remedies.csv").string());
   return false;
 }
 

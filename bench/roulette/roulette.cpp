@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <utility>
 
@@ -18,6 +17,7 @@
 #include "bench/common/tables/provenance.h"
 #include "bench/scenes/scene_files.h"
 #include "measure/statistics.h"
+#include "terminal.h"
 
 namespace phlux::bench {
 namespace {
@@ -160,11 +160,9 @@ std::string answer_for(const std::string& integrator, const std::vector<Roulette
 }
 
 void print(const RouletteCost& c) {
-  fmt::print(
-      "{:<18} {:<6} {:<44} variance {:>9.4g} +- {:.1g}, {:>6.4g} rays, product {:>9.4g}: {:.3f} +- {:.3f}\n",
+  say("{:<18} {:<6} {:<44} variance {:>9.4g} +- {:.1g}, {:>6.4g} rays, product {:>9.4g}: {:.3f} +- {:.3f}\n",
       c.scene, c.integrator, c.variant.options(), c.variance.value, c.variance.standard_error,
       c.rays_per_sample, c.cost.value, c.ratio.value, c.ratio.standard_error);
-  std::fflush(stdout);
 }
 
 } // namespace
@@ -220,7 +218,7 @@ bool measure_roulette(const RouletteOptions& options) try {
       };
       const auto notice = [&](const std::string& text) {
         status.clear();
-        fmt::print("{}: {}\n", name, text);
+        say("{}: {}\n", name, text);
       };
       for (const RouletteCost& cost : measure(scene, name, integrator, reference, options, report, notice)) {
         status.clear();
@@ -236,7 +234,7 @@ bool measure_roulette(const RouletteOptions& options) try {
   report_answers(options.folder, "roulette", roulette_answers(all));
   return true;
 } catch (const Interrupted&) {
-  fmt::print("interrupted: {} contains the finished rows\n", (options.folder / "roulette.csv").string());
+  say("interrupted: {} contains the finished rows\n", (options.folder / "roulette.csv").string());
   return false;
 }
 

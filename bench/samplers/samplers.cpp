@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <map>
 #include <memory>
@@ -21,6 +20,7 @@
 #include "bench/common/tables/provenance.h"
 #include "bench/scenes/scene_files.h"
 #include "measure/moments.h"
+#include "terminal.h"
 
 namespace phlux::bench {
 namespace {
@@ -131,12 +131,10 @@ std::string row_of(const SamplerError& e, const Estimate& slope, const scene::Ca
 }
 
 void print(const SamplerError& e, const Estimate& slope) {
-  fmt::print(
-      "{:<18} {:<6} {:<12} variance {:>9.4g} +- {:.1g} at {} samples, gain {:.2f} +- {:.2f}, time {:.3f}, "
+  say("{:<18} {:<6} {:<12} variance {:>9.4g} +- {:.1g} at {} samples, gain {:.2f} +- {:.2f}, time {:.3f}, "
       "slope {:.3f} +- {:.3f}\n",
       e.scene, e.integrator, e.sampler, e.variance.value, e.variance.standard_error, e.samples, e.gain.value,
       e.gain.standard_error, e.time_ratio, slope.value, slope.standard_error);
-  std::fflush(stdout);
 }
 
 std::string command_of(const SamplersOptions& options) {
@@ -234,7 +232,7 @@ bool measure_samplers(const SamplersOptions& given) try {
   report_answers(options.folder, "samplers", sampler_answers(all));
   return true;
 } catch (const Interrupted&) {
-  fmt::print("interrupted: {} contains the finished rows\n", (given.folder / "samplers.csv").string());
+  say("interrupted: {} contains the finished rows\n", (given.folder / "samplers.csv").string());
   return false;
 }
 

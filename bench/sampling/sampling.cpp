@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -21,6 +20,7 @@
 #include "clock.h"
 #include "files/output.h"
 #include "render/render.h"
+#include "terminal.h"
 
 namespace phlux::bench {
 namespace {
@@ -234,8 +234,7 @@ void print_left_out(const std::vector<std::string>& strategies, const std::vecto
   const auto count =
       std::ranges::count_if(cases, [](const Case& one) { return is_left_out("rejection", one); });
   if (count > 0)
-    fmt::print("rejection is left out of {} cases: more than {:.0f} proposals per sample\n", count,
-               most_proposals);
+    say("rejection is left out of {} cases: more than {:.0f} proposals per sample\n", count, most_proposals);
 }
 
 std::string command_of(const SamplingOptions& options) {
@@ -319,7 +318,7 @@ bool write_sampling_tables(const SamplingOptions& options) {
   for (std::size_t table = 0; table < tables.size(); ++table)
     csv.emplace_back(options.folder, tables[table], header, saved[table]);
   if (integrals.size() < all)
-    fmt::print("resumes an earlier run: {} of {} measurements are there\n", all - integrals.size(), all);
+    say("resumes an earlier run: {} of {} measurements are there\n", all - integrals.size(), all);
   if (integrals.empty()) return true;
   std::vector<Sampler> samplers = build_samplers(device, files, options, lanes);
   StatusLine status;
@@ -342,16 +341,15 @@ bool measure_sampling(const SamplingOptions& options) {
   const double ray_ns = options.ray_ns.value_or(default_ray_cost(tables.front()));
   const std::vector<Ranking> rankings = rankings_of(tables, ray_ns);
   const std::string name = fmt::format("{}, WIDTH {}", device.info.name, lanes);
-  fmt::print("{}\n", name);
+  say("{}\n", name);
   print_sampling_summary(strategies_of(options), tables.front(), rankings);
   print_left_out(strategies_of(options), cases_of(options));
-  for (const SavedTable& table : tables) fmt::print("{}\n", table.path().string());
+  for (const SavedTable& table : tables) say("{}\n", table.path().string());
   write_rankings(options.folder, name_of(options) + ".ranking.csv", rankings, ray_ns);
   const std::string verdict = verdict_of(
       options, rankings, {ray_ns, name, options.material ? "" : "--strategy ", clock_of(device.info)});
   files::write_file(options.folder / (name_of(options) + ".verdict.txt"), verdict + "\n");
-  fmt::print("\n{}\n", verdict);
-  std::fflush(stdout);
+  say("\n{}\n", verdict);
   write_provenance(options.folder, name_of(options),
                    {command_of(options), device.info, lanes,
                     "kernels are built and run once before anything is timed", std::to_string(options.seed)});

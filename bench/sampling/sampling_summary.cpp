@@ -8,6 +8,7 @@
 
 #include "bench/sampling/sampling_table.h"
 #include "measure/moments.h"
+#include "terminal.h"
 
 namespace phlux::bench {
 namespace {
@@ -49,17 +50,17 @@ void print_sampling_summary(const std::vector<std::string>& strategies, const Sa
   const auto summaries = summaries_of(table);
   auto without = count_wins(rankings, false), with = count_wins(rankings, true);
   const auto text = [](const WinCount& count) { return fmt::format("{} + {}", count.best, count.tied); };
-  fmt::print("{:<22} {:>6} {:>7} {:>20} {:>8} {:>24} {:>24} {:>14}\n", "strategy", "rows", "marked",
-             "largest bias / sigma", "defects", "time / lobe-ks (median)", "best + tied: no roulette",
-             "with roulette");
+  say("{:<22} {:>6} {:>7} {:>20} {:>8} {:>24} {:>24} {:>14}\n", "strategy", "rows", "marked",
+      "largest bias / sigma", "defects", "time / lobe-ks (median)", "best + tied: no roulette",
+      "with roulette");
   for (const std::string& strategy : strategies) {
     const auto found = summaries.find(strategy);
     if (found == summaries.end()) continue;
     const Summary& s = found->second;
-    fmt::print("{:<22} {:>6} {:>7} {:>20.2f} {:>8} {:>24} {:>24} {:>14}\n", strategy, s.rows, s.marked,
-               s.largest_bias, s.defects,
-               s.relative_times.empty() ? "" : fmt::format("{:.2f}", measure::median(s.relative_times)),
-               text(without[strategy]), text(with[strategy]));
+    say("{:<22} {:>6} {:>7} {:>20.2f} {:>8} {:>24} {:>24} {:>14}\n", strategy, s.rows, s.marked,
+        s.largest_bias, s.defects,
+        s.relative_times.empty() ? "" : fmt::format("{:.2f}", measure::median(s.relative_times)),
+        text(without[strategy]), text(with[strategy]));
   }
 }
 

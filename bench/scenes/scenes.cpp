@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -25,7 +24,9 @@
 #include "device/device.h"
 #include "errors.h"
 #include "files/output.h"
+#include "scene/digest.h"
 #include "scene_file/load.h"
+#include "terminal.h"
 
 namespace phlux::bench {
 namespace {
@@ -64,8 +65,7 @@ SceneRun load(const std::filesystem::path& file, const Run& run) {
   SceneRun result{file.stem().string(), load_at_size(file, side), {}};
   Fingerprint fingerprint;
   fingerprint.add(text_of(file));
-  for (const scene::Mesh& mesh : result.scene.meshes)
-    fingerprint.add(mesh.positions.data(), mesh.positions.size() * sizeof(scene::Vec3));
+  fingerprint.add(scene::digest(result.scene)); // of every file that the scene names
   fingerprint.add(fmt::format("{} {} {} {} {} {} {} {}", PHLUX_VERSION, result.scene.camera.width,
                               result.scene.camera.height, run.options.quick, run.seconds, run.options.seed,
                               run.lanes, run.device.name));
@@ -157,30 +157,28 @@ std::string ratio_cell(const RankedCost& cost) {
 void print(const Run& run, const SceneRun& scene, const SceneResults& measured) {
   const ReferenceImage& reference = measured.reference;
   const scene::Camera& camera = scene.scene.camera;
-  fmt::print("{}, {}x{}; reference by {}, {:.0f} samples per pixel, relative MSE {:.2g}\n", scene.name,
-             camera.width, camera.height, reference.method, reference.samples_per_pixel,
-             reference.image.relmse());
-  fmt::print("  {:<28} {:>10} {:>8} {:>14} {:>22}  {}\n", "method", "variance", "ns", "to variance 1",
-             "relative to the best", "");
+  say("{}, {}x{}; reference by {}, {:.0f} samples per pixel, relative MSE {:.2g}\n", scene.name, camera.width,
+      camera.height, reference.method, reference.samples_per_pixel, reference.image.relmse());
+  say("  {:<28} {:>10} {:>8} {:>14} {:>22}  {}\n", "method", "variance", "ns", "to variance 1",
+      "relative to the best", "");
   for (std::size_t i = 0; i < measured.methods.size(); ++i) {
     const MethodResult& r = measured.methods[i];
     const RankedCost& cost = measured.costs[i];
     if (r.verdict == Verdict::refused) {
-      fmt::print("  {:<28} {}: {}\n", r.method.name(), word_of(r.verdict), r.reason);
+      say("  {:<28} {}: {}\n", r.method.name(), word_of(r.verdict), r.reason);
       continue;
     }
     const bool ranked = r.verdict == Verdict::sound;
-    fmt::print("  {:<28} {:>10.4g} {:>8.1f} {:>14} {:>22}  {}{}{}\n", r.method.name(), r.variance.value,
-               1e9 * cost.cost / r.variance.value, ranked ? fmt::format("{:.3g} us", 1e6 * cost.cost) : "-",
-               ratio_cell(cost), ranked ? word_of(cost.rank) : word_of(r.verdict),
-               r.reason.empty() ? "" : ": ", r.reason);
+    say("  {:<28} {:>10.4g} {:>8.1f} {:>14} {:>22}  {}{}{}\n", r.method.name(), r.variance.value,
+        1e9 * cost.cost / r.variance.value, ranked ? fmt::format("{:.3g} us", 1e6 * cost.cost) : "-",
+        ratio_cell(cost), ranked ? word_of(cost.rank) : word_of(r.verdict), r.reason.empty() ? "" : ": ",
+        r.reason);
   }
   const int roulette = scene.scene.defaults.rr_depth;
-  fmt::print("{}: {}\n  ({} time, {}, {}x{}, {}; all intervals are right with probability 95%)\n", scene.name,
-             answer_of(measured.methods, measured.costs, run.seconds), word_of(run.clock()),
-             roulette < 0 ? "no roulette" : fmt::format("roulette from edge {}", roulette), camera.width,
-             camera.height, run.device.name);
-  std::fflush(stdout);
+  say("{}: {}\n  ({} time, {}, {}x{}, {}; all intervals are right with probability 95%)\n", scene.name,
+      answer_of(measured.methods, measured.costs, run.seconds), word_of(run.clock()),
+      roulette < 0 ? "no roulette" : fmt::format("roulette from edge {}", roulette), camera.width,
+      camera.height, run.device.name);
 }
 
 using Report = std::function<void(const std::string& what, double seconds_left)>;
@@ -237,7 +235,7 @@ void measure_all(const Run& run, const std::vector<SceneRun>& scenes, Tables& ta
   std::vector<const SceneRun*> pending;
   for (const SceneRun& scene : scenes)
     if (tables.results.has({scene.name}, run.methods, scene.settings))
-      fmt::print("{}: measured already\n", scene.name);
+      say("{}: measured already\n", scene.name);
     else
       pending.push_back(&scene);
   for (std::size_t i = 0; i < pending.size(); ++i) {
@@ -249,7 +247,7 @@ void measure_all(const Run& run, const std::vector<SceneRun>& scenes, Tables& ta
     };
     const auto notice = [&](const std::string& text) {
       status.clear();
-      fmt::print("{}: {}\n", scene.name, text);
+      say("{}: {}\n", scene.name, text);
     };
     const SceneResults measured = measure(run, scene, tables, report, notice);
     status.clear();
@@ -309,11 +307,11 @@ bool measure_scenes(const ScenesOptions& options) {
   std::vector<SceneRun> scenes;
   for (const auto& file : files) scenes.push_back(load(file, run));
   if (!runs_to_end([&] { measure_all(run, scenes, tables, progress); }, options.interrupted)) {
-    fmt::print("interrupted: the same command resumes with the missing scenes\n");
+    say("interrupted: the same command resumes with the missing scenes\n");
     return false;
   }
   finish(run, progress);
-  fmt::print("{}\n", (options.folder / "index.html").string());
+  say("{}\n", (options.folder / "index.html").string());
   return true;
 }
 

@@ -1,7 +1,6 @@
 #include "bench/stability/stability.h"
 
 #include <algorithm>
-#include <cstdio>
 
 #include <fmt/format.h>
 
@@ -16,6 +15,7 @@
 #include "bench/stability/stability_scene.h"
 #include "clock.h"
 #include "device/device.h"
+#include "terminal.h"
 
 namespace phlux::bench {
 namespace {
@@ -115,8 +115,7 @@ void measure(const Run& run, const CellRun& cell, ResultTable& table, StatusLine
               cell.settings);
   table.write();
   status.clear();
-  fmt::print("{}: {}\n", cell.title(), answer_of(results, costs, run.seconds));
-  std::fflush(stdout);
+  say("{}: {}\n", cell.title(), answer_of(results, costs, run.seconds));
 }
 
 // ---- All cells
@@ -127,7 +126,7 @@ void measure_all(const Run& run, const std::vector<CellRun>& cells, ResultTable&
   for (const CellRun& cell : cells)
     if (!table.has(cell.key, run.methods, cell.settings)) pending.push_back(&cell);
   if (pending.size() < cells.size())
-    fmt::print("{} of {} cells are measured already\n", cells.size() - pending.size(), cells.size());
+    say("{} of {} cells are measured already\n", cells.size() - pending.size(), cells.size());
   for (std::size_t i = 0; i < pending.size(); ++i) {
     const double later = run.seconds_left * static_cast<double>(pending.size() - i - 1);
     measure(run, *pending[i], table, status, [&](const std::string& what, double left) {
@@ -200,14 +199,14 @@ bool measure_stability(const StabilityOptions& options) {
   std::vector<CellRun> runs;
   for (const StabilityCell& cell : cells) runs.push_back(cell_run(run, cell));
   if (!runs_to_end([&] { measure_all(run, runs, table); }, options.interrupted)) {
-    fmt::print("interrupted: the same command resumes with the missing cells\n");
+    say("interrupted: the same command resumes with the missing cells\n");
     return false;
   }
   write_provenance(options.folder, "stability",
                    {command_of(options), device.info, run.lanes, "built before anything was timed",
                     fmt::format("from {} for the rounds, 2000000 more for references", options.seed)});
   draw_charts(options.folder, "stability");
-  fmt::print("{}\n", (options.folder / "index.html").string());
+  say("{}\n", (options.folder / "index.html").string());
   return true;
 }
 

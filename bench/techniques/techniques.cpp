@@ -1,7 +1,6 @@
 #include "bench/techniques/techniques.h"
 
 #include <algorithm>
-#include <cstdio>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -17,6 +16,7 @@
 #include "bench/scenes/scene_files.h"
 #include "files/output.h"
 #include "measure/statistics.h"
+#include "terminal.h"
 
 namespace phlux::bench {
 namespace {
@@ -114,8 +114,8 @@ std::string percent(const Estimate& share) {
 
 void print(const std::string& scene, const std::vector<TechniqueShare>& shares) {
   constexpr double least_shown = 0.01;
-  fmt::print("{:<14} {:>16} {:>16} {:>12} {:>8}   (95% intervals)\n", "technique", "of the variance",
-             "of the light", "alone", "of the rays");
+  say("{:<14} {:>16} {:>16} {:>12} {:>8}   (95% intervals)\n", "technique", "of the variance", "of the light",
+      "alone", "of the rays");
   double subpaths = 1, rays_of_others = 0, variance_of_others = 0;
   int others = 0;
   for (const TechniqueShare& share : shares) {
@@ -126,14 +126,12 @@ void print(const std::string& scene, const std::vector<TechniqueShare>& shares) 
       rays_of_others += share.ray_share;
       continue;
     }
-    fmt::print("{:<14} {:>16} {:>16} {:>12.4g} {:>7.1f}%\n", name_of(share.technique),
-               percent(share.variance_share), percent(share.light), share.variance_alone.value,
-               100 * share.ray_share);
+    say("{:<14} {:>16} {:>16} {:>12.4g} {:>7.1f}%\n", name_of(share.technique), percent(share.variance_share),
+        percent(share.light), share.variance_alone.value, 100 * share.ray_share);
   }
-  fmt::print("{:<14} {:>15.1f}% {:>42.1f}%\n", fmt::format("{} others", others), 100 * variance_of_others,
-             100 * rays_of_others);
-  fmt::print("{:<14} {:>59.1f}%\n{}: {}\n", "subpaths", 100 * subpaths, scene, techniques_answer(shares));
-  std::fflush(stdout);
+  say("{:<14} {:>15.1f}% {:>42.1f}%\n", fmt::format("{} others", others), 100 * variance_of_others,
+      100 * rays_of_others);
+  say("{:<14} {:>59.1f}%\n{}: {}\n", "subpaths", 100 * subpaths, scene, techniques_answer(shares));
 }
 
 std::string command_of(const TechniquesOptions& options) {
@@ -220,10 +218,10 @@ bool measure_techniques(const TechniquesOptions& options) try {
                    {command_of(options), device, options.lanes_on(device),
                     "nothing is timed: rays are counted", options.seeds(options.rounds())});
   draw_charts(options.folder, "techniques");
-  fmt::print("{}\n", table.path().string());
+  say("{}\n", table.path().string());
   return true;
 } catch (const Interrupted&) {
-  fmt::print("interrupted: {} contains the finished scenes\n", (options.folder / "techniques.csv").string());
+  say("interrupted: {} contains the finished scenes\n", (options.folder / "techniques.csv").string());
   return false;
 }
 

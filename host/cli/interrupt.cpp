@@ -10,7 +10,7 @@ namespace {
 constexpr std::array ending = {SIGINT, SIGTERM, SIGHUP, SIGXCPU};
 
 volatile std::sig_atomic_t interrupted = 0;
-volatile std::time_t first_signal = 0;
+volatile std::time_t first_request = 0; // by SIGINT or SIGTERM; 0: none
 
 // A second SIGINT or SIGTERM ends the program at once, unless it follows within two seconds: one keystroke
 // can arrive twice, from the terminal and from a wrapper program that passes it on. The others repeat by
@@ -18,9 +18,10 @@ volatile std::time_t first_signal = 0;
 extern "C" void note_interrupt(int signal) {
   std::timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now); // async-signal-safe
-  if (interrupted == 0) first_signal = now.tv_sec;
   interrupted = 1;
-  if ((signal == SIGINT || signal == SIGTERM) && now.tv_sec - first_signal >= 2) {
+  if (signal != SIGINT && signal != SIGTERM) return;
+  if (first_request == 0) first_request = now.tv_sec;
+  if (now.tv_sec - first_request >= 2) {
     std::signal(signal, SIG_DFL);
     std::raise(signal);
   }
@@ -30,6 +31,7 @@ extern "C" void note_interrupt(int signal) {
 
 InterruptGuard::InterruptGuard() {
   interrupted = 0;
+  first_request = 0;
   struct sigaction action {};
   action.sa_handler = note_interrupt;
   action.sa_flags = SA_RESTART; // drivers need not expect EINTR

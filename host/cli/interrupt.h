@@ -6,7 +6,8 @@ namespace phlux::cli {
 inline constexpr int interrupted_exit_code = 130;
 
 /// During its lifetime SIGINT, SIGTERM, SIGHUP (a closed terminal; not if nohup has it ignored) and SIGXCPU
-/// only set a flag. A second SIGINT or SIGTERM ends the process at once. There must be only one at a time.
+/// only set a flag. A SIGINT or SIGTERM that comes two seconds or more after the first of these two ends the
+/// process at once. There must be only one guard at a time.
 class InterruptGuard {
 public:
   InterruptGuard();

@@ -1,6 +1,7 @@
 #include "cli/memory.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <limits>
 #include <string>
@@ -59,8 +60,13 @@ MemoryNeed memory_needed(double pixels, const settings::Settings& settings, cons
 
 std::optional<double> memory_available() {
   constexpr double kilobyte = 1024.0;
-  const double of_group =
-      number_in("/sys/fs/cgroup/memory.max", "") - number_in("/sys/fs/cgroup/memory.current", "");
+  const auto cached = [](const char* kind) { // the system frees it when memory is short
+    const double bytes = number_in("/sys/fs/cgroup/memory.stat", kind);
+    return std::isfinite(bytes) ? bytes : 0.0;
+  };
+  const double of_group = number_in("/sys/fs/cgroup/memory.max", "") -
+                          number_in("/sys/fs/cgroup/memory.current", "") + cached("inactive_file") +
+                          cached("active_file");
   const double most =
       std::min({kilobyte * number_in("/proc/meminfo", "MemAvailable:"),
                 of_group >= 0.0 ? of_group : std::numeric_limits<double>::infinity(), free_address_space()});

@@ -23,6 +23,7 @@
 #include "cluster/group.h"
 #include "errors.h"
 #include "printable.h"
+#include "terminal.h"
 
 namespace phlux::cli {
 namespace {
@@ -68,7 +69,7 @@ void keep_standard_streams() {
 void require_one_process(int argc, char** argv) {
   const cluster::Started started = cluster::started();
   const std::string command = argc > 1 ? argv[1] : "";
-  for (const char* const alone : {"bench", "merge", "verify", "compare", "devices"})
+  for (const char* const alone : {"bench", "merge", "verify", "compare", "view", "devices"})
     if (started.processes > 1 && command == alone)
       throw UsageError(fmt::format(
           "{} has started {} processes, but only phlux render can use several: start phlux {} alone",
@@ -80,7 +81,8 @@ int run_command(int argc, char** argv) {
   const std::optional<Command> command = parse(argc, argv);
   const int exit_code = command ? (*command)() : 0;
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return exit_code;
-  const WriteError error(fmt::format("standard output: cannot be written: {}", std::strerror(errno)));
+  const int reason = say_errno != 0 ? say_errno : errno;
+  const WriteError error(fmt::format("standard output: cannot be written: {}", std::strerror(reason)));
   return report(error.what(), exit_code == 0 ? error.exit_code() : exit_code);
 }
 

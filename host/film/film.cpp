@@ -112,9 +112,9 @@ double Film::equal_blocks_per_pixel() const {
 }
 
 // Variance of the sum s of squares over the samples of a pixel. From k equal blocks with sums q_b it is
-// (sum q_b^2 - s^2 / k) k / (k - 1). A single block of n samples does not tell: s^2 times the share of the
-// pixel's light that one sample would have if it brought all of s, sqrt(s n / (n - 1)) above the others, is a
-// guess. tests/images/coverage_table.cpp measures how good it is.
+// (sum q_b^2 - s^2 / k) k / (k - 1). One block alone does not show how its squares are spread. The guess is
+// s^2 times the share of the pixel's light that a single sample would carry if it had caused all of s: such a
+// sample lies sqrt(s n / (n - 1)) above the others. tests/images/coverage_table.cpp measures how good it is.
 double Film::variance_of_squares(const Pixel& own, double squares, double mean) const {
   constexpr double least_blocks = 1.9; // two full ones, or a little less
   if (!(squares > 0.0)) return 0.0;

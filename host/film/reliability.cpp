@@ -156,8 +156,8 @@ private:
     return 1.0 - above(interval - bias) - above(interval + bias);
   }
 
-  // Probability that a pixel is black for want of samples that bring light: of k that are expected there is
-  // none with probability e^-k. A pixel that has met one expects one more, and so it is relative to that.
+  // Probability that a pixel is black only because it has met no sample with light: e^-k if k such samples
+  // are expected. k is estimated from pixels that have met one, which count one too many: hence e^(1 - k).
   [[nodiscard]] double probability_of_no_sample(const Tile& tile) const {
     const Tile& noisy = tile.noisy > 0.0 ? tile : all_;
     return noisy.concentration > 0.0 ? std::exp(1.0 - noisy.noisy / noisy.concentration) : 0.0;

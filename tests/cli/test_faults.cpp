@@ -65,6 +65,18 @@ TEST_CASE("No state of standard error and output ends a render") {
   CHECK(place.render({"-n", "16", "-q"}, with_streams({{1, "closed"}, {2, "closed"}})).exit_code == 0);
 }
 
+TEST_CASE("A benchmark whose reader is gone still writes its table, and says why at the end") {
+  const Workplace place;
+  Invocation how = with_streams({{1, "broken pipe"}});
+  how.arguments = {"bench",  "sampling",   "--quick", "--case", ".4,.05,50,30", "--samples",
+                   "100000", "--strategy", "exact",   "--out",  "results"};
+  how.folder = place.path();
+  const Outcome outcome = run(how);
+  CHECK(outcome.exit_code == 5);
+  CHECK(outcome.err == "phlux: standard output: cannot be written: Broken pipe\n");
+  CHECK(fs::exists(place / "results/sampling.csv"));
+}
+
 TEST_CASE("Each output is written that can be; the image, if need be, to TMPDIR") {
   const Renders place;
   fs::create_directory(place / "tmp");

@@ -1,6 +1,8 @@
 // Tests of the steps after the last sample of a render: signals, failures, and the preview.
 #include <chrono>
+#include <csignal>
 #include <filesystem>
+#include <thread>
 
 #include <catch2/catch.hpp>
 
@@ -24,6 +26,14 @@ TEST_CASE("A signal ends a step once the patience is over, unless the step is ne
   CHECK_THROWS_AS(hasty(0.5), cli::StepInterrupted);
   CHECK_NOTHROW(patient(0.5));
   CHECK_NOTHROW(needed(0.5));
+}
+
+TEST_CASE("A SIGTERM well after SIGHUP is the first request to end, and does not end the process at once") {
+  const cli::InterruptGuard guard;
+  std::raise(SIGHUP);
+  CHECK(guard.requested());
+  std::this_thread::sleep_for(2100ms); // a second SIGTERM would end it now
+  std::raise(SIGTERM);
 }
 
 TEST_CASE("Steps that a signal ended are an interruption, failures come first") {

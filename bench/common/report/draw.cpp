@@ -1,7 +1,5 @@
 #include "bench/common/report/draw.h"
 
-#include <cstdio>
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
@@ -10,6 +8,7 @@
 #include "bench/common/report/python.h"
 #include "errors.h"
 #include "files/output.h"
+#include "terminal.h"
 
 namespace phlux::bench {
 namespace {
@@ -58,8 +57,7 @@ void report_answers(const std::filesystem::path& folder, const std::string& modu
                     const std::vector<std::string>& answers) {
   const std::string text = fmt::format("{}\n", fmt::join(answers, "\n"));
   files::write_file(folder / (module + ".verdict.txt"), text);
-  fmt::print("{}\n{}", (folder / (module + ".csv")).string(), text);
-  std::fflush(stdout);
+  say("{}\n{}", (folder / (module + ".csv")).string(), text);
   draw_charts(folder, module);
 }
 
