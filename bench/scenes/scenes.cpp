@@ -64,12 +64,10 @@ SceneRun load(const std::filesystem::path& file, const Run& run) {
   const int side = run.options.side.value_or(run.options.quick ? quick_side : default_side);
   SceneRun result{file.stem().string(), load_at_size(file, side), {}};
   Fingerprint fingerprint;
-  fingerprint.add(text_of(file));
-  fingerprint.add(scene::digest(result.scene)); // of every file that the scene names
-  fingerprint.add(fmt::format("{} {} {} {} {} {} {} {}", PHLUX_VERSION, result.scene.camera.width,
-                              result.scene.camera.height, run.options.quick, run.seconds, run.options.seed,
-                              run.lanes, run.device.name));
-  fingerprint.add(run.options.kernel_dir.string());
+  fingerprint.add(text_of(file)); // has the settings of the integrator too
+  fingerprint.add(scene::digest(result.scene));
+  fingerprint.add(fmt::format("{} {} {} {} {} {} {}", PHLUX_VERSION, run.options.quick, run.seconds,
+                              run.options.seed, run.lanes, run.device.name, run.options.kernel_dir.string()));
   result.settings = fingerprint.text();
   return result;
 }

@@ -15,6 +15,7 @@
 #include "bench/stability/stability_scene.h"
 #include "clock.h"
 #include "device/device.h"
+#include "scene/digest.h"
 #include "terminal.h"
 
 namespace phlux::bench {
@@ -64,12 +65,9 @@ CellRun cell_run(const Run& run, const StabilityCell& cell) {
                  stability_scene(cell.exponent, cell.light_radius, run.side),
                  {}};
   Fingerprint fingerprint;
-  for (const scene::Patch& patch : result.scene.patches)
-    for (const scene::Vec3& vector : {patch.origin, patch.edge_u, patch.edge_v})
-      fingerprint.add(&vector, sizeof vector);
-  fingerprint.add(fmt::format("{} {} {} {} {} {} {} {}", PHLUX_VERSION, run.side, run.options.quick,
-                              run.seconds, run.options.seed, run.lanes, run.device.name,
-                              run.options.kernel_dir.string()));
+  fingerprint.add(scene::digest(result.scene));
+  fingerprint.add(fmt::format("{} {} {} {} {} {} {}", PHLUX_VERSION, run.options.quick, run.seconds,
+                              run.options.seed, run.lanes, run.device.name, run.options.kernel_dir.string()));
   result.settings = fingerprint.text();
   return result;
 }

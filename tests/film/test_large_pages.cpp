@@ -3,7 +3,6 @@
 #include <fstream>
 
 #include <catch2/catch.hpp>
-
 #include <unistd.h>
 
 #include "large_pages.h"
