@@ -23,10 +23,17 @@ class Method:
         self.verdict = row.verdict
         self.variant_number = style.VARIANTS.index(self.variant)
         self.strategy_number = strategies.index(row.strategy)
+        self.any_open = False  # whether a method of the scene may be better than its best sound one
+
+    @property
+    def rank_note(self):
+        if self.row.rank == "best" and self.any_open:
+            return "best of the sound"
+        return self.row.rank if self.row.rank in ("best", "tied") else ""
 
     @property
     def label(self):
-        note = self.verdict if not self.sound else self.row.rank if self.row.rank in ("best", "tied") else ""
+        note = self.verdict if not self.sound else self.rank_note
         return f"{self.name} ({note})" if note else self.name
 
     @property
@@ -36,7 +43,7 @@ class Method:
 
     @property
     def ratio(self):
-        """The cost relative to the best method: value, low and high end of its interval; NaN for biased methods."""
+        """The cost relative to the best sound method: value, low and high end of its interval; NaN for biased methods."""
         return self.row.cost_ratio, self.row.cost_ratio_low, self.row.cost_ratio_high
 
     @property
@@ -174,7 +181,7 @@ def draw_times(scene, methods, theme):
             low, high = (best * ratio for ratio in method.ratio[1:])
             axes.plot([max(low, left), high], [i, i], color=theme.ink, linewidth=1.1, marker="|", markersize=6)
             end = max(end, high)
-        note = f" ({method.row.rank})" if method.row.rank in ("best", "tied") else ""
+        note = f" ({method.rank_note})" if method.rank_note else ""
         note = note if method.sound else f" ({method.verdict})"
         at_least = "at least " if method.verdict == "suspect" else ""
         axes.text(end * 1.06, i, f"{at_least}{short(method.cost)} µs{note}", va="center", fontsize=8)

@@ -158,7 +158,11 @@ void print(const Run& run, const SceneRun& scene, const SceneResults& measured) 
   say("{}, {}x{}; reference by {}, {:.0f} samples per pixel, relative MSE {:.2g}\n", scene.name, camera.width,
       camera.height, reference.method, reference.samples_per_pixel, reference.image.relmse());
   say("  {:<28} {:>10} {:>8} {:>14} {:>22}  {}\n", "method", "variance", "ns", "to variance 1",
-      "relative to the best", "");
+      "relative to best sound", "");
+  const bool any_open = std::ranges::count(measured.costs, Rank::open, &RankedCost::rank) > 0;
+  const auto rank_text = [&](Rank rank) {
+    return rank == Rank::best && any_open ? "best of the sound ones" : word_of(rank);
+  };
   for (std::size_t i = 0; i < measured.methods.size(); ++i) {
     const MethodResult& r = measured.methods[i];
     const RankedCost& cost = measured.costs[i];
@@ -169,7 +173,7 @@ void print(const Run& run, const SceneRun& scene, const SceneResults& measured) 
     const bool ranked = r.verdict == Verdict::sound;
     say("  {:<28} {:>10.4g} {:>8.1f} {:>14} {:>22}  {}{}{}\n", r.method.name(), r.variance.value,
         1e9 * cost.cost / r.variance.value, ranked ? fmt::format("{:.3g} us", 1e6 * cost.cost) : "-",
-        ratio_cell(cost), ranked ? word_of(cost.rank) : word_of(r.verdict), r.reason.empty() ? "" : ": ",
+        ratio_cell(cost), ranked ? rank_text(cost.rank) : word_of(r.verdict), r.reason.empty() ? "" : ": ",
         r.reason);
   }
   const int roulette = scene.scene.defaults.rr_depth;

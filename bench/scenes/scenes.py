@@ -37,7 +37,7 @@ def draw_overview(scenes, theme):
     plain_log(axes.xaxis, ratios)
     axes.tick_params(axis="y", length=0)
     axes.grid(True, axis="x")
-    axes.set_xlabel("time relative to the best method of the scene")
+    axes.set_xlabel("time relative to the best sound method of the scene")
     entries = sorted(labelled.values(), key=lambda method: (method.strategy_number, method.variant_number))
     handles = [plt.Line2D([], [], linestyle="", markersize=6,
                           **{**method.marker(theme), "markerfacecolor": method.color(theme)}) for method in entries]
@@ -79,7 +79,7 @@ def summary(folder, scenes):
                      names_of(method for method in methods if method.verdict == "biased"),
                      names_of(method for method in methods if method.refused)])
     return {"text": style.read_verdict(folder, "scenes"),
-            "columns": ["scene", "least time (several: tied)", "µs to unit variance", "the next", "its time / least",
+            "columns": ["scene", "least time of the sound (several: tied)", "µs to unit variance", "the next", "its time / least",
                         "time of path mis / least", "too little time to tell", "biased", "refused"],
             "rows": rows,
             "note": "Time: variance per sample times seconds per sample. An image of N pixels reaches the relative MSE e after N / e "
@@ -135,6 +135,8 @@ def read_scenes(folder):
     scenes = dict(sorted(scenes.items()))
     for methods in scenes.values():
         methods.sort(key=lambda method: (method.strategy_number, method.variant_number))
+        for method in methods:
+            method.any_open = any(other.row.rank == "open" for other in methods)
     for row in style.read(folder, "scenes-convergence.csv"):
         points.setdefault(row.scene, {}).setdefault((row.integrator, row.strategy, row.connect_or_weights), []).append(row)
     return scenes, points
@@ -147,7 +149,7 @@ def main():
     if any(best_of(methods) for methods in scenes.values()):
         drawings.append(("scenes-overview", lambda theme: draw_overview(scenes, theme)))
         charts.append({"svg": "scenes-overview.svg", "title": "All scenes",
-                       "caption": "Time to equal error, relative to the best method of each scene; left is better."})
+                       "caption": "Time to equal error, relative to the best sound method of each scene; left is better."})
     for scene, methods in scenes.items():
         if not all(method.refused for method in methods):
             of_scene = scene_charts(folder, scene, methods, points.get(scene, {}))

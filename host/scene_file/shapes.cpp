@@ -87,7 +87,9 @@ scene::Sphere sphere(Properties& properties, const glm::dmat4& own, const glm::d
     properties.fail_at("radius", "the sphere is outside the range of single precision", "a smaller one");
   for (int axis = 0; axis < 3; ++axis)
     result.axes[static_cast<std::size_t>(axis)] = glm::normalize(Vec3(to_world[axis]));
-  result.front_is_inside = properties.boolean("flip_normals", false);
+  // From version 1 on a transform that mirrors turns the front inside; that of an instance does not.
+  result.front_is_inside =
+      properties.boolean("flip_normals", false) != (properties.document().major_version > 0 && mirrors(own));
   properties.pass_over({"face_normals"});
   return result;
 }

@@ -15,8 +15,8 @@ typedef struct {
 // The bits of the random words that determine the scrambling: below those of the shift, so that both are independent.
 #define SCRAMBLING_BITS 19
 
-// Linear scrambling: multiplies the vector of digits, the highest bit first, by a random unit lower triangular matrix
-// (Matousek 1998), which is a product of three sparse ones.
+// Linear scrambling of the digits of a set: multiplies their vector, the highest bit first, by a random unit lower
+// triangular matrix (Matousek 1998), which is a product of three sparse ones.
 static inline Uint scramble_digits(Uint digits, Uint random) {
   const Uint masks = random << (32 - SCRAMBLING_BITS);
   digits ^= (digits >> 1) & masks;
@@ -24,10 +24,11 @@ static inline Uint scramble_digits(Uint digits, Uint random) {
   return digits ^ ((digits >> 4) & (masks << 10));
 }
 
-// Point `number` of a Sobol set with linear scrambling and a digital shift. Its variance is that of Owen's scrambling
-// (Owen 2003). Primitive polynomials and initial direction numbers by Joe and Kuo (2008): x + 1 with 1; x^2 + x + 1
-// with 1, 3; x^3 + x + 1 with 1, 3, 1. The order of the points is scrambled too, because the high digits of the number
-// are the low ones of the point; the first 2^k points are a net for every k.
+// Point `number` of a Sobol set with linear scrambling and a digital shift. Digits below those of the set are to be made
+// independent for every point; the variance is then close to that of Owen's scrambling (Owen 2003). Primitive
+// polynomials and initial direction numbers by Joe and Kuo (2008): x + 1 with 1; x^2 + x + 1 with 1, 3; x^3 + x + 1 with
+// 1, 3, 1. The order of the points is scrambled too, because the high digits of the number are the low ones of the
+// point; the first 2^k points are a net for every k.
 static inline RandomWords sobol_point(Uint number, RandomWords random) {
   const Uint order = random.x + random.y;
   number ^= (number >> 1) & order;

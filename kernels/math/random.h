@@ -58,6 +58,15 @@ static inline RandomWords independent_words(RandomSequence sequence, Uint sample
   return philox(counter, sequence.seed);
 }
 
+// Further words, one for each number above 0, from two of random_words: for many choices with little effect each. They
+// are the final steps of MurmurHash3 on a Weyl sequence.
+static inline Uint further_word(Uint first, Uint step, Uint number) {
+  Uint h = first + (step | 1u) * number;
+  h = (h ^ (h >> 16)) * 0x85ebca6bu;
+  h = (h ^ (h >> 13)) * 0xc2b2ae35u;
+  return h ^ (h >> 16);
+}
+
 // Four random words for one sampling decision of a path. `dimension` is the number of the decision (such as
 // 2 bounce + 1), `draw` the repetition of a sampler that draws until it accepts. With a low-discrepancy sampler, the
 // words of draw 0 are a point of the sample's set. Sets are padded: each set and each dimension is randomized
@@ -67,7 +76,14 @@ static inline RandomWords random_words(RandomSequence sequence, Uint dimension, 
     return independent_words(sequence, sequence.sample, dimension, draw);
   const Uint number = (sequence.sample - sequence.sets.first) & ((1u << sequence.sets.bits) - 1u);
   const RandomWords random = independent_words(sequence, sequence.sample - number, dimension, 0);
-  return SAMPLER == SAMPLER_SOBOL ? sobol_point(number, random) : lattice_point(number, sequence.sets.bits, random);
+  if (SAMPLER == SAMPLER_LATTICE) return lattice_point(number, sequence.sets.bits, random);
+  // With Owen's scrambling the digits below those of the set are independent for every point.
+  RandomWords point = sobol_point(number, random);
+  point.x ^= further_word(random.x, random.y, 4 * number + 1) >> sequence.sets.bits;
+  point.y ^= further_word(random.x, random.y, 4 * number + 2) >> sequence.sets.bits;
+  point.z ^= further_word(random.x, random.y, 4 * number + 3) >> sequence.sets.bits;
+  point.w ^= further_word(random.x, random.y, 4 * number + 4) >> sequence.sets.bits;
+  return point;
 }
 
 // Random numbers for one sampling decision: the words of its first draw, and what further draws need.
@@ -88,15 +104,6 @@ static inline RandomDraws random_draws(RandomSequence sequence, Uint dimension) 
 // The words of draw 1, 2, ...
 static inline RandomWords draw_again(RandomDraws random, uint draw) {
   return random_words(random.sequence, random.dimension, draw);
-}
-
-// Further words, one for each number above 0, from two of random_words: for many choices with little effect each. They
-// are the final steps of MurmurHash3 on a Weyl sequence.
-static inline Uint further_word(Uint first, Uint step, Uint number) {
-  Uint h = first + (step | 1u) * number;
-  h = (h ^ (h >> 16)) * 0x85ebca6bu;
-  h = (h ^ (h >> 13)) * 0xc2b2ae35u;
-  return h ^ (h >> 16);
 }
 
 // Uniform in the open interval (0, 1): 2^23 equidistant values, from 2^-24 to 1 - 2^-24.

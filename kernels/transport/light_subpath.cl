@@ -37,16 +37,28 @@ static inline Contribution splat(const Subpath* s, Int pixel, Vec3 value, Real w
   return c;
 }
 
-// The point of the lens to which the vertex after `edges` edges is connected, and the offset of its splat.
+// The random words of the connection of the vertex after `edges` edges to the camera.
+static inline RandomWords splat_words(const Subpath* s, Int edges) {
+  return random_words(s->sequence, DIMENSION_SPLAT(edges), 0);
+}
+
+// The point of the lens to which that vertex is connected, and the offset of its splat.
 static inline CameraSample splat_sample(const Scene* scene, const Subpath* s, Int edges) {
   CameraSample none;
   none.x = none.y = none.lens_x = none.lens_y = (Real)(0.0f);
-  return HAS_CAMERA_SAMPLE ? camera_sample(scene, random_words(s->sequence, DIMENSION_SPLAT(edges), 0)) : none;
+  return HAS_CAMERA_SAMPLE ? camera_sample(scene, splat_words(s, edges)) : none;
+}
+
+// A pixel of the image, uniformly. Rows and columns are chosen separately, because one word is too short for the pixels
+// of a large image.
+static inline Uint uniform_pixel(const __global CameraRecord* camera, RandomWords words) {
+  const Uint row = mul_hi(words.z, (Uint)((uint)camera->height));
+  return row * (uint)camera->width + mul_hi(words.w, (Uint)((uint)camera->width));
 }
 
 // Connects the camera to the point at infinity in the lanes of `sky`. An orthographic camera sees the sky in a single
-// direction, which no emitted ray has. In light tracing the ray of the path's own pixel is used instead; in
-// bidirectional path tracing the sky is found by hits.
+// direction, which no emitted ray has. In light tracing the ray of a random pixel is used instead (the words z and w of
+// the sample are free, as there is no lens); in bidirectional path tracing the sky is found by hits.
 static inline void see_sky(const Scene* scene, const Subpath* s, Emission* e, CameraSample sample, View* view, Ray* ray,
                            Real* density, Mask sky) {
   Vec3 from_camera = vec_scale((Real)(-1.0f), e->ray.direction);
@@ -54,11 +66,12 @@ static inline void see_sky(const Scene* scene, const Subpath* s, Emission* e, Ca
   FilmPoint film = camera_sees(scene, from_camera, sample);
   Real sky_density = e->sky_density;
   if (HAS_ORTHOGRAPHIC) {
-    const Ray own = camera_ray(scene, s->sequence.pixel, sample);
-    eye = own.origin;
-    from_camera = own.direction;
+    const Uint pixel = uniform_pixel(scene->camera, splat_words(s, (Int)(0)));
+    const Ray towards_sky = camera_ray(scene, pixel, sample);
+    eye = towards_sky.origin;
+    from_camera = towards_sky.direction;
     film.seen = IS_BIDIR ? NO_LANES : ALL_LANES;
-    film.pixel = uint_to_int(s->sequence.pixel);
+    film.pixel = uint_to_int(pixel);
     film.share = (Real)(1.0f);
     sky_density = film.density;
     if (HAS_ENVIRONMENT_MAP)

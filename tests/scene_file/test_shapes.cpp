@@ -80,6 +80,8 @@ TEST_CASE("Spheres: centre, radius, a toWorld of uniform scale") {
   CHECK_FALSE(sphere.front_is_inside);
   CHECK(load_body(shape("sphere", flipped)).spheres.at(0).front_is_inside);
   CHECK_FALSE(load_body(shape("sphere", mirrored)).spheres.at(0).front_is_inside);
+  CHECK(load_body(shape("sphere", mirrored), "3.0.0").spheres.at(0).front_is_inside); // as in Mitsuba 3
+  CHECK_FALSE(load_body(shape("sphere", mirrored + flipped), "3.0.0").spheres.at(0).front_is_inside);
 
   const std::string scaled = R"(<transform name="toWorld"><scale value="3"/><translate x="10"/></transform>)";
   CHECK(load_body(shape("sphere", placed + scaled)).spheres.at(0).radius == Approx(6.0));

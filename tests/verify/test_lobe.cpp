@@ -183,6 +183,12 @@ TEST_CASE("verify: of three functions the one that contradicts two is named", "[
             .conclusions ==
         std::vector<std::string>{
             "minnaert_evaluate and minnaert_sample agree: minnaert_reflectivity is the one to look at"});
+  const std::string brighter = replaced(minnaert_text, "const Real power = ", "const Real power = 1.5f * ");
+  CHECK(
+      run_user_model("minnaert", replaced(brighter, "s.weight = vec_scale(", "s.weight = vec_scale(1.5f * "))
+          .conclusions ==
+      std::vector<std::string>{"minnaert_evaluate fails checks of its own: look at it first, though "
+                               "minnaert_sample agrees with it"});
   CHECK(run_minnaert("return (m.exponent + 2.0f)", "return (m.exponent + 1.0f)").conclusions ==
         std::vector<std::string>{"minnaert_evaluate's density has the right shape and the wrong scale"});
   const std::string retro =

@@ -69,8 +69,13 @@ std::vector<std::string> explain(Report& report, const std::string& name, const 
                     reflectivity = model + "_reflectivity";
   if (fails("means") && fails("reflectivity") && passes("weights' mean"))
     alone(evaluate + "'s f_r", sample + " and " + reflectivity);
-  if (fails("reflectivity") && fails("weights' mean") && passes("means"))
-    alone(reflectivity, evaluate + " and " + sample);
+  if (fails("reflectivity") && fails("weights' mean") && passes("means")) {
+    if (fails("energy") || fails("reciprocity") || fails("evaluate finite"))
+      conclusions.push_back(fmt::format(
+          "{} fails checks of its own: look at it first, though {} agrees with it", evaluate, sample));
+    else
+      alone(reflectivity, evaluate + " and " + sample);
+  }
   if (fails("means") && fails("weights' mean") && passes("reflectivity")) {
     const std::string others = evaluate + "'s f_r and " + reflectivity;
     if (!fails("normalised"))
