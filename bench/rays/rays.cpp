@@ -180,10 +180,10 @@ void measure_rays(const RaysOptions& options) {
     render::Settings settings;
     settings.traversal = options.traversal;
     render::HostScene host = render::prepare(scene, settings, lanes);
-    const render::Parts parts = render::find_parts(scene, host.geometry, host.lights, settings, lanes);
+    const render::Parts parts = render::find_parts(scene, *host.geometry, host.lights, settings, lanes);
     DeviceRays device_rays(device, files, host, parts);
-    const EmbreeRays embree_rays(scene.meshes.front(), host.geometry.origin, device.info.compute_units);
-    const std::vector<Ray> camera = camera_rays(scene.camera, host.geometry.origin);
+    const EmbreeRays embree_rays(scene.meshes.front(), host.geometry->origin, device.info.compute_units);
+    const std::vector<Ray> camera = camera_rays(scene.camera, host.geometry->origin);
     std::vector<float> distances(camera.size());
     embree_rays.closest(camera, distances);
     const SecondaryRays secondary = secondary_rays(camera, distances);

@@ -31,16 +31,13 @@ std::string words_for(const std::vector<LightShare>& shares) {
   return {};
 }
 
-// Light that no sample of the method carries, or so few that short trials lack it.
-std::string unfound_light(const scene::Scene& scene, const render::Settings& settings) {
-  if (settings.integrator != "path" || !has_delta(scene)) return {};
-  if (misses_light(scene, settings::integrator_named("path")))
-    return "; path misses the light that point, spot and directional emitters send through mirrors and "
-           "smooth glass: bidir finds it";
-  if (!scene.area_emitters.empty())
-    return "; path finds caustics, the light of area emitters through mirrors and smooth glass, by chance "
-           "only: bidir finds them";
-  return {};
+// What the method misses; see misses_light().
+std::string missed_light(const scene::Scene& scene, const std::string& integrator) {
+  if (!misses_light(scene, settings::integrator_named(integrator))) return {};
+  return integrator == "light"
+             ? "light misses what the camera sees in mirrors and through smooth glass"
+             : "path misses the light that point, spot and directional emitters send through mirrors and "
+               "smooth glass";
 }
 
 } // namespace
@@ -85,15 +82,26 @@ Advice advise(scene::Scene scene, const render::Settings& settings, double secon
   render::Settings trial = trial_settings(settings);
   trial.time_limit = seconds;
   const render::Settings own = trial;
-  advice.trials.push_back(try_method(scene, own, events));
+  tables::KnownGeometry known;
+  advice.trials.push_back(try_method(scene, own, known, events));
   for (const settings::Setting& setting : settings::all())
     if (!setting.conditions.empty()) setting.copy({}, trial);
   for (const settings::IntegratorInfo& info : settings::integrators) {
     trial.integrator = info.name;
-    if (method_of(trial) != method_of(own)) advice.trials.push_back(try_method(scene, trial, events));
+    if (method_of(trial) != method_of(own) && !misses_light(scene, info))
+      advice.trials.push_back(try_method(scene, trial, known, events));
+  }
+  for (Trial& one : advice.trials) {
+    const double missing = missing_error(one, advice.trials);
+    one.cost += missing * missing * one.statistics.seconds_render;
   }
   conclude(advice, seconds);
-  advice.words += unfound_light(scene, settings);
+  if (const std::string missed = missed_light(scene, settings.integrator); !missed.empty()) {
+    advice.found = true;
+    advice.words = fmt::format("try `integrator` bidir: {}", missed);
+  } else if (finds_caustics_by_chance(scene, settings.integrator))
+    advice.words += "; path finds caustics, the light of area emitters through mirrors and smooth glass, by "
+                    "chance only: bidir finds them";
   if (!advice.trials.front().reliability.trusted) advice.words += words_for(light_shares(scene, own, events));
   return advice;
 }

@@ -67,7 +67,7 @@ DeviceScene::DeviceScene(const device::Device& device, const HostScene& scene, c
     arguments_.emplace_back(name, upload(device, values, what, elements));
   };
   const auto number = [&](const char* name, auto value) { arguments_.emplace_back(name, value); };
-  const accel::Geometry& geometry = scene.geometry;
+  const accel::Geometry& geometry = *scene.geometry;
   table("camera", std::vector<CameraRecord>{scene.camera}, "camera");
   table("primitives", geometry.primitives, "primitives");
   table("materials", scene.materials.records, "materials",

@@ -38,7 +38,7 @@ std::vector<film::FirstHit> first_hits(const scene::Scene& scene, const Settings
   const int lanes = lanes_for(device.info, settings);
   const Settings path = without_transport(settings);
   const HostScene host = prepare(scene, path, lanes);
-  const Parts parts = find_parts(scene, host.geometry, host.lights, path, lanes);
+  const Parts parts = find_parts(scene, *host.geometry, host.lights, path, lanes);
   const DeviceScene tables(device, host, parts);
   device::Kernel kernel(device::build(device, sources::KernelFiles(settings.kernel_dir),
                                       parts.source("transport/first_hit.cl")),

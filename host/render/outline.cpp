@@ -11,8 +11,8 @@ Outline outline(const scene::Scene& scene, const Settings& settings) try {
   result.device = device.info;
   const int lanes = lanes_for(result.device, settings);
   const HostScene host = prepare(scene, settings, lanes);
-  result.parts = find_parts(scene, host.geometry, host.lights, settings, lanes);
-  result.primitives = host.geometry.primitive_count;
+  result.parts = find_parts(scene, *host.geometry, host.lights, settings, lanes);
+  result.primitives = host.geometry->primitive_count;
   result.table_bytes = DeviceScene(device, host, result.parts).bytes();
   return result;
 } catch (const cl::Error& error) {

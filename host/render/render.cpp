@@ -80,8 +80,9 @@ void warn(const scene::Scene& scene, const Settings& settings, const Events& eve
 // Builds the scene's program for each device. The tables for one WIDTH serve every device of that WIDTH.
 class WorkerFactory {
 public:
-  WorkerFactory(const scene::Scene& scene, const Settings& settings, const Events& events)
-      : scene_(scene), settings_(settings), events_(events) {}
+  WorkerFactory(const scene::Scene& scene, const Settings& settings, const Events& events,
+                tables::KnownGeometry* known)
+      : scene_(scene), settings_(settings), events_(events), known_(known) {}
 
   // The radiance that is 1 in the devices' sums.
   [[nodiscard]] double unit() const { return host_->lights.unit; }
@@ -93,9 +94,9 @@ public:
     const int lanes = lanes_for(device.info, settings_);
     const Clock::time_point begin = Clock::now();
     const bool is_first = !host_;
-    if (is_first || lanes_ != lanes) host_ = prepare(scene_, settings_, lanes_ = lanes);
+    if (is_first || lanes_ != lanes) host_ = prepare(scene_, settings_, lanes_ = lanes, known_);
     Worker worker;
-    worker.parts = find_parts(scene_, host_->geometry, host_->lights, settings_, lanes);
+    worker.parts = find_parts(scene_, *host_->geometry, host_->lights, settings_, lanes);
     if (events_.warning) warn(worker.parts);
     statistics.seconds_setup += seconds_since(begin);
     const device::BuiltProgram built = programs.program(worker.parts, events_.building_kernels);
@@ -137,7 +138,7 @@ private:
           fmt::format("`strategy` {}: no surface has a phong lobe, so it has no effect", settings_.strategy));
     // Squared ratios of areas leave float's range: for other sizes the weights do not add up to 1.
     constexpr double smallest = 1e-6, largest = 1e5;
-    const double radius = host_->geometry.radius;
+    const double radius = host_->geometry->radius;
     if (settings_.integrator == "bidir" && settings_.weights == Weights::power &&
         !settings_.double_precision && (radius < smallest || radius > largest))
       events_.warning(fmt::format("`weights` power: the radius of the scene is {:.1g}, but the weights are "
@@ -149,6 +150,7 @@ private:
   const scene::Scene& scene_;
   const Settings& settings_;
   const Events& events_;
+  tables::KnownGeometry* known_;
   std::optional<HostScene> host_;
   int lanes_ = 0;
 };
@@ -196,8 +198,8 @@ struct Renderer::Ready {
   double unit = 1;       // of the film's sums
 
   void prepare(const std::vector<Programs*>& devices, const scene::Scene& scene, const Settings& settings,
-               const Events& events) {
-    WorkerFactory factory(scene, settings, events);
+               const Events& events, tables::KnownGeometry* known = nullptr) {
+    WorkerFactory factory(scene, settings, events, known);
     for (Programs* programs : devices) {
       const device::DeviceInfo& device = programs->device().info;
       try {
@@ -219,7 +221,8 @@ struct Renderer::Ready {
   }
 };
 
-Renderer::Renderer(const scene::Scene& scene, const Settings& settings, const Events& events)
+Renderer::Renderer(const scene::Scene& scene, const Settings& settings, const Events& events,
+                   tables::KnownGeometry* known)
     : ready_(std::make_unique<Ready>()) {
   reporting_device_errors([&] {
     check(scene, settings);
@@ -228,7 +231,7 @@ Renderer::Renderer(const scene::Scene& scene, const Settings& settings, const Ev
     std::vector<Programs*> devices;
     for (const device::Device& device : device::open_devices(settings.devices, settings.threads))
       devices.push_back(&of_devices.emplace_back(device, sources::KernelFiles(settings.kernel_dir)));
-    ready_->prepare(devices, scene, settings, events);
+    ready_->prepare(devices, scene, settings, events, known);
   });
 }
 
@@ -269,10 +272,11 @@ Statistics Renderer::render(const Settings& settings, film::Film& film, const Ev
 }
 
 Statistics render(const scene::Scene& scene, const Settings& settings, film::Film& film, const Events& events,
-                  const RenderState& from, const std::vector<Processor*>& others) {
+                  const RenderState& from, const std::vector<Processor*>& others,
+                  tables::KnownGeometry* known) {
   std::optional<DevicesFailed> failure;
   try {
-    return Renderer(scene, settings, events).render(settings, film, events, from, others);
+    return Renderer(scene, settings, events, known).render(settings, film, events, from, others);
   } catch (const DevicesFailed& first) {
     failure = first;
   }

@@ -12,11 +12,13 @@
 #include "render/statistics.h"
 #include "scene/scene.h"
 #include "settings/settings.h"
+#include "tables/host_scene.h"
 
 namespace phlux::render {
 
 using settings::Connect;
 using settings::connect_names;
+using settings::connect_of;
 using settings::Integrator;
 using settings::LightSelection;
 using settings::Roulette;
@@ -25,7 +27,6 @@ using settings::Sampler;
 using settings::Settings;
 using settings::strategy_names;
 using settings::Traversal;
-using settings::connect_of;
 using settings::Weights;
 using settings::weights_names;
 
@@ -50,9 +51,10 @@ class Programs;  // render/programs.h
 /// without building and copying these again.
 class Renderer {
 public:
-  /// `scene` and `settings` are only used here. @throws UsageError for settings that cannot work, SceneError
-  /// for a scene that cannot be rendered, DeviceError
-  Renderer(const scene::Scene& scene, const Settings& settings, const Events& events);
+  /// `scene` and `settings` are only used here. `known`: of the same scene, with any camera. @throws
+  /// UsageError for settings that cannot work, SceneError for a scene that cannot be rendered, DeviceError
+  Renderer(const scene::Scene& scene, const Settings& settings, const Events& events,
+           tables::KnownGeometry* known = nullptr);
   /// On the device of `programs`, with its programs; the devices and the kernel folder of `settings` are
   /// ignored. @throws as the other constructor
   Renderer(Programs& programs, const scene::Scene& scene, const Settings& settings);
@@ -82,6 +84,7 @@ private:
 /// as that helps. @throws as Renderer and its render()
 [[nodiscard]] Statistics render(const scene::Scene& scene, const Settings& settings, film::Film& film,
                                 const Events& events, const RenderState& from = {},
-                                const std::vector<Processor*>& others = {});
+                                const std::vector<Processor*>& others = {},
+                                tables::KnownGeometry* known = nullptr);
 
 } // namespace phlux::render

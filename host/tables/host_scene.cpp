@@ -48,23 +48,31 @@ CameraRecord camera_record(const scene::Camera& camera, const scene::Vec3& origi
 
 } // namespace
 
-HostScene prepare(const scene::Scene& scene, const settings::Settings& settings, int lanes) {
+HostScene prepare(const scene::Scene& scene, const settings::Settings& settings, int lanes,
+                  KnownGeometry* known) {
   const std::uint64_t primitives = accel::count_primitives(scene);
   if (primitives == 0) throw SceneError("the scene has no shapes: add at least one that the camera can see");
   using settings::Traversal;
   const bool brute = settings.traversal == Traversal::brute_force ||
                      (settings.traversal == Traversal::automatic && primitives <= brute_force_limit(lanes));
+  const int tree_lanes = brute ? 0 : lanes;
   HostScene host;
-  host.geometry = brute ? accel::brute_force(scene, settings.double_precision)
-                        : accel::hierarchy(scene, lanes, settings.double_precision);
-  if (host.geometry.primitive_count == 0)
+  if (known != nullptr && known->geometry && known->lanes == tree_lanes &&
+      known->geometry->in_double == settings.double_precision)
+    host.geometry = known->geometry;
+  else
+    host.geometry =
+        std::make_shared<accel::Geometry>(brute ? accel::brute_force(scene, settings.double_precision)
+                                                : accel::hierarchy(scene, lanes, settings.double_precision));
+  if (known != nullptr) *known = {host.geometry, tree_lanes};
+  if (host.geometry->primitive_count == 0)
     throw SceneError(
         "no shape of the scene has an area that single precision can tell from 0: scale them up");
-  host.lights = light_table(scene, host.geometry, settings);
+  host.lights = light_table(scene, *host.geometry, settings);
   host.materials =
-      lobes::material_table(scene.materials, lobes::models_of(used_materials(scene, host.geometry)));
+      lobes::material_table(scene.materials, lobes::models_of(used_materials(scene, *host.geometry)));
   host.textures = texture_table(host.materials.textures);
-  host.camera = camera_record(scene.camera, host.geometry.origin);
+  host.camera = camera_record(scene.camera, host.geometry->origin);
   return host;
 }
 

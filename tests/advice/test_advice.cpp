@@ -59,6 +59,35 @@ TEST_CASE("where path finds a caustic by chance only, the advice says so and nam
   CHECK_THAT(words("cornell-box"), !caustics);
 }
 
+TEST_CASE("where light tracing shows mirrors black, the advice is bidir, and never light") {
+  render::Settings with = settings_for(1);
+  with.integrator = "light";
+  const advice::Advice of_light = advice::advise(shipped("mirror-ball", 16, 16), with, 0.05);
+  CHECK(of_light.found);
+  CHECK(of_light.words ==
+        "try `integrator` bidir: light misses what the camera sees in mirrors and through smooth glass");
+  const advice::Advice of_path = advice::advise(shipped("mirror-and-glass", 16, 16), settings_for(1), 0.05);
+  CHECK(of_path.trials.size() == 2); // path, bidir
+}
+
+TEST_CASE("light that a trial lacks is seen by the means of others") {
+  const auto trial = [](double radiance, double variance) {
+    advice::Trial result;
+    result.tiles = {{radiance, variance, 64}, {100, 1, 64}};
+    return result;
+  };
+  const advice::Trial lacking = trial(60, 9), other = trial(80, 16), noisy = trial(60, 25);
+  const auto missing = [](const advice::Trial& one, const advice::Trial& two) {
+    const advice::Trial others[] = {one, two};
+    return advice::missing_error(one, others);
+  };
+  // 20 of 80 in one of two tiles of 64 pixels, as root mean square of a pixel; 20 is 4.0 and 3.1 errors.
+  CHECK(missing(lacking, trial(80.1, 16)) == Approx(std::sqrt(64 / 2.0) * 20.1 / 80.1));
+  CHECK(missing(other, lacking) == 0);
+  CHECK(missing(noisy, other) == 0);
+  CHECK(missing(lacking, advice::Trial()) == 0); // refused
+}
+
 TEST_CASE("the light that causes the variance is named") {
   scene::Scene scene = shipped("caustic", 32, 24);
   const scene::PointLight lamp{{0, 1, 1}, scene::Rgb(1)};
@@ -97,6 +126,7 @@ TEST_CASE("integrator auto: the method with the least error, the same each time"
   CHECK(caustic.texts.at("integrator") != "path");
   CHECK_THAT(caustic.words, Catch::StartsWith("`integrator` " + caustic.texts.at("integrator")));
   CHECK(choice_for(shipped("caustic", 64, 48), 20'000).words == caustic.words);
+  CHECK(choice_for(shipped("glass-caustic", 256, 256), 400).texts.at("integrator") == "bidir");
   const advice::MethodChoice near_light = choice_for(shipped("stability/near-light", 64, 48), 20'000);
   CHECK(near_light.texts.at("integrator") == "path");
   CHECK(near_light.texts.at("sampler") == "lattice");
@@ -118,6 +148,8 @@ TEST_CASE(
         "`integrator` path: the render is too short for trials");
   CHECK(choice_for(shipped("caustic", 64, 48), 16, {{"weights", "power"}}).words ==
         "`integrator` bidir `weights` power: no other method can render this scene with these options");
+  CHECK(choice_for(shipped("glass-caustic", 64, 48), 16).words == // the scene's integrator
+        "`integrator` bidir: the render is too short for trials");
   CHECK_THROWS_AS(choice_for(shipped("caustic", 64, 48), 16, {{"weights", "power"}, {"connect", "light"}}),
                   UsageError);
   scene::Scene mirror = shipped("mirror-ball", 32, 32);

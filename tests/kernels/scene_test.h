@@ -37,7 +37,7 @@ private:
   static phlux::render::Parts parts_of(const phlux::scene::Scene& scene, const phlux::render::HostScene& host,
                                        const phlux::render::Settings& settings, int lanes) {
     phlux::render::Parts parts =
-        phlux::render::find_parts(scene, host.geometry, host.lights, settings, lanes);
+        phlux::render::find_parts(scene, *host.geometry, host.lights, settings, lanes);
     parts.light_tree = !host.lights.nodes.empty() && parts.connect != phlux::render::Connect::none;
     return parts;
   }

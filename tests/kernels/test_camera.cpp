@@ -140,7 +140,7 @@ TEST_CASE("camera: the rays of a pixel are within the bounds of its packet, whic
           camera.up = glm::normalize(dvec3(-1, 1, 0));
         }
         const SceneProgram program = program_for(v, scene);
-        const dvec3 origin = camera.position - program.host().geometry.origin;
+        const dvec3 origin = camera.position - program.host().geometry->origin;
         Random random(82);
         std::vector<int> pixel, counts;
         std::vector<float> us, vs;

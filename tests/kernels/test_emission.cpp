@@ -62,7 +62,7 @@ double spot_solid_angle() {
 
 double disk_across(const Scene& scene) {
   const auto host = phlux::render::prepare(scene, {}, 1);
-  return pi * host.geometry.radius * host.geometry.radius;
+  return pi * host.geometry->radius * host.geometry->radius;
 }
 
 const std::vector<Kind>& kinds() {
@@ -128,7 +128,7 @@ const std::vector<Kind>& kinds() {
 std::vector<Emitted> emit(const SceneProgram& program, std::size_t count, Random& random) {
   std::vector<std::uint32_t> path(count);
   std::vector<Float3> lit(count);
-  const dvec3 origin = program.host().geometry.origin;
+  const dvec3 origin = program.host().geometry->origin;
   for (std::size_t i = 0; i < count; ++i) {
     path[i] = static_cast<std::uint32_t>(i);
     lit[i] = to_float(center + dvec3(0.1, -0.2, 2.5) - origin);
@@ -209,8 +209,8 @@ void check_pairs(const std::vector<Pair>& pairs, std::size_t questions) {
 
 void check_kind(const Kind& kind, const SceneProgram& program, const std::vector<Emitted>& emitted) {
   const std::string name = kind.name;
-  const dvec3 origin = program.host().geometry.origin;
-  const double disk_radius = program.host().geometry.radius;
+  const dvec3 origin = program.host().geometry->origin;
+  const double disk_radius = program.host().geometry->radius;
   const LightRecord& record = program.host().lights.records.at(0);
   const std::size_t questions = 5 * kinds().size() * std::size(variants);
   std::vector<Pair> places, directions;

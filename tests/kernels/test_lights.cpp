@@ -103,7 +103,7 @@ double density_slack(double distance, double cosine, double extent = 2 * size) {
 
 void check_flat(Shape shape, const SceneProgram& program, const std::vector<dvec3>& points,
                 const std::vector<Sampled>& sampled) {
-  const dvec3 origin = program.host().geometry.origin;
+  const dvec3 origin = program.host().geometry->origin;
   const double area = program.host().lights.records.at(0).area;
   constexpr int cells = 8;
   std::vector<double> observed(cells * cells, 0.0);
@@ -154,7 +154,7 @@ TEST_CASE("lights: a sample's density is that of the hit of the same ray, and of
       CAPTURE(v, static_cast<int>(shape));
       Random random(71);
       const SceneProgram program(v, "lights.cl", scene_of(shape));
-      const dvec3 origin = program.host().geometry.origin;
+      const dvec3 origin = program.host().geometry->origin;
       auto points = lit_points(shape, thinned(10000), random);
       for (dvec3& point : points) point = to_double(to_float(point - origin)) + origin;
       std::vector<dvec3> about_origin;
@@ -215,7 +215,7 @@ struct Choices {
 Choices choices_at(const SceneProgram& program, std::vector<dvec3> points, std::vector<dvec3> normals) {
   Choices result{std::move(points), std::move(normals), {}};
   std::vector<Float3> at, facing;
-  for (const dvec3& point : result.points) at.push_back(to_float(point - program.host().geometry.origin));
+  for (const dvec3& point : result.points) at.push_back(to_float(point - program.host().geometry->origin));
   for (const dvec3& normal : result.normals) facing.push_back(to_float(normal));
   for (int light = 0; light < static_cast<int>(program.host().lights.records.size()); ++light) {
     std::vector<float> probability(at.size());
@@ -228,7 +228,7 @@ Choices choices_at(const SceneProgram& program, std::vector<dvec3> points, std::
 Choices choices_at_random(const SceneProgram& program, std::size_t count, double extent, Random& random) {
   std::vector<dvec3> points, normals;
   while (points.size() < count) {
-    points.push_back(program.host().geometry.origin + extent * random.point());
+    points.push_back(program.host().geometry->origin + extent * random.point());
     normals.push_back(random.direction());
   }
   return choices_at(program, points, normals);
@@ -342,7 +342,7 @@ TEST_CASE("lights: of many, each is chosen with its probability; densities inclu
       for (std::size_t place = 0; place < choices.points.size(); ++place) {
         const std::size_t count = thinned(10000);
         const auto sampled =
-            sample(program, std::vector(count, choices.points[place] - program.host().geometry.origin),
+            sample(program, std::vector(count, choices.points[place] - program.host().geometry->origin),
                    choices.normals[place], random);
         std::vector<double> observed(records.size(), 0.0), expected;
         for (std::size_t light = 0; light < records.size(); ++light) {

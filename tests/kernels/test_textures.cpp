@@ -137,7 +137,7 @@ struct Reflection {
 
 Mapped mapped(const SceneProgram& program, const Vec3& origin, const Vec3& target) {
   const std::vector<RayArgument> rays{
-      {glm::vec3(origin - program.host().geometry.origin), glm::vec3(glm::normalize(target - origin))}};
+      {glm::vec3(origin - program.host().geometry->origin), glm::vec3(glm::normalize(target - origin))}};
   std::vector<Mapped> found(1);
   program.run("map", 1, rays, out(found));
   return found[0];

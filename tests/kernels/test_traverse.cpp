@@ -196,7 +196,7 @@ Scene alone(double size, int kind, double aside) {
 void check_leaving(Variant v, double size, int kind, double aside) {
   CAPTURE(v, size, kind, aside);
   const SceneProgram program(v, "traverse.cl", alone(size, kind, aside));
-  const dvec3 origin = program.host().geometry.origin;
+  const dvec3 origin = program.host().geometry->origin;
   Random random(63);
   std::vector<Ray> rays;
   std::vector<Float3> given;

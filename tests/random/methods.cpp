@@ -186,7 +186,7 @@ SceneFacts facts_of(const scene::Scene& scene) {
   settings.double_precision = true;
   settings.traversal = Traversal::brute_force;
   const render::HostScene host = render::prepare(scene, settings, 1);
-  for (const PrimitiveRecord& p : host.geometry.primitives) {
+  for (const PrimitiveRecord& p : host.geometry->primitives) {
     if (p.region == REGION_NONE) continue;
     const scene::Material& m = scene.materials[static_cast<std::size_t>(p.material)];
     facts.delta |= m.model->has_delta;
@@ -195,21 +195,21 @@ SceneFacts facts_of(const scene::Scene& scene) {
       facts.largest_exponent = std::max({facts.largest_exponent, phlux::test::exponent_of(m),
                                          anisotropic ? phlux::test::exponent_v_of(m) : 0.0});
   }
-  const Surfaces surfaces(host.geometry);
+  const Surfaces surfaces(*host.geometry);
   facts.narrowest_view = scene.camera.orthographic
                              ? static_cast<double>(host.camera.film_area) /
-                                   (4 * std::numbers::pi * std::pow(host.geometry.radius, 2))
-                             : narrowest_view(surfaces, host.camera, host.geometry.radius);
+                                   (4 * std::numbers::pi * std::pow(host.geometry->radius, 2))
+                             : narrowest_view(surfaces, host.camera, host.geometry->radius);
   for (const LightRecord& light : host.lights.records) {
     const bool spreads = light.kind == LIGHT_POINT || light.kind == LIGHT_SPOT;
-    const double unit = host.lights.unit / (spreads ? std::pow(host.geometry.radius, 2) : 1);
+    const double unit = host.lights.unit / (spreads ? std::pow(host.geometry->radius, 2) : 1);
     for (const float power : light.radiance)
       facts.brightest = std::max(facts.brightest, unit * static_cast<double>(power));
     facts.in_small_spots += static_cast<double>(light.probability) *
-                            part_on_near_surfaces(surfaces, light, small_spot * host.geometry.radius);
+                            part_on_near_surfaces(surfaces, light, small_spot * host.geometry->radius);
   }
-  const double cross_section = std::numbers::pi * host.geometry.radius * host.geometry.radius;
-  for (const accel::EmittingPrimitive& light : host.geometry.emitting)
+  const double cross_section = std::numbers::pi * host.geometry->radius * host.geometry->radius;
+  for (const accel::EmittingPrimitive& light : host.geometry->emitting)
     facts.smallest_light = std::min(facts.smallest_light, light.area / cross_section);
   return facts;
 }

@@ -18,7 +18,7 @@ render::Parts parts_of(const scene::Scene& scene, render::Connect connect = rend
   render::Settings with;
   with.connect = connect;
   const render::HostScene host = render::prepare(scene, with, lanes);
-  return render::find_parts(scene, host.geometry, host.lights, with, lanes);
+  return render::find_parts(scene, *host.geometry, host.lights, with, lanes);
 }
 
 } // namespace
