@@ -26,7 +26,7 @@ static inline Int choose_light(const Scene* scene, Uint cell_word, Uint alias_wo
   const Real kept = HAS_SKY ? fma(threshold, (Real)(1.0f - sky_probability), (Real)(sky_probability)) : threshold;
   const Int other = u < kept ? cell : LIGHT_INT(scene, cell, alias);
   if (!HAS_SKY) return other;
-  // By all 32 bits: the spacing of u, 2^-23, is not small compared with the probability if there are many lights.
+  // The choice of the sky uses all 32 bits of the word. u has only 23, which is too few for a small probability.
   const Mask sky =
       sky_probability < 1.0f ? (Mask)(alias_word < (Uint)((uint)(4294967296.0f * sky_probability))) : ALL_LANES;
   return sky ? (Int)(scene->light_count - 1) : other;

@@ -1,6 +1,6 @@
-// Path tracing (CW 197, 3.3.2): a path starts at the camera and is scattered at every surface, until it leaves the
-// scene or is ended by roulette or the largest depth. CONNECT selects how light is found: by hits, by light samples, or
-// by both with weights.
+// Path tracing (Kajiya, The Rendering Equation, 1986): a path starts at the camera and is scattered at every surface,
+// until it leaves the scene or is ended by roulette or the largest depth. CONNECT selects how light is found: by hits,
+// by light samples, or by both with weights (Veach 1997, 9.2).
 #include "transport/camera_packets.cl"
 #include "transport/eye_subpath.cl"
 #include "transport/film.cl"
