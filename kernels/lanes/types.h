@@ -12,12 +12,12 @@
 typedef double Scalar;
 #define REAL(literal) literal
 #define REAL_HALF_ULP 1.1102230246251565e-16 // of 1: 2^-53
-#define REAL_LARGE 1e200                     // products with ordinary numbers do not overflow
+#define REAL_MAX DBL_MAX
 #else
 typedef float Scalar;
 #define REAL(literal) literal##f
 #define REAL_HALF_ULP 5.9604645e-8f // 2^-24
-#define REAL_LARGE 1e30f
+#define REAL_MAX FLT_MAX
 #endif
 
 #if WIDTH == 1
