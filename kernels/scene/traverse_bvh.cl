@@ -9,10 +9,11 @@
 
 #if LANES == 1
 #define CHILDREN 2
-#define STACK_SIZE 66 // BVH_MAX_DEPTH_BINARY of the builder, plus two children
+#define STACK_SIZE (64 + CHILDREN) // max_depth_binary (host/accel/geometry.h), and the children of one node
 #else
 #define CHILDREN LANES
-#define STACK_SIZE (24 * (LANES - 1) + LANES) // BVH_MAX_DEPTH_WIDE of the builder
+// max_depth_wide (host/accel/geometry.h) times the siblings of a node, and the children of one node.
+#define STACK_SIZE (24 * (LANES - 1) + LANES)
 #endif
 
 // One ray, the same in every lane, prepared for box tests.
