@@ -32,7 +32,6 @@ static inline Vec3 vec_cross(Vec3 a, Vec3 b) {
 static inline Vec3 vec_select(Mask m, Vec3 yes, Vec3 no) {
   return vec3(m ? yes.x : no.x, m ? yes.y : no.y, m ? yes.z : no.z);
 }
-static inline Vec3 pack_vec(Mask m, Vec3 v) { return vec3(pack_lanes(m, v.x), pack_lanes(m, v.y), pack_lanes(m, v.z)); }
 static inline Vec3 vec_normalize(Vec3 a) { return vec_scale((Real)(1.0f) / sqrt(vec_dot(a, a)), a); }
 // The angle between two unit vectors in radians, from half their distance: the cosine of a small angle is inaccurate.
 static inline Real vec_angle(Vec3 a, Vec3 b) {

@@ -72,7 +72,7 @@ typedef struct {
 static inline ImagePoint image_point(const Scene* scene, Uint pixel, CameraSample sample) {
   const __global CameraRecord* camera = scene->camera;
   const float width = (float)camera->width, height = (float)camera->height;
-  const Int row = row_of(uint_to_int(pixel), camera->width);
+  const Int row = quotient(uint_to_int(pixel), camera->width);
   const Int column = uint_to_int(pixel) - row * camera->width;
   const Real x = (to_real(column) + sample.x) / width + camera->principal_x;
   const Real y = (to_real(row) + sample.y) / height + camera->principal_y;

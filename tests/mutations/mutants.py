@@ -118,8 +118,8 @@ MUTANTS = [
 # Mistakes of light tracing and bidirectional path tracing, with the program and the test cases that must detect them.
 INTEGRATORS = ("test_images", "[mutations]")
 SMOOTH, FLAT = ("test_images", "a ball of eight*"), ("test_images", "a low gap*")
-CAMERA, EMISSION, LIGHTS, WEIGHTS, BATCHES = (
-    ("test_kernels", name + ":*") for name in ("camera", "emission", "lights", "weights", "batches"))
+CAMERA, EMISSION, LIGHTS, WEIGHTS, BATCHES, LANES = (
+    ("test_kernels", name + ":*") for name in ("camera", "emission", "lights", "weights", "batches", "lanes"))
 MIRRORS, MATERIALS = ("test_images", "mirrors: *"), ("test_kernels", "materials:*")
 MASKS = ("test_images", "masks:*")
 GLASS, GLASS_PLANE = ("test_images", "glass: balls*"), ("test_images", "glass: reflectance*")
@@ -300,8 +300,10 @@ INTEGRATOR_MUTANTS = [
     ("a path taken twice", "transport/batch.cl",
      "batch->next = min(batch->next + count_lanes(idle), batch->path_count);",
      "batch->next = min(batch->next + max(count_lanes(idle) - 1, 1), batch->path_count);", BATCHES),
-    ("a quotient of floats without the half", "transport/batch.cl", "(to_real(a) + 0.5f) / (float)b",
-     "to_real(a) * (1.0f / (float)b)", BATCHES),
+    ("a quotient of floats that is too large not corrected", "lanes/types.h", "rest < 0 ? q - 1 : (rest >= b ? q + 1 : q)",
+     "rest >= b ? q + 1 : q", LANES),
+    ("a quotient of floats that is too small not corrected", "lanes/types.h", "rest < 0 ? q - 1 : (rest >= b ? q + 1 : q)",
+     "rest < 0 ? q - 1 : q", LANES),
     ("a small image ends once in a batch", "transport/batch.cl",
      "1 + quotient(max(beyond, (Int)(0)), list.pixel_count)", "(Int)(1)", BATCHES),
     ("bounds of a packet without one side", "scene/traverse_packet.cl", "+ fabs(vec_dot(v, vec_of(packet->down)))", "",
