@@ -52,9 +52,7 @@ static inline Vec3 textured_colour(const Scene* scene, Int material, int word, T
 }
 
 #define LOAD_COLOUR(name, otherwise, lowest, highest, meaning)                                                         \
-  m.name = vec3(material_real(scene, index, WORD_OF(record, name[0])),                                                 \
-                material_real(scene, index, WORD_OF(record, name[1])),                                                 \
-                material_real(scene, index, WORD_OF(record, name[2])));                                                \
+  m.name = material_vec(scene, index, WORD_OF(record, name[0]));                                                       \
   if (HAS_TEXTURES) m.name = textured_colour(scene, index, WORD_OF(record, name[0]), at, of_model, m.name);
 #define LOAD_NUMBER(name, otherwise, lowest, highest, meaning) LOAD_DERIVED(name)
 #define LOAD_DERIVED(name) m.name = material_real(scene, index, WORD_OF(record, name));

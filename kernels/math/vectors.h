@@ -58,6 +58,11 @@ static inline Vec3 broadcast_scalars(const __global Scalar* v, int stride) {
 #define GATHER_VEC3(table, index, member)                                                                              \
   vec3(GATHER_REAL(table, index, member[0]), GATHER_REAL(table, index, member[1]), GATHER_REAL(table, index, member[2]))
 
+// Three consecutive words of memory, from base[index] on, in every lane.
+static inline Vec3 gather_vec(const __global float* base, Int index) {
+  return vec3(gather_real(base, index), gather_real(base + 1, index), gather_real(base + 2, index));
+}
+
 static inline void scatter_vec(__global float* base, Int index, Vec3 v, Mask m) {
   scatter_real(base, index, v.x, m);
   scatter_real(base + 1, index, v.y, m);

@@ -65,6 +65,11 @@ static inline Int material_int(const Scene* scene, Int index, int word) {
                                 : gather_int((const __global int*)scene->materials + word, index * MATERIAL_WORDS);
 }
 
+static inline Vec3 material_vec(const Scene* scene, Int index, int word) {
+  return vec3(material_real(scene, index, word), material_real(scene, index, word + 1),
+              material_real(scene, index, word + 2));
+}
+
 // Copies the tables that are kept in registers.
 static inline void keep_small_tables(Scene* scene) {
   if (MATERIALS_IN_REGISTERS) load_members(scene->materials, MATERIAL_WORDS, scene->material_members);
