@@ -36,6 +36,10 @@ static inline Mask has_model(Material m, int number) {
   return MODEL_COUNT > 1 ? (Mask)(m.model_number == number) : ALL_LANES;
 }
 
+// Whether the functions of this model must be called: with one lane only those of its own model. With more lanes all
+// models are called: no scene gained by the test.
+static inline int needs_model(Material m, int number) { return LANES > 1 || any_lane(has_model(m, number)); }
+
 // ---- Loading a material: its record is a header, followed by the parameters of its model.
 
 #define WORD_OF(record, member)                                                                                        \
@@ -114,7 +118,7 @@ static inline LobeValue material_evaluate(Material m, Vec3 fixed, Vec3 generated
   v.value = vec_all((Real)(0.0f));
   v.density = v.reverse = (Real)(0.0f);
 #define EVALUATE(number, model, Model, MODEL)                                                                          \
-  {                                                                                                                    \
+  if (needs_model(m, number)) {                                                                                        \
     const LobeValue of_model = model##_evaluate(m.model, fixed, generated);                                            \
     const Mask chosen = has_model(m, number);                                                                          \
     v.value = vec_select(chosen, of_model.value, v.value);                                                             \
@@ -190,7 +194,7 @@ static inline MaterialSample material_sample(Material m, Vec3 fixed, RandomDraws
   s.delta = NO_LANES;
   s.draws = (Int)(1);
 #define SAMPLE(number, model, Model, MODEL)                                                                            \
-  {                                                                                                                    \
+  if (needs_model(m, number)) {                                                                                        \
     const Mask chosen = has_model(m, number);                                                                          \
     const LobeSample of_model = model##_sample(m.model, fixed, choice, random, active & s.survives & chosen);          \
     s.direction = vec_select(chosen, of_model.direction, s.direction);                                                 \
