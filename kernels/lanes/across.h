@@ -130,9 +130,6 @@ static inline Real unpack_lanes(Mask m, Real v, Real old) {
   return lanes_from_array(to);
 #endif
 }
-static inline Int unpack_int_lanes(Mask m, Int v, Int old) {
-  return carried_int(unpack_lanes(m, carry_int(v), carry_int(old)));
-}
 
 // Appends the keys and values of the lanes in m to two arrays, in lane order; both need room for WIDTH more elements.
 // Returns the number of lanes in m.

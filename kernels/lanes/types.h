@@ -12,12 +12,12 @@
 typedef double Scalar;
 #define REAL(literal) literal
 #define REAL_HALF_ULP 1.1102230246251565e-16 // of 1: 2^-53
-#define REAL_LARGE 1e200                     // products with ordinary numbers do not overflow
+#define REAL_MAX DBL_MAX
 #else
 typedef float Scalar;
 #define REAL(literal) literal##f
 #define REAL_HALF_ULP 5.9604645e-8f // 2^-24
-#define REAL_LARGE 1e30f
+#define REAL_MAX FLT_MAX
 #endif
 
 #if WIDTH == 1
@@ -78,6 +78,14 @@ static inline Int carried_int(Real x) { return real_bits(x); }
 // fmax and fmin without their treatment of NaN, which takes two more instructions.
 static inline Real larger(Real a, Real b) { return a > b ? a : b; }
 static inline Real smaller(Real a, Real b) { return a < b ? a : b; }
+// floor(a / b) for a >= 0, b > 0, a + b < 2^31 and quotients below 2^22. The quotient of floats has an error below 1:
+// at most 2.5 ulp of the division (OpenCL 1.2, 7.4), which are 5/8 at 2^22, and 1/4 there for the rounding of a to
+// float; for b above 2^24, which is rounded too, quotients are below 2^7. It is thus off by one at most, and corrected.
+static inline Int quotient(Int a, int b) {
+  const Int q = to_int(to_real(a) / (float)b);
+  const Int rest = a - q * b;
+  return rest < 0 ? q - 1 : (rest >= b ? q + 1 : q);
+}
 // a / b; 0 where b is not above 0.
 static inline Real ratio_or_zero(Real a, Real b) { return b > 0.0f ? a / b : (Real)(0.0f); }
 

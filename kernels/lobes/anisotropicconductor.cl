@@ -8,7 +8,7 @@
   COLOUR(eta, 0, 0, 100, "index of refraction relative to the outside, real part")                                     \
   COLOUR(k, 1, 0, 100, "imaginary part of the index of refraction")                                                    \
   COLOUR(specular_reflectance, 1, 0, 1, "factor of the reflectance")                                                   \
-  NUMBER(alpha_u, 0.02, 0.005, 1, "roughness along the first tangent: root mean square slope, times sqrt(2)")          \
+  NUMBER(alpha_u, 0.02, 0.005, 1, "roughness along the first tangent; beckmann: sqrt(2) times the rms slope")          \
   NUMBER(alpha_v, 0.02, 0.005, 1, "roughness along the second tangent")                                                \
   NUMBER(distribution, 0, 0, 1, "of the facets' normals: 0 beckmann, 1 ggx")
 #define ANISOTROPICCONDUCTOR_NEEDS_TANGENTS 1

@@ -9,7 +9,7 @@
   NUMBER(ext_ior, 1.000277, 0.1, 10, "index of refraction in front of the surface")                                    \
   COLOUR(specular_reflectance, 1, 0, 1, "factor of the reflectance")                                                   \
   COLOUR(specular_transmittance, 1, 0, 1, "factor of the transmittance")                                               \
-  NUMBER(alpha_u, 0.02, 0.005, 1, "roughness along the first tangent: root mean square slope, times sqrt(2)")          \
+  NUMBER(alpha_u, 0.02, 0.005, 1, "roughness along the first tangent; beckmann: sqrt(2) times the rms slope")          \
   NUMBER(alpha_v, 0.02, 0.005, 1, "roughness along the second tangent")                                                \
   NUMBER(distribution, 0, 0, 1, "of the facets' normals: 0 beckmann, 1 ggx")
 #define ANISOTROPICDIELECTRIC_TRANSMITS 1

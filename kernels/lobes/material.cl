@@ -36,6 +36,10 @@ static inline Mask has_model(Material m, int number) {
   return MODEL_COUNT > 1 ? (Mask)(m.model_number == number) : ALL_LANES;
 }
 
+// Whether the functions of this model must be called: with one lane only those of its own model. With more lanes all
+// models are called: no scene gained by the test.
+static inline int needs_model(Material m, int number) { return LANES > 1 || any_lane(has_model(m, number)); }
+
 // ---- Loading a material: its record is a header, followed by the parameters of its model.
 
 #define WORD_OF(record, member)                                                                                        \
@@ -52,9 +56,7 @@ static inline Vec3 textured_colour(const Scene* scene, Int material, int word, T
 }
 
 #define LOAD_COLOUR(name, otherwise, lowest, highest, meaning)                                                         \
-  m.name = vec3(material_real(scene, index, WORD_OF(record, name[0])),                                                 \
-                material_real(scene, index, WORD_OF(record, name[1])),                                                 \
-                material_real(scene, index, WORD_OF(record, name[2])));                                                \
+  m.name = material_vec(scene, index, WORD_OF(record, name[0]));                                                       \
   if (HAS_TEXTURES) m.name = textured_colour(scene, index, WORD_OF(record, name[0]), at, of_model, m.name);
 #define LOAD_NUMBER(name, otherwise, lowest, highest, meaning) LOAD_DERIVED(name)
 #define LOAD_DERIVED(name) m.name = material_real(scene, index, WORD_OF(record, name));
@@ -116,7 +118,7 @@ static inline LobeValue material_evaluate(Material m, Vec3 fixed, Vec3 generated
   v.value = vec_all((Real)(0.0f));
   v.density = v.reverse = (Real)(0.0f);
 #define EVALUATE(number, model, Model, MODEL)                                                                          \
-  {                                                                                                                    \
+  if (needs_model(m, number)) {                                                                                        \
     const LobeValue of_model = model##_evaluate(m.model, fixed, generated);                                            \
     const Mask chosen = has_model(m, number);                                                                          \
     v.value = vec_select(chosen, of_model.value, v.value);                                                             \
@@ -192,7 +194,7 @@ static inline MaterialSample material_sample(Material m, Vec3 fixed, RandomDraws
   s.delta = NO_LANES;
   s.draws = (Int)(1);
 #define SAMPLE(number, model, Model, MODEL)                                                                            \
-  {                                                                                                                    \
+  if (needs_model(m, number)) {                                                                                        \
     const Mask chosen = has_model(m, number);                                                                          \
     const LobeSample of_model = model##_sample(m.model, fixed, choice, random, active & s.survives & chosen);          \
     s.direction = vec_select(chosen, of_model.direction, s.direction);                                                 \

@@ -1,6 +1,7 @@
 // Microfacet models (Torrance and Sparrow 1967; Walter et al. 2007): distributions of the normals h of microfacets, and
-// Smith's masking, for one roughness alpha in all directions, or two along x and y of the frame. Beckmann and GGX
-// surfaces with any alpha are stretched surfaces with alpha = 1: slopes are divided by alpha.
+// Smith's masking, for one roughness alpha in all directions, or two along x and y of the frame. alpha = 0 is a smooth
+// surface. Beckmann's alpha is sqrt(2) times the root mean square slope in one direction; that of GGX is infinite.
+// Beckmann and GGX surfaces with any alpha are stretched surfaces with alpha = 1: slopes are divided by alpha.
 //
 // The density of visible normals (Heitz 2014) is D(h) (v.h)+ / sigma(v), where sigma(v) = cos / G1(v) is the projected
 // area of the facets visible from v, per area of the surface. With sigma instead of G1 no formula divides by a cosine.

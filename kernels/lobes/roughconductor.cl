@@ -8,7 +8,7 @@
   COLOUR(eta, 0, 0, 100, "index of refraction relative to the outside, real part")                                     \
   COLOUR(k, 1, 0, 100, "imaginary part of the index of refraction")                                                    \
   COLOUR(specular_reflectance, 1, 0, 1, "factor of the reflectance")                                                   \
-  NUMBER(alpha, 0.1, 0.001, 1, "roughness: root mean square slope of the facets, times sqrt(2)")                       \
+  NUMBER(alpha, 0.1, 0.001, 1, "roughness; beckmann: sqrt(2) times the rms slope of the facets in one direction")      \
   NUMBER(distribution, 0, 0, 2, "of the facets' normals: 0 beckmann, 1 ggx, 2 phong")
 #define ROUGHCONDUCTOR_REFLECTIVITY_IS_ESTIMATE 1
 LOBE_STRUCT(Roughconductor, ROUGHCONDUCTOR)

@@ -9,7 +9,7 @@
   NUMBER(ext_ior, 1.000277, 0.1, 10, "index of refraction in front of the surface")                                    \
   COLOUR(specular_reflectance, 1, 0, 1, "factor of the reflectance")                                                   \
   COLOUR(specular_transmittance, 1, 0, 1, "factor of the transmittance")                                               \
-  NUMBER(alpha, 0.1, 0.001, 1, "roughness: root mean square slope of the facets, times sqrt(2)")                       \
+  NUMBER(alpha, 0.1, 0.001, 1, "roughness; beckmann: sqrt(2) times the rms slope of the facets in one direction")      \
   NUMBER(distribution, 0, 0, 2, "of the facets' normals: 0 beckmann, 1 ggx, 2 phong")
 #define ROUGHDIELECTRIC_TRANSMITS 1
 #define ROUGHDIELECTRIC_INDEX(m) relative_index((m).front, (m).int_ior, (m).ext_ior)

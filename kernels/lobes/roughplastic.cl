@@ -16,7 +16,7 @@
   COLOUR(diffuse_reflectance, 0.5, 0, 1, "reflectance of the base")                                                    \
   COLOUR(specular_reflectance, 1, 0, 1, "factor of the surface's reflectance")                                         \
   NUMBER(nonlinear, 0, 0, 1, "1: the light between base and surface shifts in colour")                                 \
-  NUMBER(alpha, 0.1, 0.001, 1, "roughness: root mean square slope of the facets, times sqrt(2)")                       \
+  NUMBER(alpha, 0.1, 0.001, 1, "roughness; beckmann: sqrt(2) times the rms slope of the facets in one direction")      \
   NUMBER(distribution, 0, 0, 2, "of the facets' normals: 0 beckmann, 1 ggx, 2 phong")                                  \
   NUMBER(lossy, 0, 0, 1, "1: light inside that a second facet blocks is lost, as in Mitsuba 3")
 // The table has T at ROUGHPLASTIC_INTERVALS + 1 cosines, evenly spaced from 0 to 1, from index table_row on.

@@ -46,8 +46,8 @@ static inline Vec3 disk_direction(Real u1, Real u2) {
   return vec3(centre ? (Real)(0.0f) : v.x, centre ? (Real)(0.0f) : v.y, v.z);
 }
 
-// cos(alpha) for sin^2(alpha) = -minus_sine2. Half an ulp of 1 is added, so that rounding moves no direction at the
-// edge to where the lobe is 0.
+// cos(alpha) for sin^2(alpha) = -minus_sine2. cos^2(alpha) is at least half an ulp of 1, its rounding error: rounded to
+// 0, it would give a sampled direction the density 0.
 static inline Real lobe_cosine(Real minus_sine2) { return sqrt(larger(1.0f + minus_sine2, (Real)(REAL_HALF_ULP))); }
 
 // Density (n + 1) / (2 pi) cos^n(alpha). sin^2(alpha) = -expm1(2 log(u) / (n + 1)) has a relative error of 1e-7 for

@@ -32,7 +32,6 @@ static inline Vec3 vec_cross(Vec3 a, Vec3 b) {
 static inline Vec3 vec_select(Mask m, Vec3 yes, Vec3 no) {
   return vec3(m ? yes.x : no.x, m ? yes.y : no.y, m ? yes.z : no.z);
 }
-static inline Vec3 pack_vec(Mask m, Vec3 v) { return vec3(pack_lanes(m, v.x), pack_lanes(m, v.y), pack_lanes(m, v.z)); }
 static inline Vec3 vec_normalize(Vec3 a) { return vec_scale((Real)(1.0f) / sqrt(vec_dot(a, a)), a); }
 // The angle between two unit vectors in radians, from half their distance: the cosine of a small angle is inaccurate.
 static inline Real vec_angle(Vec3 a, Vec3 b) {
@@ -58,6 +57,11 @@ static inline Vec3 broadcast_scalars(const __global Scalar* v, int stride) {
 // GATHER_REAL for a member of three words.
 #define GATHER_VEC3(table, index, member)                                                                              \
   vec3(GATHER_REAL(table, index, member[0]), GATHER_REAL(table, index, member[1]), GATHER_REAL(table, index, member[2]))
+
+// Three consecutive words of memory, from base[index] on, in every lane.
+static inline Vec3 gather_vec(const __global float* base, Int index) {
+  return vec3(gather_real(base, index), gather_real(base + 1, index), gather_real(base + 2, index));
+}
 
 static inline void scatter_vec(__global float* base, Int index, Vec3 v, Mask m) {
   scatter_real(base, index, v.x, m);

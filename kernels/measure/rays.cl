@@ -7,8 +7,8 @@
 static inline Ray ray_at(const __global float* rays, Int index, Real* distance) {
   const Int words = index * 8;
   Ray ray;
-  ray.origin = vec3(gather_real(rays, words), gather_real(rays, words + 1), gather_real(rays, words + 2));
-  ray.direction = vec3(gather_real(rays, words + 3), gather_real(rays, words + 4), gather_real(rays, words + 5));
+  ray.origin = gather_vec(rays, words);
+  ray.direction = gather_vec(rays + 3, words);
   *distance = gather_real(rays, words + 6);
   return ray;
 }

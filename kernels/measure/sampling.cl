@@ -35,8 +35,7 @@ __kernel void evaluate_directions(const __global float* materials, const __globa
   const Int element = (int)get_global_id(0) * LANES + LANE_NUMBERS;
   const Mask inside = element < count;
   const Int at = inside ? 3 * element : (Int)(0);
-  const Vec3 generated =
-      vec3(gather_real(directions, at), gather_real(directions, at + 1), gather_real(directions, at + 2));
+  const Vec3 generated = gather_vec(directions, at);
   const Vec3 known = vec3((Real)(fixed.x), (Real)(fixed.y), (Real)(fixed.z));
   const LobeValue v = material_evaluate(only_material(materials, lobe_tables), known, generated);
   scatter_real(values, element, vec_mean(v.value), inside);

@@ -2,8 +2,9 @@
 // reflectivity, rho_d + rho_s (example.py, tests/phong).
 #include "phong/load.h"
 
-// Each lane draws `samples` samples for a direction at this cosine to the normal. means[i] is the mean weight in lane i
-// of all get_global_size(0) * WIDTH lanes. table: one row, for this exponent.
+// Each work-item has LANES lanes (the macro WIDTH of the program). Each lane draws `samples` samples for a direction at
+// this cosine to the normal, and writes their mean weight to its element of means, which has LANES elements for every
+// work-item. table: the row for this exponent.
 __kernel void mean_weight(float kd, float ks, float exponent, const __global float* table, float cosine, uint2 seed,
                           int samples, __global float* means) {
   const Phong model = phong_from(vec_all((Real)(kd)), vec_all((Real)(ks)), (Real)(exponent), table, (Int)(0));

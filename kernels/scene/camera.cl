@@ -72,7 +72,7 @@ typedef struct {
 static inline ImagePoint image_point(const Scene* scene, Uint pixel, CameraSample sample) {
   const __global CameraRecord* camera = scene->camera;
   const float width = (float)camera->width, height = (float)camera->height;
-  const Int row = row_of(uint_to_int(pixel), camera->width);
+  const Int row = quotient(uint_to_int(pixel), camera->width);
   const Int column = uint_to_int(pixel) - row * camera->width;
   const Real x = (to_real(column) + sample.x) / width + camera->principal_x;
   const Real y = (to_real(row) + sample.y) / height + camera->principal_y;
@@ -114,12 +114,12 @@ typedef struct {
   Real share;   // weight of the pixel by the filter
 } FilmPoint;
 
-// For one axis: the density of the filter at the distance x from its centre, in pixels, divided by the probability that
-// the offset of camera_sample is within half a pixel of x.
+// For one axis, in pixels: the density of the filter at `distance` from its centre, divided by the probability that an
+// offset sampled from the filter (camera_sample) is within half a pixel of `distance`.
 static inline Real filter_ratio(const Scene* scene, Real distance) {
   const float size = scene->camera->filter_size;
   const Real near = distance - 0.5f, far = distance + 0.5f;
-  if (HAS_TENT_FILTER) { // beyond x: (1 - x / size)^2 / 2 for x > 0
+  if (HAS_TENT_FILTER) { // the probability of an offset above x is (1 - x / size)^2 / 2 for x > 0
     const Real inside = larger(1.0f - fabs(near) / size, (Real)(0.0f));
     const Real outside = larger(1.0f - far / size, (Real)(0.0f));
     const Real beyond_near = near < 0.0f ? 1.0f - 0.5f * inside * inside : 0.5f * inside * inside;

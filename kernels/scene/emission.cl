@@ -24,8 +24,8 @@ static inline void emit_from_surface(Emission* e, SurfacePosition from, Vec3 upw
   e->origin.position = vec_select(m, from.position, e->origin.position);
   e->origin.normal = vec_select(m, from.normal, e->origin.normal);
   e->origin.error = m ? from.error : e->origin.error;
-  e->ray.origin = vec_select(m, offset_origin(from.position, from.normal, from.error, direction), e->ray.origin);
-  e->ray.direction = vec_select(m, direction, e->ray.direction);
+  const Ray ray = {offset_origin(from.position, from.normal, from.error, direction), direction};
+  e->ray = select_ray(m, ray, e->ray);
   e->surface = e->surface | m;
 }
 
@@ -37,9 +37,8 @@ static inline void emit_from_infinity(const Scene* scene, Emission* e, Vec3 dire
   const Real disk_radius = sqrt(LIGHT_REAL(scene, e->light, area) * INV_PI);
   const Real radius = disk_radius * sqrt(u1);
   const Frame frame = frame_about(direction);
-  const Vec3 across = from_frame(frame, vec3(radius * cos_phi, radius * sin_phi, -disk_radius));
-  e->ray.origin = vec_select(m, across, e->ray.origin);
-  e->ray.direction = vec_select(m, direction, e->ray.direction);
+  const Ray ray = {from_frame(frame, vec3(radius * cos_phi, radius * sin_phi, -disk_radius)), direction};
+  e->ray = select_ray(m, ray, e->ray);
 }
 
 // Samples a light and a point of it (choice), and a direction (aim), in all lanes.
@@ -80,8 +79,8 @@ static inline Emission emission_sample(const Scene* scene, RandomWords choice, R
       const Real falloff = spot ? spot_falloff(scene, e.light, 2.0f * asin(sqrt(0.5f * drop))) : (Real)(1.0f);
       e.radiance = vec_scale(falloff, e.radiance);
     }
-    e.ray.origin = vec_select(m, LIGHT_VEC3(scene, e.light, position), e.ray.origin);
-    e.ray.direction = vec_select(m, direction, e.ray.direction);
+    const Ray ray = {LIGHT_VEC3(scene, e.light, position), direction};
+    e.ray = select_ray(m, ray, e.ray);
   }
   if (HAS_DIRECTIONAL_LIGHTS)
     emit_from_infinity(scene, &e, LIGHT_VEC3(scene, e.light, direction), u1, u2, LIGHT_IS(kind, LIGHT_DIRECTIONAL));

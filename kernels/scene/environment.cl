@@ -68,7 +68,7 @@ static inline Vec3 sample_environment(const Scene* scene, RandomWords words) {
   const Int cell = uint_to_int(mul_hi(words.x, (Uint)((uint)width * (uint)height)));
   const Mask keep = words.y < int_to_uint(GATHER_INT(scene->environment_texels, cell, threshold));
   const Int texel = keep ? cell : GATHER_INT(scene->environment_texels, cell, alias);
-  const Int row = row_of(texel, width);
+  const Int row = quotient(texel, width);
   const Int column = texel - row * width;
 
   const Real around = (to_real(column) + 0.5f + tent_offset(uniform_real(words.z))) / (float)width;

@@ -10,6 +10,11 @@ typedef struct {
   Vec3 origin, direction; // unit direction
 } Ray;
 
+static inline Ray select_ray(Mask m, Ray yes, Ray no) {
+  const Ray ray = {vec_select(m, yes.origin, no.origin), vec_select(m, yes.direction, no.direction)};
+  return ray;
+}
+
 // The closest hit so far, at distance `numerator` / `denominator`, which are divided only once, at the end.
 typedef struct {
   Real numerator, denominator; // denominator > 0

@@ -13,7 +13,7 @@
 #define SMALLEST_CHILD_PROBABILITY 0.000244140625f
 // The probability of choosing by power instead of by the tree, because lights with large bounds may be occluded.
 #define POWER_SHARE 0.25f
-// Lower bound on squared distances by which is divided.
+// Lower bound on squared distances in denominators.
 #define SMALLEST_SQUARE 1e-36f
 
 static inline Real sine_of(Real cosine) { return sqrt(larger(fma(-cosine, cosine, (Real)(1.0f)), (Real)(0.0f))); }

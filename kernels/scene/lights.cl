@@ -16,6 +16,9 @@
 
 // ---- Choosing a light
 
+// The sky, which is the last light if the scene has one.
+static inline int sky_light(const Scene* scene) { return scene->light_count - 1; }
+
 // Chooses the sky with its probability, else another light by the alias method (Walker 1974; Vose 1991). The
 // probabilities of the other lights have the same ratios in light paths and in light samples.
 static inline Int choose_light(const Scene* scene, Uint cell_word, Uint alias_word, float sky_probability) {
@@ -26,15 +29,15 @@ static inline Int choose_light(const Scene* scene, Uint cell_word, Uint alias_wo
   const Real kept = HAS_SKY ? fma(threshold, (Real)(1.0f - sky_probability), (Real)(sky_probability)) : threshold;
   const Int other = u < kept ? cell : LIGHT_INT(scene, cell, alias);
   if (!HAS_SKY) return other;
-  // By all 32 bits: the spacing of u, 2^-23, is not small compared with the probability if there are many lights.
+  // The choice of the sky uses all 32 bits of the word. u has only 23, which is too few for a small probability.
   const Mask sky =
       sky_probability < 1.0f ? (Mask)(alias_word < (Uint)((uint)(4294967296.0f * sky_probability))) : ALL_LANES;
-  return sky ? (Int)(scene->light_count - 1) : other;
+  return sky ? (Int)(sky_light(scene)) : other;
 }
 
 // Chooses a light for a light path, with the probability LightRecord.probability.
 static inline Int choose_emitting_light(const Scene* scene, Uint cell_word, Uint alias_word) {
-  return choose_light(scene, cell_word, alias_word, scene->lights[scene->light_count - 1].probability);
+  return choose_light(scene, cell_word, alias_word, scene->lights[sky_light(scene)].probability);
 }
 
 static inline Int light_kind(const Scene* scene, Int light) {
@@ -63,7 +66,7 @@ static inline Real probability_for(const Scene* scene, Vec3 lit, Vec3 normal, In
 // Chooses a light for a point with this normal: first by power; if that light is in the tree, it is replaced with the
 // probability 1 - POWER_SHARE by one that the tree chooses.
 static inline Int choose_light_for(const Scene* scene, Vec3 lit, Vec3 normal, Uint word, Uint other_word) {
-  const float sky_probability = HAS_SKY_SAMPLES ? scene->lights[scene->light_count - 1].sample_probability : 0.0f;
+  const float sky_probability = HAS_SKY_SAMPLES ? scene->lights[sky_light(scene)].sample_probability : 0.0f;
   const Int light = choose_light(scene, word, other_word, sky_probability);
   if (!HAS_LIGHT_TREE) return light;
   const Mask by_tree = uniform_real(further_word(word, other_word, (Uint)(1u))) >= POWER_SHARE;
@@ -187,14 +190,12 @@ static inline Real light_density(const Scene* scene, Vec3 lit, Int light, Real c
   return density;
 }
 
-// Sets the ray of *s to a point on the surface of a light in the lanes of m.
-static inline void keep_surface_sample(LightSample* s, Ray ray, Real distance, Real cosine, Real density, Mask m) {
-  s->ray.origin = vec_select(m, ray.origin, s->ray.origin);
-  s->ray.direction = vec_select(m, ray.direction, s->ray.direction);
+// Sets the sample in the lanes of m.
+static inline void keep_sample(LightSample* s, Ray ray, Real distance, Real density, Mask valid, Mask m) {
+  s->ray = select_ray(m, ray, s->ray);
   s->distance = m ? distance : s->distance;
   s->density = m ? density : s->density;
-  s->hittable = s->hittable | m;
-  s->valid = s->valid | (m & (cosine > 0.0f));
+  s->valid = s->valid | (m & valid);
 }
 
 static inline void sample_planar_light(const Scene* scene, LightSample* s, SurfacePosition lit, Mask m, Real u1,
@@ -204,7 +205,8 @@ static inline void sample_planar_light(const Scene* scene, LightSample* s, Surfa
   const Ray ray = ray_between(lit, place, &distance);
   const Real cosine = -vec_dot(place.normal, ray.direction);
   const Real density = s->choice * density_by_area(scene, s->light, distance, cosine);
-  keep_surface_sample(s, ray, distance, cosine, density, m);
+  keep_sample(s, ray, distance, density, cosine > 0.0f, m);
+  s->hittable = s->hittable | m;
 }
 
 // A point of a sphere: uniform in solid angle if seen from outside, else uniform over its area.
@@ -237,7 +239,8 @@ static inline void sample_sphere_light(const Scene* scene, LightSample* s, Surfa
   const Real cosine = -vec_dot(place.normal, ray.direction);
   const Real by_area = density_by_area(scene, s->light, distance, cosine);
   const Real density = in_cone ? (0.5f * INV_PI) / cone : by_area;
-  keep_surface_sample(s, ray, distance, cosine, s->choice * density, m);
+  keep_sample(s, ray, distance, s->choice * density, cosine > 0.0f, m);
+  s->hittable = s->hittable | m;
 }
 
 static inline void sample_point_light(const Scene* scene, LightSample* s, SurfacePosition lit, Int kind, Mask m) {
@@ -249,20 +252,12 @@ static inline void sample_point_light(const Scene* scene, LightSample* s, Surfac
     const Real falloff = kind == LIGHT_SPOT ? spot_falloff(scene, s->light, angle) : (Real)(1.0f);
     s->radiance = vec_select(m, vec_scale(falloff, s->radiance), s->radiance);
   }
-  s->ray.origin = vec_select(m, ray.origin, s->ray.origin);
-  s->ray.direction = vec_select(m, ray.direction, s->ray.direction);
-  s->distance = m ? distance : s->distance;
-  s->density = m ? density : s->density;
-  s->valid = s->valid | (m & (density > 0.0f));
+  keep_sample(s, ray, distance, density, density > 0.0f, m);
 }
 
 static inline void aim_to_infinity(LightSample* s, SurfacePosition lit, Vec3 direction, Real density, Mask m) {
-  const Vec3 origin = offset_origin(lit.position, lit.normal, lit.error, direction);
-  s->ray.origin = vec_select(m, origin, s->ray.origin);
-  s->ray.direction = vec_select(m, direction, s->ray.direction);
-  s->distance = m ? (Real)(INFINITY) : s->distance;
-  s->density = m ? density : s->density;
-  s->valid = s->valid | m;
+  const Ray ray = {offset_origin(lit.position, lit.normal, lit.error, direction), direction};
+  keep_sample(s, ray, (Real)(INFINITY), density, ALL_LANES, m);
 }
 
 // Density with which a constant light is sampled in a direction at this cosine to the shading normal: cos / pi, on both

@@ -55,14 +55,6 @@ typedef struct {
 #define LIGHT_VEC3(scene, index, member)                                                                               \
   vec3(LIGHT_REAL(scene, index, member[0]), LIGHT_REAL(scene, index, member[1]), LIGHT_REAL(scene, index, member[2]))
 
-// The row of entry `index` of a table that is stored row by row. The quotient of floats is off by one at most for fewer
-// than 2^22 rows, and corrected.
-static inline Int row_of(Int index, int width) {
-  const Int row = to_int(to_real(index) / (float)width);
-  const Int column = index - row * width;
-  return column < 0 ? row - 1 : (column >= width ? row + 1 : row);
-}
-
 // Word `word` of a material's record, in every lane.
 static inline Real material_real(const Scene* scene, Int index, int word) {
   return MATERIALS_IN_REGISTERS ? permute_real(scene->material_members[word], index)
@@ -71,6 +63,11 @@ static inline Real material_real(const Scene* scene, Int index, int word) {
 static inline Int material_int(const Scene* scene, Int index, int word) {
   return MATERIALS_IN_REGISTERS ? permute_int(scene->material_members[word], index)
                                 : gather_int((const __global int*)scene->materials + word, index * MATERIAL_WORDS);
+}
+
+static inline Vec3 material_vec(const Scene* scene, Int index, int word) {
+  return vec3(material_real(scene, index, word), material_real(scene, index, word + 1),
+              material_real(scene, index, word + 2));
 }
 
 // Copies the tables that are kept in registers.

@@ -61,11 +61,7 @@ static inline Vec3 interpolated_normal(const Scene* scene, Int primitive, Real u
   Vec3 sum = vec_all((Real)(0.0f));
   const Int corner[3] = {max(a, (Int)(0)), max(b, (Int)(0)), max(c, (Int)(0))};
   const Real weight[3] = {1.0f - u - v, u, v};
-  for (int i = 0; i < 3; ++i)
-    sum = vec_along(sum, weight[i],
-                    vec3(gather_real(scene->vertex_normals, corner[i] * 3),
-                         gather_real(scene->vertex_normals, corner[i] * 3 + 1),
-                         gather_real(scene->vertex_normals, corner[i] * 3 + 2)));
+  for (int i = 0; i < 3; ++i) sum = vec_along(sum, weight[i], gather_vec(scene->vertex_normals, corner[i] * 3));
   return vec_select(smooth & (vec_dot(sum, sum) > 0.0f), vec_normalize(sum), flat);
 }
 

@@ -9,10 +9,11 @@
 
 #if LANES == 1
 #define CHILDREN 2
-#define STACK_SIZE 66 // BVH_MAX_DEPTH_BINARY of the builder, plus two children
+#define STACK_SIZE (64 + CHILDREN) // max_depth_binary (host/accel/geometry.h), and the children of one node
 #else
 #define CHILDREN LANES
-#define STACK_SIZE (24 * (LANES - 1) + LANES) // BVH_MAX_DEPTH_WIDE of the builder
+// max_depth_wide (host/accel/geometry.h) times the siblings of a node, and the children of one node.
+#define STACK_SIZE (24 * (LANES - 1) + LANES)
 #endif
 
 // One ray, the same in every lane, prepared for box tests.
@@ -40,9 +41,14 @@ static inline BoxRay box_ray(const Scalar* r) {
   return b;
 }
 
+// Factor of the distances to far planes, so that rounding errors make the ray miss no box (Ize 2013; pbrt, 6.8.2). With
+// u = REAL_HALF_ULP, the relative error of (plane - origin) * (1 / direction) is at most gamma_7 = 7 u / (1 - 7 u): u
+// of the difference, u of the product, and 5 u of the quotient (2.5 ulp; OpenCL 1.2, 7.4; only u on a CPU). The factor
+// is at least (1 + gamma_7) / ((1 - gamma_7) (1 - u)) = 1 + 15 u + O(u^2); the last division is for its own product.
+#define FAR_PLANE_FACTOR (1.0f + 16.0f * REAL_HALF_ULP)
+
 // Pushes the children of a node that the ray hits before `limit`, the nearest last. Distances to far planes use
-// `far_inverse`, which is b->inverse for a single ray. The error of distances is at most 2 ulp; the far one is
-// increased by 3 ulp, so that no box is missed (Ize 2013).
+// `far_inverse`, which is b->inverse for a single ray.
 static inline int push_children(const __global float* node, const BoxRay* b, Vec3 far_inverse, Scalar limit,
                                 Scalar* nears, int* children, int top) {
   const int first = top;
@@ -55,7 +61,7 @@ static inline int push_children(const __global float* node, const BoxRay* b, Vec
     const Real far_y = (load_reals(boxes + b->far_y * CHILDREN) - b->ray.origin.y) * far_inverse.y;
     const Real far_z = (load_reals(boxes + b->far_z * CHILDREN) - b->ray.origin.z) * far_inverse.z;
     const Real enter = larger(larger(near_x, near_y), larger(near_z, (Real)(0.0f)));
-    const Real leave = smaller(smaller(far_x, far_y), far_z) * 1.0000004f;
+    const Real leave = smaller(smaller(far_x, far_y), far_z) * FAR_PLANE_FACTOR;
     const Mask met = (enter <= leave) & (enter < limit);
     top += append_lanes(met, enter, load_ints((const __global int*)boxes + NODE_CHILD * CHILDREN), nears + top,
                         children + top);

@@ -22,8 +22,10 @@ typedef struct {
 // Three scalars, in every lane.
 static inline Vec3 vec_of(const Scalar* v) { return vec3((Real)(v[0]), (Real)(v[1]), (Real)(v[2])); }
 
-// For planes in front of the origin: *fast meets near planes no later than any ray of the packet, and a ray with
-// *far_inverse meets far planes no earlier. Returns 0 if the directions differ in a sign.
+// Two rays that bound the packet in box tests. *fast has the largest component of any direction along each axis: the
+// distance at which it crosses a plane in front of the origin is at most that of any ray. *far_inverse is the inverse
+// of the smallest components, for which the distance is at least that of any ray. Returns 0 if rays of the packet may
+// differ in the sign of a component: there are then no such bounds.
 static inline int bounding_rays(const PacketBounds* packet, BoxRay* fast, Vec3* far_inverse) {
   Scalar fastest[6], slowest[6];
   int same_signs = 1;

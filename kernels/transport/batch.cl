@@ -38,9 +38,6 @@ static inline Mask take_paths(Batch* batch, Int* path, Mask idle) {
   return taken;
 }
 
-// floor(a / b) for 0 <= a < 2^22 and b > 0. With the half, rounding cannot move the quotient across a whole number.
-static inline Int quotient(Int a, int b) { return to_int((to_real(a) + 0.5f) / (float)b); }
-
 // The pixel and sample of a path of the batch.
 static inline void find_path(JobList list, const Batch* batch, Int path, RandomSequence* sequence) {
   const Int job = quotient(path, list.block_samples);

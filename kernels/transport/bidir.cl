@@ -49,7 +49,7 @@ static inline int trace_eye_subpaths(WorkItem* work, Batch batch) {
     work->rays += (uint)count_lanes(tracing);
     const Mask leaves_scene = tracing & !arrival.hits;
     if (HAS_SKY && any_lane(leaves_scene)) {
-      const FoundLight sky = hit_sky(scene, &s, work->sky_light, leaves_scene);
+      const FoundLight sky = hit_sky(scene, &s, leaves_scene);
       add_contribution(&work->output, found_by(&s, sky, 0), sky.found);
     }
     const FoundLight hit = hit_light(scene, &s, arrival.vertex.point, arrival.distance, arrival.hits);
@@ -157,8 +157,8 @@ static inline void connect(WorkItem* work, const Pair* pair, StoredVertex eye, S
   const LobeValue at_eye = material_evaluate(eye.vertex.material, eye.vertex.fixed, to_light);
   const LobeValue at_light = material_evaluate(light.vertex.material, light.vertex.fixed, to_eye);
   const Vec3 reflected = vec_mul(vec_mul(eye.throughput, at_eye.value), vec_mul(light.throughput, at_light.value));
-  Real geometry = abs_cosine(to_light.z) * adjoint_cosine(light.vertex, to_eye, light_cosine) / distance2;
-  if (HAS_TRANSMISSION) geometry *= radiance_scale(eye.vertex.material, to_light);
+  const Real geometry = abs_cosine(to_light.z) * adjoint_cosine(light.vertex, to_eye, light_cosine) / distance2 *
+                        radiance_scale(eye.vertex.material, to_light);
   const Vec3 value = vec_scale(geometry / connection_probability(pair), reflected);
   const Real light_side =
       connection_side(light.mis, at_eye.density, at_light.reverse, distance2, abs_cosine(light_cosine));
@@ -205,20 +205,15 @@ static inline void divide_scratch(WorkItem* work, __global Scalar* scratch, int 
   work->output.radiance = (__global float*)(per_path + 4 * paths);
 }
 
-__kernel void trace_bidir(SCENE_PARAMETERS, int pixel_count, int first_pixel, int job_count, int first_sample,
-                          int block_samples, uint2 seed, uint2 point_sets, int max_edges, int roulette_edges,
-                          __global uint* counters, int batch_jobs, int record_words, int record_capacity,
-                          __global float* records, __global int* record_counts, int sky_light, int rows,
-                          __global Scalar* scratch, __global float* sums) {
+__kernel void trace_bidir(SCENE_PARAMETERS, LAUNCH_PARAMETERS, int batch_jobs, int record_words, int record_capacity,
+                          __global float* records, __global int* record_counts, int rows, __global Scalar* scratch,
+                          __global float* sums) {
   SCENE_FROM_PARAMETERS
+  LAUNCH_FROM_PARAMETERS
   WorkItem work;
-  const JobList list = {pixel_count, first_pixel, job_count, first_sample, block_samples};
-  const PathLimits limits = {max_edges, roulette_edges};
-  const PointSets sets = {point_sets.x, point_sets.y};
   work.scene = &scene;
   work.list = list;
   work.limits = limits;
-  work.sky_light = sky_light;
   work.seed = seed;
   work.sets = sets;
   work.rays = 0;

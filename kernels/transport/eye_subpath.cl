@@ -79,9 +79,9 @@ static inline FoundLight hit_light(const Scene* scene, const Subpath* s, Surface
 }
 
 // The sky, for the subpaths of m whose rays left the scene.
-static inline FoundLight hit_sky(const Scene* scene, const Subpath* s, int sky_light, Mask m) {
+static inline FoundLight hit_sky(const Scene* scene, const Subpath* s, Mask m) {
   FoundLight found;
-  const __global LightRecord* sky = scene->lights + sky_light;
+  const __global LightRecord* sky = scene->lights + sky_light(scene);
   Vec3 radiance = broadcast_vec(sky->radiance);
   Real sampled = s->sky_sample_density, emitted = (Real)(0.25f * INV_PI), emission = (Real)(sky->emission_density);
   if (HAS_ENVIRONMENT_MAP) {
@@ -127,7 +127,7 @@ static inline FoundLight sampled_light(const Scene* scene, const Subpath* s, Ver
   const Vec3 scattered = vec_mul(s->throughput, lobe.value);
   FoundLight found;
   found.value = vec_scale(abs_cosine(generated.z) / light.density, vec_mul(light.radiance, scattered));
-  if (HAS_TRANSMISSION) found.value = vec_scale(radiance_scale(v.material, generated), found.value);
+  found.value = vec_scale(radiance_scale(v.material, generated), found.value);
   found.weight = weight_of_sampled_light(scene, s, light, lobe, abs_cosine(cosine));
   found.found = m;
   return found;

@@ -2,15 +2,11 @@
 // are connected to the camera.
 #include "transport/light_subpath.cl"
 
-__kernel void trace_light(SCENE_PARAMETERS, int pixel_count, int first_pixel, int job_count, int first_sample,
-                          int block_samples, uint2 seed, uint2 point_sets, int max_edges, int roulette_edges,
-                          __global uint* counters, int batch_jobs, int record_words, int record_capacity,
+__kernel void trace_light(SCENE_PARAMETERS, LAUNCH_PARAMETERS, int batch_jobs, int record_words, int record_capacity,
                           __global float* records, __global int* record_counts) {
   SCENE_FROM_PARAMETERS
+  LAUNCH_FROM_PARAMETERS
   WorkItem work;
-  const JobList list = {pixel_count, first_pixel, job_count, first_sample, block_samples};
-  const PathLimits limits = {max_edges, roulette_edges};
-  const PointSets sets = {point_sets.x, point_sets.y};
   work.scene = &scene;
   work.list = list;
   work.limits = limits;

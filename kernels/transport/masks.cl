@@ -14,9 +14,7 @@ static inline Vec3 opacity_at(const Scene* scene, SurfacePoint point, Mask m) {
   const Vec3 opaque = vec_all((Real)(1.0f));
   const Mask masked = m & ((material_int(scene, point.material, MATERIAL_FLAGS) & MATERIAL_MASKED) != 0);
   if (!any_lane(masked)) return opaque;
-  Vec3 opacity = vec3(material_real(scene, point.material, MATERIAL_OPACITY),
-                      material_real(scene, point.material, MATERIAL_OPACITY + 1),
-                      material_real(scene, point.material, MATERIAL_OPACITY + 2));
+  Vec3 opacity = material_vec(scene, point.material, MATERIAL_OPACITY);
   if (HAS_TEXTURES) opacity = textured_colour(scene, point.material, MATERIAL_OPACITY, point.uv, masked, opacity);
   return vec_select(masked, opacity, opaque);
 }

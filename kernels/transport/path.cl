@@ -1,12 +1,12 @@
-// Path tracing (CW 197, 3.3.2): a path starts at the camera and is scattered at every surface, until it leaves the
-// scene or is ended by roulette or the largest depth. CONNECT selects how light is found: by hits, by light samples, or
-// by both with weights.
+// Path tracing (Kajiya, The Rendering Equation, 1986): a path starts at the camera and is scattered at every surface,
+// until it leaves the scene or is ended by roulette or the largest depth. CONNECT selects how light is found: by hits,
+// by light samples, or by both with weights (Veach 1997, 9.2).
 #include "transport/camera_packets.cl"
 #include "transport/eye_subpath.cl"
 #include "transport/film.cl"
 
-static inline Vec3 add_found(Vec3 radiance, FoundLight light, Mask m) {
-  return vec_select(m, vec_add(radiance, vec_scale(light.weight, light.value)), radiance);
+static inline Vec3 add_found(Vec3 radiance, FoundLight light) {
+  return vec_select(light.found, vec_add(radiance, vec_scale(light.weight, light.value)), radiance);
 }
 
 // Starts the next sample of the job in the lanes of `starting`.
@@ -16,8 +16,7 @@ static inline void start_paths(const Scene* scene, Subpath* path, Vec3* radiance
   first.sequence.pixel = int_to_uint(job.pixel);
   first.sequence.sample = int_to_uint(sample_number(list, job));
   start_at_camera(scene, &first);
-  path->ray.origin = vec_select(starting, first.ray.origin, path->ray.origin);
-  path->ray.direction = vec_select(starting, first.ray.direction, path->ray.direction);
+  path->ray = select_ray(starting, first.ray, path->ray);
   path->throughput = vec_select(starting, first.throughput, path->throughput);
   // A constant where nothing refracts.
   path->unattenuated = HAS_TRANSMISSION ? (starting ? (Real)(1.0f) : path->unattenuated) : (Real)(1.0f);
@@ -36,13 +35,9 @@ static inline Vec3 ambient_variate(Vertex v, MaterialSample sample, Vec3 through
   return vec_scale((Real)(ambient), vec_mul(throughput, difference));
 }
 
-__kernel void trace_paths(SCENE_PARAMETERS, int pixel_count, int first_pixel, int job_count, int first_sample,
-                          int block_samples, uint2 seed, uint2 point_sets, int max_edges, int roulette_edges,
-                          __global uint* counters, int sky_light, float ambient, __global float* sums) {
+__kernel void trace_paths(SCENE_PARAMETERS, LAUNCH_PARAMETERS, float ambient, __global float* sums) {
   SCENE_FROM_PARAMETERS
-  const JobList list = {pixel_count, first_pixel, job_count, first_sample, block_samples};
-  const PathLimits limits = {max_edges, roulette_edges};
-  const PointSets sets = {point_sets.x, point_sets.y};
+  LAUNCH_FROM_PARAMETERS
   Job job = first_job(list);
   Subpath path = no_subpath(seed, sets);
   Vec3 radiance = vec_all((Real)(0.0f));
@@ -60,20 +55,15 @@ __kernel void trace_paths(SCENE_PARAMETERS, int pixel_count, int first_pixel, in
     const Arrival arrival = arrive(&scene, &path, hit, limits, working);
     rays += working ? (Uint)(1u) : (Uint)(0u);
     const Mask leaves_scene = working & !arrival.hits;
-    if (HAS_SKY && any_lane(leaves_scene)) {
-      const FoundLight sky = hit_sky(&scene, &path, sky_light, leaves_scene);
-      radiance = add_found(radiance, sky, sky.found);
-    }
-    const FoundLight light_hit = hit_light(&scene, &path, arrival.vertex.point, arrival.distance, arrival.hits);
-    if (HAS_AREA_LIGHTS) radiance = add_found(radiance, light_hit, light_hit.found);
+    if (HAS_SKY && any_lane(leaves_scene)) radiance = add_found(radiance, hit_sky(&scene, &path, leaves_scene));
+    radiance = add_found(radiance, hit_light(&scene, &path, arrival.vertex.point, arrival.distance, arrival.hits));
 
     if (CONNECT != CONNECT_NONE) {
       LightSample light;
       const Mask reaches = draw_light(&scene, &path, arrival.vertex, &light, arrival.scattered);
       if (any_lane(reaches)) {
         const Mask lit = reaches & !shadow_ray_blocked(&scene, light.ray, light.distance, &light.radiance, reaches);
-        if (any_lane(lit))
-          radiance = add_found(radiance, sampled_light(&scene, &path, arrival.vertex, light, lit), lit);
+        if (any_lane(lit)) radiance = add_found(radiance, sampled_light(&scene, &path, arrival.vertex, light, lit));
         shadow_rays += reaches ? (Uint)(1u) : (Uint)(0u);
       }
     }

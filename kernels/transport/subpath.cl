@@ -5,6 +5,7 @@
 #include "lobes/material.cl"
 #include "math/random.h"
 #include "scene/lights.cl"
+#include "transport/launch.h"
 #include "transport/masks.cl"
 #include "transport/mis_weights.cl"
 
@@ -37,12 +38,6 @@ typedef struct {
   Int light;         // light subpaths: where they started
   Real light_cosine; // light subpaths: of the first edge to the normal of the light; from the sky: its density
 } Subpath;
-
-// Limits of path lengths, in edges.
-typedef struct {
-  int longest;
-  int roulette; // first edge at which roulette decides
-} PathLimits;
 
 // A vertex of a subpath on a surface.
 typedef struct {
@@ -130,8 +125,8 @@ static inline Mask scatter(Subpath* s, Vertex v, int adjoint, Uint dimension, Pa
   if (HAS_SMOOTH_NORMALS && adjoint)
     s->throughput =
         vec_scale(adjoint_cosine(v, sample->direction, cosine) / abs_cosine(sample->direction.z), s->throughput);
-  const Real scale = HAS_TRANSMISSION ? radiance_scale(v.material, sample->direction) : (Real)(1.0f);
-  if (HAS_TRANSMISSION && !adjoint) {
+  const Real scale = radiance_scale(v.material, sample->direction);
+  if (!adjoint) {
     s->throughput = vec_scale(scale, s->throughput);
     s->unattenuated *= scale;
   }

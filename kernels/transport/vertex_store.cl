@@ -107,7 +107,7 @@ static inline void store_vertices(const VertexStore* store, int row, const Subpa
   stored->length += scattered ? (Int)(1) : (Int)(0);
 }
 
-// Reads a stored vertex for a connection.
+// A vertex as a connection needs it, made from its record.
 typedef struct {
   Vertex vertex;
   Vec3 throughput;

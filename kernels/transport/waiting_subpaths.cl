@@ -23,7 +23,7 @@ typedef struct {
 
 // Whether this number of idle lanes needs more subpaths than wait, and the batch has more.
 static inline int wants_subpaths(const WaitingSubpaths* waiting, const Batch* batch, int idle) {
-  return waiting->count < min(idle, LANES) && batch->next < batch->path_count;
+  return waiting->count < idle && batch->next < batch->path_count;
 }
 
 #define PUT_VECTOR(member) put_vector(waiting->words, &word, waiting->count, s->member, m);

@@ -72,6 +72,11 @@ __kernel void products(__global const Uint* a, uint factor, __global Uint* high,
   low[i] = l;
 }
 
+__kernel void quotients(__global const Int* a, int b, __global Int* q) {
+  const size_t i = get_global_id(0);
+  q[i] = quotient(a[i], b);
+}
+
 __kernel void signs(__global const Real* x, __global const Real* sign, __global Real* product, __global Real* larger_of,
                     __global Real* smaller_of) {
   const size_t i = get_global_id(0);
@@ -106,17 +111,14 @@ __kernel void masks(__global const Real* a, __global const Real* b, __global Sel
 
 __kernel void packs(__global const Int* chosen, __global const Real* real, __global const Int* whole,
                     __global const Real* old, __global int* count, __global Int* rank, __global Real* packed,
-                    __global Int* packed_int, __global Vec3* packed_vec, __global Real* unpacked,
-                    __global Int* unpacked_int) {
+                    __global Int* packed_int, __global Real* unpacked) {
   const size_t i = get_global_id(0);
   const Mask m = chosen[i] != 0;
   count[i] = count_lanes(m);
   rank[i] = rank_lanes(m);
   packed[i] = pack_lanes(m, real[i]);
   packed_int[i] = pack_int_lanes(m, whole[i]);
-  packed_vec[i] = pack_vec(m, vec3(real[i], old[i], to_real(whole[i])));
   unpacked[i] = unpack_lanes(m, real[i], old[i]);
-  unpacked_int[i] = unpack_int_lanes(m, whole[i], real_bits(old[i]));
 }
 
 __kernel void scatter_and_add(__global int* ints, __global float* sums, __global const Int* index,

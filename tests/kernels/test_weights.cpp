@@ -133,20 +133,48 @@ TEST_CASE("weights: over all techniques they sum to 1, and each is what the dens
       }
 }
 
-// Exponents of 1e6 and edges of millimetres in a scene of kilometres: ratios exceed the range of float32,
-// weights do not. (With densities of 1e12 they would, where ratios are squared.)
+// Densities and lengths from 1e-18 to 1e18: their squares and products exceed the range of float32.
 TEST_CASE("weights: extreme densities give weights from 0 to 1, and none that is not a number") {
   for (const Variant v : variants)
     for (std::size_t heuristic = 0; heuristic < 3; ++heuristic) {
       Random random(112);
       std::vector<GivenPath> paths;
-      for (std::size_t i = 0; i < thinned(1000); ++i) paths.push_back(random_path(random, 20, i % 2 == 0));
+      for (std::size_t i = 0; i < thinned(1000); ++i)
+        paths.push_back(random_path(random, random.uniform(20, 60), i % 2 == 0));
       for (std::size_t edges = 2; edges <= most_edges; ++edges) {
         CAPTURE(v, heuristics[heuristic], edges);
         int wrong = 0;
         for (const TechniqueWeights& weights : weigh(v, heuristic, paths, edges))
           for (std::size_t s = 0; s <= edges; ++s) wrong += !(weights.of[s] >= 0 && weights.of[s] <= 1);
         CHECK(wrong == 0);
+      }
+    }
+}
+
+// A lobe of exponent 1e30, the largest: the square of its density exceeds the range of float32.
+TEST_CASE("weights: a lobe that is nearly a delta distribution") {
+  for (const Variant v : variants)
+    for (std::size_t heuristic = 0; heuristic < 3; ++heuristic) {
+      Random random(113);
+      std::vector<GivenPath> paths;
+      for (std::size_t i = 0; i < thinned(1000); ++i) {
+        GivenPath path = random_path(random, 3, true);
+        const std::size_t narrow = 1 + i % 3;
+        path.forward[narrow] *= static_cast<float>(std::exp2(random.uniform(66, 97)));
+        path.backward[narrow] = path.forward[narrow] * static_cast<float>(random.uniform(0.1, 10));
+        paths.push_back(path);
+      }
+      for (std::size_t edges = 4; edges <= most_edges; ++edges) {
+        CAPTURE(v, heuristics[heuristic], edges);
+        const auto weights = weigh(v, heuristic, paths, edges);
+        double worst = 0;
+        for (std::size_t i = 0; i < paths.size(); ++i) {
+          const auto right = weights_of(paths[i], edges, heuristic);
+          for (std::size_t s = 0; s <= edges; ++s)
+            worst = std::max(worst, std::isfinite(weights[i].of[s]) ? std::abs(weights[i].of[s] - right[s])
+                                                                    : INFINITY);
+        }
+        CHECK(worst <= 1e-5);
       }
     }
 }

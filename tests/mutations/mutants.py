@@ -118,8 +118,8 @@ MUTANTS = [
 # Mistakes of light tracing and bidirectional path tracing, with the program and the test cases that must detect them.
 INTEGRATORS = ("test_images", "[mutations]")
 SMOOTH, FLAT = ("test_images", "a ball of eight*"), ("test_images", "a low gap*")
-CAMERA, EMISSION, LIGHTS, WEIGHTS, BATCHES = (
-    ("test_kernels", name + ":*") for name in ("camera", "emission", "lights", "weights", "batches"))
+CAMERA, EMISSION, LIGHTS, WEIGHTS, BATCHES, LANES = (
+    ("test_kernels", name + ":*") for name in ("camera", "emission", "lights", "weights", "batches", "lanes"))
 MIRRORS, MATERIALS = ("test_images", "mirrors: *"), ("test_kernels", "materials:*")
 MASKS = ("test_images", "masks:*")
 GLASS, GLASS_PLANE = ("test_images", "glass: balls*"), ("test_images", "glass: reflectance*")
@@ -169,8 +169,8 @@ INTEGRATOR_MUTANTS = [
     ("reverse density not the other way round (connection)", "transport/bidir.cl", "at_eye.density, at_light.reverse",
      "at_eye.density, at_light.density", FLAT),
     ("connection without 1 / distance^2", "transport/bidir.cl",
-     "adjoint_cosine(light.vertex, to_eye, light_cosine) / distance2;",
-     "adjoint_cosine(light.vertex, to_eye, light_cosine);", INTEGRATORS),
+     "adjoint_cosine(light.vertex, to_eye, light_cosine) / distance2 *",
+     "adjoint_cosine(light.vertex, to_eye, light_cosine) *", INTEGRATORS),
     ("connection without a cosine", "transport/bidir.cl",
      "abs_cosine(to_light.z) * adjoint_cosine(light.vertex",
      "adjoint_cosine(light.vertex", INTEGRATORS),
@@ -189,8 +189,8 @@ INTEGRATOR_MUTANTS = [
      "return (kind != LIGHT_POINT) & (kind != LIGHT_SPOT) & (kind != LIGHT_DIRECTIONAL);", "return kind >= 0;", FLAT),
     ("own splats counted with others'", "transport/light_subpath.cl",
      "(Mask)(pixel == uint_to_int(s->sequence.pixel))", "(Mask)(pixel >= 0)", INTEGRATORS),
-    ("missing edge in the weights", "transport/mis_weights.cl", "(q.d_vc * heuristic(reverse) + q.d_vcm)",
-     "(q.d_vc * heuristic(reverse))", WEIGHTS),
+    ("missing edge in the weights", "transport/mis_weights.cl", " + heuristic(cosine / density) * q.d_vcm);", ");",
+     WEIGHTS),
     ("missing cosine in the weights", "transport/mis_weights.cl", "heuristic(cosine / density) *",
      "heuristic(1.0f / density) *", WEIGHTS),
     ("missing distance in the weights", "transport/mis_weights.cl", "q.d_vcm * heuristic(distance2) * per_cosine",
@@ -201,17 +201,17 @@ INTEGRATOR_MUTANTS = [
      "heuristic(emission * cosine / light_sample)", "heuristic(emission / light_sample)", WEIGHTS),
     ("hit's weight without light paths", "transport/mis_weights.cl", "+ heuristic(emission) * leaving.d_vc)", ")",
      WEIGHTS),
-    ("power heuristic without a square", "transport/mis_weights.cl", "return ratio * ratio;", "return ratio;",
-     WEIGHTS),
+    ("power heuristic without a square", "transport/mis_weights.cl", "return bounded(ratio * ratio);",
+     "return bounded(ratio);", WEIGHTS),
     ("uniform heuristic counts what cannot be", "transport/mis_weights.cl",
      "return ratio > 0.0f ? (Real)(1.0f) : (Real)(0.0f);", "return (Real)(1.0f);", WEIGHTS),
     ("d_vcm kept at a delta event", "transport/mis_weights.cl", "next.d_vcm = delta ? (Real)(0.0f) : next.d_vcm;", "",
      WEIGHTS),
     ("d_vc of a delta event as of any other", "transport/mis_weights.cl",
-     "next.d_vc = delta ? smaller(heuristic(cosine * jacobian) * q.d_vc, (Real)(LARGEST_RATIO)) : next.d_vc;", "",
+     "next.d_vc = delta ? bounded(heuristic(cosine * jacobian) * q.d_vc) : next.d_vc;", "",
      WEIGHTS),
-    ("density of a delta event kept in d_vc", "transport/mis_weights.cl", "smaller(heuristic(cosine * jacobian) * q.d_vc",
-     "smaller(heuristic(cosine / density) * q.d_vc", WEIGHTS),
+    ("density of a delta event kept in d_vc", "transport/mis_weights.cl", "bounded(heuristic(cosine * jacobian) * q.d_vc",
+     "bounded(heuristic(cosine / density) * q.d_vc", WEIGHTS),
     ("delta events lost by scatter", "transport/subpath.cl", "reverse, abs_cosine(cosine), sample->delta,",
      "reverse, abs_cosine(cosine), NO_LANES,", MIRRORS),
     ("light samples alone: hits after a delta event not counted", "transport/eye_subpath.cl",
@@ -222,8 +222,7 @@ INTEGRATOR_MUTANTS = [
      "s->throughput = vec_scale(scale, s->throughput);", "", GLASS_PLANE),
     ("radiance beyond a surface scaled by the index itself", "lobes/material.cl", "1.0f / (index * index)",
      "1.0f / index", GLASS_PLANE),
-    ("power scaled as radiance", "transport/subpath.cl", "if (HAS_TRANSMISSION && !adjoint)", "if (HAS_TRANSMISSION)",
-     GLASS),
+    ("power scaled as radiance", "transport/subpath.cl", "if (!adjoint)", "if (adjoint >= 0)", GLASS),
     ("masks passed as often as not", "transport/masks.cl", "< stopping;", "< 0.5f;", MASKS),
     ("masks black to shadow rays", "transport/masks.cl", "vec_mul(transmittance, *light)", "vec_scale((Real)(0.0f), *light)",
      MASKS),
@@ -300,8 +299,10 @@ INTEGRATOR_MUTANTS = [
     ("a path taken twice", "transport/batch.cl",
      "batch->next = min(batch->next + count_lanes(idle), batch->path_count);",
      "batch->next = min(batch->next + max(count_lanes(idle) - 1, 1), batch->path_count);", BATCHES),
-    ("a quotient of floats without the half", "transport/batch.cl", "(to_real(a) + 0.5f) / (float)b",
-     "to_real(a) * (1.0f / (float)b)", BATCHES),
+    ("a quotient of floats that is too large not corrected", "lanes/types.h", "rest < 0 ? q - 1 : (rest >= b ? q + 1 : q)",
+     "rest >= b ? q + 1 : q", LANES),
+    ("a quotient of floats that is too small not corrected", "lanes/types.h", "rest < 0 ? q - 1 : (rest >= b ? q + 1 : q)",
+     "rest < 0 ? q - 1 : q", LANES),
     ("a small image ends once in a batch", "transport/batch.cl",
      "1 + quotient(max(beyond, (Int)(0)), list.pixel_count)", "(Int)(1)", BATCHES),
     ("bounds of a packet without one side", "scene/traverse_packet.cl", "+ fabs(vec_dot(v, vec_of(packet->down)))", "",
