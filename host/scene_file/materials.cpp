@@ -100,7 +100,8 @@ void check_range(Properties& properties, const Parameter& parameter, const std::
 /// measurements that are negative in a channel.
 Rgb read_index(Properties& properties, const std::string& name, const Rgb& index) {
   if (glm::compMin(index) >= 0.0) return index;
-  warn(properties.where(name), "a negative " + name + " counts as positive, as in Mitsuba");
+  properties.document().warnings->add(properties.where(name),
+                                      "a negative " + name + " counts as positive, as in Mitsuba");
   return glm::abs(index);
 }
 
@@ -148,10 +149,13 @@ void conserve_energy(Properties& properties, Material& material, ExcessEnergy ex
       colours += (colours.empty() ? "" : " + ") + properties.spelling(parameter.name);
   if (excess == ExcessEnergy::error)
     fail(where, wrong,
-         colours + " must be at most 1 in every channel (ensureEnergyConservation=true scales them down)");
+         colours + " must be at most 1 in every channel (" +
+             properties.spelling("ensure_energy_conservation") + "=true scales them down)");
   for (std::size_t i = 0; i < material.values.size(); ++i)
     if (may_be_scaled(material.model->parameters[i], excess)) scale(material, i, kept_energy / most);
-  warn(where, wrong + "; its reflectances are scaled by " + std::to_string(kept_energy / most));
+  properties.document().warnings->add(
+      where, wrong + "; its reflectances are scaled by " + std::to_string(kept_energy / most),
+      "too much energy");
 }
 
 /// The index of refraction that a conductor has unless `eta` and `k` are given: that of `material`, "none"

@@ -36,9 +36,10 @@ void warn_without_uv(const scene::Material& material, const MeshRequest& request
                                ? material.value("exponent_u") != material.value("exponent_v")
                                : material.model->needs_tangents;
   if (material.is_textured() || anisotropic)
-    warn(request.named_at,
-         "the mesh has no texture coordinates: as in Mitsuba, a texture is on each triangle by "
-         "itself, and an anisotropic lobe has arbitrary axes: add vt (obj) or u, v (ply)");
+    request.warnings->add(
+        request.named_at,
+        "the mesh has no texture coordinates: as in Mitsuba, a texture is on each triangle by "
+        "itself, and an anisotropic lobe has arbitrary axes: add vt (obj) or u, v (ply)");
 }
 
 class Loader {
@@ -57,7 +58,7 @@ public:
     }
     if (shape.request.format == "obj" && shape.request.shape_index >= static_cast<int>(file.parts.size()))
       fail(shape.request.named_at, "the file has no part " + std::to_string(shape.request.shape_index),
-           "shapeIndex from 0 to " + std::to_string(file.parts.size() - 1));
+           "a shape index from 0 to " + std::to_string(file.parts.size() - 1));
     if (--users_[key_of(shape.request)] == 0) files_.erase(key_of(shape.request));
   }
 
@@ -86,7 +87,7 @@ private:
     auto& library = libraries_[shape.request.file];
     scene_.files.push_back(folder / file.material_library);
     for (const auto& [name, material] :
-         read_obj_materials(folder / file.material_library, shape.request.named_at))
+         read_obj_materials(folder / file.material_library, shape.request.named_at, *shape.request.warnings))
       library[name] = share(scene_.materials, material);
   }
 

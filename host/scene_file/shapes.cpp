@@ -159,6 +159,7 @@ void read_mesh_shape(Properties& properties, const glm::dmat4& own, const Attach
   request.format = properties.element().type();
   request.file = properties.document().find(properties.string("filename", ""));
   request.named_at = properties.where("filename");
+  request.warnings = properties.document().warnings;
   request.to_world = own;
   request.instance = target.instance;
   request.flip_normals = properties.boolean("flip_normals", false);
@@ -210,6 +211,7 @@ void read_cylinder(Properties& properties, const glm::dmat4& own, const scene::S
   if (p0 == p1) properties.fail_at("p1", "it is the same point as p0", "another point");
   MeshRequest request;
   request.file = properties.element().where.text();
+  request.warnings = properties.document().warnings;
   request.to_world = own;
   request.instance = target.instance;
   request.flip_normals = properties.boolean("flip_normals", false);

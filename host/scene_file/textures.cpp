@@ -39,12 +39,14 @@ void find_range(TexelImage& image) {
   }
 }
 
-void decode_floats(TexelImage& image, double gamma, const Location& file) {
+void decode_floats(TexelImage& image, double gamma, const std::filesystem::path& file,
+                   const Location& named_at) {
   const auto negative = std::ranges::find_if(image.floats, [](float value) { return value < 0; });
   if (negative != image.floats.end()) {
     const auto pixel = (negative - image.floats.begin()) / 3;
-    fail(file, fmt::format("pixel ({}, {}) is negative", pixel % image.width, pixel / image.width),
-         "reflectances of 0 or more");
+    fail_in_image(file, named_at,
+                  fmt::format("pixel ({}, {}) is negative", pixel % image.width, pixel / image.width),
+                  "reflectances of 0 or more");
   }
   if (gamma == linear) return;
   for (float& value : image.floats) value = static_cast<float>(decode(static_cast<double>(value), gamma));
@@ -78,9 +80,10 @@ Texture::Wrap wrap(Properties& properties, const std::string& name, const std::s
 bool is_nearest(Properties& properties) {
   const std::string filter = properties.string("filter_type", "bilinear");
   if (filter == "ewa" || filter == "trilinear")
-    warn(properties.where("filter_type"), "'" + filter +
-                                              "' is not supported; bilinear is used, and the samples of a "
-                                              "pixel average what it covers");
+    properties.document().warnings->add(properties.where("filter_type"),
+                                        "'" + filter +
+                                            "' is not supported; bilinear is used, and the samples of a "
+                                            "pixel average what it covers");
   else if (filter != "bilinear" && filter != "nearest")
     properties.fail_at("filter_type", "'" + filter + "' is not supported", "bilinear or nearest");
   return filter == "nearest";
@@ -174,7 +177,7 @@ const TextureReader::Image& TextureReader::image(const std::filesystem::path& fi
   result.floats = std::move(read.floats);
   for (std::size_t i = 0; i < result.decoded.size(); ++i)
     result.decoded[i] = static_cast<float>(decode(static_cast<double>(i) / 255, gamma));
-  decode_floats(result, gamma, {std::make_shared<const std::string>(file.string()), 0});
+  decode_floats(result, gamma, file, named_at);
   if (decoding.channel == "y") keep_luminance(result);
   find_range(result);
   return known = std::make_shared<const TexelImage>(std::move(result));

@@ -182,7 +182,7 @@ TEST_CASE("Wrong textures are errors") {
   CHECK_THAT(error_beside(disk("<texture type=\"bitmap\" name=\"reflectance\"/>")),
              Contains("without a filename"));
   CHECK_THAT(error_beside(disk(bitmap()), {{"a.png", png().substr(0, 60)}}),
-             StartsWith("a.png: the image is cut short: the whole file"));
+             StartsWith("scene.xml:2: image file 'a.png': the image is cut short: the whole file"));
   CHECK_THAT(error_beside(disk("<texture type=\"fractal\" name=\"reflectance\"/>")),
              Contains("<texture type=\"fractal\"> is not supported: supported are bitmap and checkerboard"));
   CHECK_THAT(error_beside(disk(bitmap("<string name=\"wrapMode\" value=\"zero\"/>"))),
