@@ -63,8 +63,9 @@ scene::Scene load(const std::filesystem::path& file, const std::map<std::string,
       problems.attempt([&] { read_emitter(*emitter, document, scene); });
   MeshFiles meshes;
   std::map<const Element*, int> materials;
+  SharedMaterials shared(scene.materials);
   for (const Element* shape : properties.objects("shape"))
-    problems.attempt([&] { read_shape(*shape, document, {rules, scene, meshes, materials}); });
+    problems.attempt([&] { read_shape(*shape, document, {rules, scene, meshes, materials, shared}); });
   properties.finish();
   problems.throw_if_any();
   scene.files = document.files;

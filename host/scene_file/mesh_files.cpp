@@ -44,7 +44,8 @@ void warn_without_uv(const scene::Material& material, const MeshRequest& request
 
 class Loader {
 public:
-  Loader(const std::vector<MeshShape>& shapes, scene::Scene& scene) : scene_(scene) {
+  Loader(const std::vector<MeshShape>& shapes, scene::Scene& scene)
+      : scene_(scene), materials_(scene.materials) {
     for (const MeshShape& shape : shapes) ++users_[key_of(shape.request)];
   }
 
@@ -88,7 +89,7 @@ private:
     scene_.files.push_back(folder / file.material_library);
     for (const auto& [name, material] :
          read_obj_materials(folder / file.material_library, shape.request.named_at, *shape.request.warnings))
-      library[name] = share(scene_.materials, material);
+      library[name] = materials_.index_of(material);
   }
 
   [[nodiscard]] scene::Surface surface_of(const MeshShape& shape, const MeshPart& part) const {
@@ -119,6 +120,7 @@ private:
   }
 
   scene::Scene& scene_;
+  SharedMaterials materials_;
   std::map<Key, int> users_; ///< shapes that still have to read a file
   std::map<Key, MeshFile> files_;
   std::map<std::filesystem::path, std::map<std::string, int>> libraries_; ///< of obj files: material by name

@@ -105,7 +105,7 @@ int material_of(const Element& bsdf, const Document& document, const ShapeTarget
   if (known != target.materials.end()) return known->second;
   scene::Material material = lobes::diffuse(scene::Rgb(0.0));
   document.problems->attempt([&] { material = read_material(bsdf, document, target.rules); });
-  return target.materials[&bsdf] = share(target.scene.materials, material);
+  return target.materials[&bsdf] = target.shared.index_of(material);
 }
 
 int area_emitter_of(const Element& emitter, const Document& document, scene::Scene& scene) {
@@ -136,7 +136,7 @@ Attached attached(Properties& properties, const ShapeTarget& target) {
   }
   const Element* emitter = properties.object("emitter");
   if (!result.has_bsdf) // Mitsuba's default is grey 0.5, or black if the shape emits
-    result.surface.material = share(target.scene.materials, lobes::diffuse(scene::Rgb(emitter ? 0.0 : 0.5)));
+    result.surface.material = target.shared.index_of(lobes::diffuse(scene::Rgb(emitter ? 0.0 : 0.5)));
   if (emitter)
     document.problems->attempt([&] {
       const auto material = static_cast<std::size_t>(result.surface.material);

@@ -135,6 +135,7 @@ void read_colors(Properties& properties, Texture& texture) {
 } // namespace
 
 scene::TexturePointer TextureReader::read(const Element& element, const Document& document, bool as_number) {
+  if (element.type() == "scale") return read_scaled(element, document, as_number);
   Properties properties(element, document);
   Texture texture;
   texture.to_uv = to_uv(properties);
@@ -155,7 +156,30 @@ scene::TexturePointer TextureReader::read(const Element& element, const Document
     texture.image = image(document.find(name), {gamma, channel}, properties.where("filename"));
     properties.pass_over({"cache", "max_anisotropy", "format", "accel"});
   } else {
-    fail(element.where, element.name() + " is not supported", "supported are bitmap and checkerboard");
+    fail(element.where, element.name() + " is not supported",
+         "supported are bitmap, checkerboard, and scale around one of them");
+  }
+  properties.finish();
+  return std::make_shared<const Texture>(texture);
+}
+
+/// Mitsuba 0.6's product of a texture and a number or a colour.
+scene::TexturePointer TextureReader::read_scaled(const Element& element, const Document& document,
+                                                 bool as_number) {
+  Properties properties(element, document);
+  const Element* nested = properties.object("texture");
+  if (!nested) fail(element.where, element.name() + " around nothing", "one nested or referenced <texture>");
+  const scene::Rgb factor = properties.color("scale", scene::Rgb(1.0), HUGE_VAL);
+  if (std::min({factor.r, factor.g, factor.b}) < 0)
+    properties.fail_at("scale", "a negative factor", "0 or more in every channel");
+  Texture texture = *read(*nested, document, as_number);
+  if (!texture.image) {
+    for (scene::Rgb& color : texture.colors) color *= factor;
+  } else if (factor.r == factor.g && factor.g == factor.b) {
+    texture.scale *= factor.r;
+  } else {
+    properties.fail_at("scale", "a bitmap with a colour",
+                       "<float name=\"scale\" .../>, one factor for all channels");
   }
   properties.finish();
   return std::make_shared<const Texture>(texture);

@@ -63,8 +63,10 @@ TEST_CASE("A bsdf that several shapes refer to warns once, of one place") {
 
 TEST_CASE("Messages spell properties as the version of the file does") {
   const std::string bright = "<bsdf type=\"phong\"><rgb name=\"specular_reflectance\" value=\".6\"/></bsdf>";
-  CHECK_THAT(error_in(bright, "3.0.0"), Contains("(ensure_energy_conservation=true"));
-  CHECK_THAT(error_in(bright, "0.6.0"), Contains("(ensureEnergyConservation=true")); // either is read
+  CHECK_THAT(error_in(bright, "3.0.0"),
+             Contains("<boolean name=\"ensure_energy_conservation\" value=\"true\"/>"));
+  CHECK_THAT(error_in(bright, "0.6.0"),
+             Contains("<boolean name=\"ensureEnergyConservation\" value=\"true\"/>")); // either is read
   const auto crop = [](const std::string& version) {
     return error_of(scene_text("<sensor type=\"perspective\"><film type=\"hdrfilm\"><integer "
                                "name=\"crop_width\" value=\"9999\"/></film></sensor>",
