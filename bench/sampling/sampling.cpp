@@ -240,7 +240,11 @@ void print_left_out(const std::vector<std::string>& strategies, const std::vecto
 std::string command_of(const SamplingOptions& options) {
   std::string command = "phlux bench sampling";
   if (options.quick) command += " --quick";
-  if (options.material) command += " --lobe " + options.material->model->file + parameters_text(options);
+  if (options.material) {
+    const scene::Model& model = *options.material->model;
+    command +=
+        (model.text.empty() ? " --model " + model.name : " --lobe " + model.file) + parameters_text(options);
+  }
   for (const std::string& strategy : options.strategies) command += " --strategy " + strategy;
   for (const Case& one : options.cases) command += " --case " + case_text(one);
   for (const Light light : options.lights)

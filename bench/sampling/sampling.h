@@ -15,9 +15,11 @@
 namespace phlux::bench {
 
 struct SamplingOptions : CommonOptions {
-  std::vector<std::string> strategies; ///< empty: all
+  std::vector<std::string> strategies; ///< names and users' kernel files; empty: all that ship
   std::shared_ptr<const scene::Material>
-      material;                         ///< of another model than the Phong model, to measure instead
+      material; ///< of another model than the Phong model, to measure instead
+  std::vector<std::shared_ptr<const scene::Material>>
+      materials;                        ///< of several such models, each to be measured as `material`
   std::vector<Case> cases;              ///< empty: the grid
   std::vector<Light> lights;            ///< empty: all
   bool quick = false;                   ///< thirteen cases

@@ -56,7 +56,7 @@ def draw_heat(rows, material, exponents, angles, light, theme):
     least, most = min(costs, default=1), max(costs, default=10)
     norm = LogNorm(least, most, clip=True)
     colors = plt.get_cmap(style.SEQUENTIAL + "_r")
-    figure, panels = panels_of(3, 4, (2.3, 2.2), gap=(0.15, 0.32), right=1.0, sharex=True, sharey=True)
+    figure, panels = panels_of(-(-len(STRATEGIES) // 4), 4, (2.3, 2.2), gap=(0.15, 0.32), right=1.0, sharex=True, sharey=True)
     for axes, strategy in zip(panels.flat, STRATEGIES):
         for x, n in enumerate(exponents):
             for y, angle in enumerate(angles):
@@ -72,6 +72,8 @@ def draw_heat(rows, material, exponents, angles, light, theme):
                     axes.text(x, y, sign, ha="center", va="center", fontsize=7, color=theme.on(color))
         set_grid(axes, exponents, angles)
         axes.set_title(strategy, fontsize=9)
+    for axes in panels.flat[len(STRATEGIES):]:
+        axes.set_axis_off()
     for axes in panels[-1]:
         axes.set_xlabel("$n$")
     for axes in panels[:, 0]:

@@ -7,8 +7,9 @@ from collections import defaultdict
 
 import chart_style as style
 
-STRATEGIES = ("uniform", "theta-phi", "cosine", "disk", "rejection", "lobe-ks", "lobe-estimate-printed", "lobe-estimate",
-              "lobe-rho", "mixture", "fold", "exact")
+# In the order of tables and colours; read() appends users' own.
+STRATEGIES = ["uniform", "theta-phi", "cosine", "disk", "rejection", "lobe-ks", "lobe-estimate-printed", "lobe-estimate",
+              "lobe-rho", "mixture", "fold", "exact"]
 LIGHTS = {
     "constant": "constant light",
     "mirror-disk": "a bright disk about the mirror direction",
@@ -22,6 +23,7 @@ LARGEST_FACTOR = 1000  # factors above are shown as this
 
 def read(folder, name):
     rows = style.read(folder, name + ".ranking.csv")
+    STRATEGIES.extend(dict.fromkeys(row.strategy for row in rows if row.strategy not in STRATEGIES))
     for row in rows:
         row.material = (row.kd, row.ks)
         row.cell = (row.n, row.theta_deg)

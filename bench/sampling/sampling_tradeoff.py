@@ -119,7 +119,7 @@ def draw_panel(axes, entries, theme):
         if (x, y) == (row.cost_ns, row.relative_variance):
             axes.errorbar(x, y, INTERVAL * row.relative_variance_standard_error, INTERVAL * row.cost_standard_error,
                           color=theme.color(i), lw=1, capsize=1.5, capthick=0.8)
-        axes.plot(x, y, color=theme.color(i), marker=style.MARKERS[i], ls="none", clip_on=False, zorder=3)
+        axes.plot(x, y, color=theme.color(i), marker=style.MARKERS[i % len(style.MARKERS)], ls="none", clip_on=False, zorder=3)
         place = axes.transAxes.inverted().transform(axes.transData.transform((x, y)))
         labels.append((place[1], label_of(row, x, y), place, theme.color(i), row.verdict in WINNERS))
     labels += [(-0.1, f"{row.strategy}: {row.verdict.split()[0]}", None, theme.muted, False)

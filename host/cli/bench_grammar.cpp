@@ -22,6 +22,7 @@
 #include "cli/grammar.h"
 #include "cli/interrupt.h"
 #include "errors.h"
+#include "settings/strategies.h"
 #include "settings/values.h"
 
 namespace phlux::cli {
@@ -161,6 +162,15 @@ bench::Case case_of(const std::string& text) {
   return one;
 }
 
+bool measure_each_model(const bench::SamplingOptions& options) {
+  if (options.materials.empty()) return bench::measure_sampling(options);
+  return std::ranges::all_of(options.materials, [&](const auto& material) {
+    bench::SamplingOptions one = options;
+    one.material = material;
+    return bench::measure_sampling(one);
+  });
+}
+
 void add_sampling(CLI::App& bench, std::optional<Command>& command) {
   CLI::App& app = *bench.add_subcommand(
       "sampling", "Measures every sampling strategy of the Phong model without a scene: sampling.csv");
@@ -173,11 +183,21 @@ void add_sampling(CLI::App& bench, std::optional<Command>& command) {
               constexpr std::uint64_t most = 1'000'000'000'000;
               options->samples = settings::whole_number("--samples", text, 1, most);
             });
-  add_values(app, "--strategy", "NAME", "only this strategy; may be repeated; default: all",
-             [options](const std::string& text) {
-               options->strategies.push_back(
-                   render::strategy_names()[settings::choice("--strategy", text, render::strategy_names())]);
-             });
+  add_values(
+      app, "--strategy", "NAME|FILE.cl",
+      "only this strategy, or a kernel file with one of your own; may be repeated; default: all that ship",
+      [options](const std::string& text) {
+        const std::string strategy = settings::strategy("--strategy", text);
+        if (settings::is_strategy_file(strategy)) {
+          static_cast<void>(settings::read_strategy(strategy));
+          if (strategy.find(',') != std::string::npos)
+            throw UsageError(
+                fmt::format("--strategy {}: is written to tables with commas: give the file a name "
+                            "without one",
+                            strategy));
+        }
+        if (std::ranges::count(options->strategies, strategy) == 0) options->strategies.push_back(strategy);
+      });
   add_values(
       app, "--case", "KD,KS,N,DEGREES",
       "only this Phong material (kd, ks and exponent n) and angle of incidence; may be repeated; default: a "
@@ -200,7 +220,7 @@ void add_sampling(CLI::App& bench, std::optional<Command>& command) {
       });
   add_bench_model(app, options);
   add_seed(app, "the random numbers", options->seed);
-  measure_by(bench::measure_sampling, app, command, options);
+  measure_by(measure_each_model, app, command, options);
 }
 
 void add_arithmetic(CLI::App& bench, std::optional<Command>& command) {
@@ -264,7 +284,7 @@ void add_samplers(CLI::App& bench, std::optional<Command>& command) {
   add_rounds(
       app, *options, "scenes/*.xml",
       "largest number of samples per pixel; also measured are a quarter of it, and so on, four numbers "
-      "in all; default: 1024, or 64 with --quick");
+      "in all; default: 1024, or 256 with --quick");
   measure_by(bench::measure_samplers, app, command, options);
 }
 

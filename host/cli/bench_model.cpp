@@ -13,14 +13,17 @@
 namespace phlux::cli {
 namespace {
 
-lobes::ModelPointer own_model(const std::filesystem::path& file) {
-  lobes::Library library;
-  library.add(file);
-  const std::string name = file.stem().string();
-  if (std::ranges::count(render::strategy_names(), name) > 0)
-    throw UsageError(fmt::format(
-        "--lobe {}: a sampling strategy is called {} too: give the file another name", file.string(), name));
-  return library.find(name);
+// Users' models. @throws UsageError for one with the name of a strategy, whose row would have the same name
+std::vector<lobes::ModelPointer> own_models(const std::vector<std::filesystem::path>& files) {
+  for (const std::filesystem::path& file : files)
+    if (std::ranges::count(render::strategy_names(), file.stem().string()) > 0)
+      throw UsageError(
+          fmt::format("--lobe {}: a sampling strategy is called {} too: give the file another name",
+                      file.string(), file.stem().string()));
+  const lobes::Library library(files);
+  std::vector<lobes::ModelPointer> models;
+  for (const std::filesystem::path& file : files) models.push_back(library.find(file.stem().string()));
+  return models;
 }
 
 // Built-in models besides phong whose f_r is all that they reflect.
@@ -47,14 +50,15 @@ std::shared_ptr<const scene::Material> material_with(const lobes::ModelPointer& 
 } // namespace
 
 void add_bench_model(CLI::App& app, const std::shared_ptr<bench::SamplingOptions>& options) {
-  const auto file = std::make_shared<std::filesystem::path>();
+  const auto files = std::make_shared<std::vector<std::filesystem::path>>();
   const auto built_in = std::make_shared<std::string>();
   const auto values = std::make_shared<std::vector<std::string>>();
-  add_value(app, "--lobe", "NAME.cl",
-            "measures a reflectance model of your own instead, and for comparison sampling by the cosine and "
-            "uniformly: "
-            "sampling-NAME.csv, sampling-NAME-no-roulette.csv",
-            [file](const std::string& text) { *file = text; });
+  add_values(
+      app, "--lobe", "NAME.cl",
+      "measures a reflectance model of your own instead, and for comparison sampling by the cosine and "
+      "uniformly: "
+      "sampling-NAME.csv, sampling-NAME-no-roulette.csv; may be repeated",
+      [files](const std::string& text) { files->emplace_back(text); });
   add_value(app, "--model", "NAME",
             fmt::format("the same for a built-in model: {}", fmt::join(measurable_models(), ", ")),
             [built_in](const std::string& text) {
@@ -65,7 +69,7 @@ void add_bench_model(CLI::App& app, const std::shared_ptr<bench::SamplingOptions
              "a parameter of that model; a colour takes one number or three, R,G,B; may be repeated",
              [values](const std::string& text) { values->push_back(text); });
   app.parse_complete_callback([=] {
-    const bool own = !file->empty();
+    const bool own = !files->empty();
     if (!own && built_in->empty() && !values->empty())
       throw UsageError("--set: needs --lobe NAME.cl or --model NAME");
     if (!own && built_in->empty()) return;
@@ -73,7 +77,13 @@ void add_bench_model(CLI::App& app, const std::shared_ptr<bench::SamplingOptions
         (own && !built_in->empty()))
       throw UsageError(own ? "--lobe: excludes --strategy, --case, --integrand and --model"
                            : "--model: excludes --strategy, --case and --integrand");
-    options->material = material_with(own ? own_model(*file) : lobes::shipped(*built_in), *values);
+    if (files->size() > 1 && !values->empty())
+      throw UsageError(
+          fmt::format("--set {}: {} models are given: measure those with other parameters one by one",
+                      values->front(), files->size()));
+    const auto models = own ? own_models(*files) : std::vector{lobes::shipped(*built_in)};
+    for (const lobes::ModelPointer& model : models)
+      options->materials.push_back(material_with(model, *values));
   });
 }
 

@@ -76,6 +76,10 @@ std::optional<checkpoint::Checkpoint> resumed(RenderOptions& options) {
 void check_same(const checkpoint::Checkpoint& earlier, const checkpoint::Session& now,
                 const scene::Camera& camera, const std::filesystem::path& file) {
   with_remedy([&] { checkpoint::check_same(earlier, now, camera.width, camera.height, file); });
+  const double seconds = earlier.session.state.seconds_render;
+  if (now.settings.time_limit && seconds >= *now.settings.time_limit)
+    spdlog::warn("--time {:g}: the render in {} has taken {:.3g} s already: no samples are added",
+                 *now.settings.time_limit, file.string(), seconds);
 }
 
 Checkpoints::Checkpoints(std::filesystem::path file, const RenderOptions& options,

@@ -1,5 +1,6 @@
 #include "cli/grammar.h"
 
+#include <algorithm>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -24,6 +25,22 @@ std::string wrapped(const std::string& text) {
     lines += word;
   }
   return lines;
+}
+
+std::string only_value(const std::string& names, const std::string& joined) {
+  const std::string option = names.substr(names.rfind(',') + 1);
+  std::string first;
+  std::size_t begin = 0;
+  for (bool is_first = true; begin <= joined.size(); is_first = false) {
+    const std::size_t end = std::min(joined.find(between_values, begin), joined.size());
+    const std::string value = joined.substr(begin, end - begin);
+    if (!is_first && value != first)
+      throw UsageError(
+          fmt::format("{} {}: and {} {} is given too: give one of the two", option, value, option, first));
+    first = value;
+    begin = end + 1;
+  }
+  return first;
 }
 
 void add_file(CLI::App& app, const std::string& names, const std::string& value, const std::string& help,

@@ -19,15 +19,20 @@ inline constexpr std::size_t first_column = 30, last_column = 100;
 
 [[nodiscard]] std::string wrapped(const std::string& text);
 
-// An option with one value, which is passed to `set` as text; when repeated, the last value counts.
+constexpr char between_values = '\x1f'; // of an option that is repeated
+
+// The value of a repeated option. @throws UsageError if they are not all the same
+[[nodiscard]] std::string only_value(const std::string& names, const std::string& joined);
+
+// An option with one value, which is passed to `set` as text; it may be repeated with the same value alone.
 template<class Set>
 CLI::Option* add_value(CLI::App& app, const std::string& names, const std::string& value,
                        const std::string& help, Set set) {
   return app
       .add_option_function<std::string>(
-          names, [set](const std::string& text) { set(text); }, wrapped(help))
+          names, [set, names](const std::string& joined) { set(only_value(names, joined)); }, wrapped(help))
       ->type_name(value)
-      ->take_last();
+      ->join(between_values);
 }
 
 // An option that may be repeated, one value each time.

@@ -44,8 +44,11 @@ void add_scene_options(CLI::App& app, RenderOptions& options) {
   add_setting(app, settings::named("crop"), options);
   add_values(app, "-D", "NAME=VALUE", "replaces $NAME in the scene; may be repeated",
              [&](const std::string& text) {
-               auto [name, value] = settings::definition("-D", text);
-               options.definitions.insert_or_assign(std::move(name), std::move(value));
+               const auto [name, value] = settings::definition("-D", text);
+               const auto [known, is_new] = options.definitions.emplace(name, value);
+               if (!is_new && known->second != value)
+                 throw UsageError(fmt::format("-D {}: and -D {}={} is given too: give one of the two", text,
+                                              name, known->second));
              });
 }
 

@@ -17,13 +17,16 @@ bool is_option(const std::string& name) {
 } // namespace
 
 std::string with_options(const std::string& text) {
-  static const std::regex quoted("`([a-z-]+)`");
+  static const std::regex quoted("`([a-z-]+|D)`");
   std::string result;
   auto rest = text.begin();
   for (std::sregex_iterator match(text.begin(), text.end(), quoted), end; match != end; ++match) {
     const std::ssub_match& all = (*match)[0];
     result.append(rest, all.first);
-    result += is_option((*match)[1]) ? "--" + (*match)[1].str() : all.str();
+    if ((*match)[1] == "D")
+      result += "-D";
+    else
+      result += is_option((*match)[1]) ? "--" + (*match)[1].str() : all.str();
     rest = all.second;
   }
   return printable(result.append(rest, text.end()), true);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "device/program.h"
+#include "device/users_files.h"
 #include "errors.h"
 
 namespace phlux::device {
@@ -76,7 +77,9 @@ private:
     } catch (const DeviceError& error) {
       if (blamed_) throw;
       blamed_ = true; // the innermost #include is reported
-      throw DeviceError(fmt::format("{}:{}: {}", file, line, error.what()));
+      const std::string text = fmt::format("{}:{}: {}", file, line, error.what());
+      if (is_users_file(source_, file)) throw FileError(text);
+      throw DeviceError(text);
     }
   }
 

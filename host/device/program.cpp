@@ -19,6 +19,7 @@
 #include "clock.h"
 #include "device/binary_cache.h"
 #include "device/driver_cache.h"
+#include "device/users_files.h"
 #include "errors.h"
 
 namespace phlux::device {
@@ -99,8 +100,16 @@ std::string build_log(const cl::Program& program, const cl::Device& device) {
 
 // The compiler refuses the text; other DeviceErrors of a build are failures that say nothing about it.
 struct Refused : DeviceError {
-  using DeviceError::DeviceError;
+  Refused(const std::string& line, std::string of) : DeviceError(line), file(std::move(of)) {}
+  std::string file; // of the first error; empty if it is not known
 };
+
+// Of "FILE:LINE: message".
+std::size_t file_length(const std::string& error) {
+  static const std::regex place(R"(:\d+: )");
+  std::smatch found;
+  return std::regex_search(error, found, place) ? static_cast<std::size_t>(found.position()) : 0;
+}
 
 cl::Program build_text(const Device& device, const std::string& name, const std::string& text) {
   cl::Program program;
@@ -116,7 +125,7 @@ cl::Program build_text(const Device& device, const std::string& name, const std:
         first.empty()
             ? fmt::format("{}: kernels do not build on {}: {}", name, device.info.name, describe(error))
             : fmt::format("{} (building kernels on {})", first, device.info.name);
-    if (error.err() == CL_BUILD_PROGRAM_FAILURE) throw Refused(line);
+    if (error.err() == CL_BUILD_PROGRAM_FAILURE) throw Refused(line, first.substr(0, file_length(first)));
     throw DeviceError(line);
   }
 }
@@ -274,9 +283,14 @@ BuiltProgram build(const Device& device, const sources::KernelFiles& files, cons
                    const std::function<void()>& slow) {
   const Clock::time_point start = Clock::now();
   const Watcher watcher(slow);
-  BuiltProgram built = build_either(device, files, source, source.root.empty() ? "extra" : source.root);
-  built.seconds = seconds_since(start);
-  return built;
+  try {
+    BuiltProgram built = build_either(device, files, source, source.root.empty() ? "extra" : source.root);
+    built.seconds = seconds_since(start);
+    return built;
+  } catch (const Refused& refusal) {
+    if (is_users_file(source, refusal.file)) throw FileError(refusal.what());
+    throw;
+  }
 }
 
 } // namespace phlux::device

@@ -14,7 +14,7 @@ namespace phlux::device {
 
 struct ProgramSource {
   std::string root;                           ///< the kernel file to build, e.g. "path.cl"
-  std::map<std::string, std::string> defines; ///< macro -> value; becomes text at the top, not -D options
+  std::map<std::string, std::string> defines; ///< macro -> value; becomes text at the top, not options
 
   std::map<std::string, std::string> files; ///< name -> text of generated and users' files
   std::string extra; ///< text after `root`, such as a test's kernels; may include files

@@ -1,10 +1,12 @@
 #include "lobes/program.h"
 
 #include <algorithm>
+#include <unordered_map>
 
 #include <fmt/format.h>
 
 #include "lobes/shipped.h"
+#include "scene/hash.h"
 #include "scene/scene_data.h"
 
 namespace phlux::lobes {
@@ -80,13 +82,17 @@ private:
 
   int number(const scene::TexturePointer& texture) {
     auto& list = table_.textures;
-    const auto same = [&](const scene::TexturePointer& each) { return *each == *texture; };
-    const auto found = std::ranges::find_if(list, same) - list.begin();
-    if (found == std::ssize(list)) list.push_back(texture);
-    return static_cast<int>(found);
+    const std::size_t hash = scene::hash_of(*texture);
+    const auto [first, last] = numbers_.equal_range(hash);
+    for (auto each = first; each != last; ++each)
+      if (*list[static_cast<std::size_t>(each->second)] == *texture) return each->second;
+    numbers_.emplace(hash, static_cast<int>(list.size()));
+    list.push_back(texture);
+    return static_cast<int>(list.size()) - 1;
   }
 
   MaterialTable& table_;
+  std::unordered_multimap<std::size_t, int> numbers_; ///< by hash
 };
 
 } // namespace

@@ -127,7 +127,7 @@ private:
 
   // Warnings that depend on the scene's tables.
   void warn(const Parts& parts) const {
-    if (!host_->lights.shines())
+    if (scene::has_lights(scene_) && !host_->lights.shines()) // reading a scene without lights has warned
       events_.warning("no light of the scene has any power: the image will be black");
     for (const char* name : {"uniform", "theta-phi", "disk", "rejection"})
       if (settings_.strategy == name && !parts.has_model("phong"))

@@ -164,6 +164,12 @@ struct Scene {
                      [](const Material& m) { return needs_uv(m); });
 }
 
+/// Whether anything emits, be it with a power of zero.
+[[nodiscard]] inline bool has_lights(const Scene& scene) {
+  return !scene.area_emitters.empty() || !scene.point_lights.empty() || !scene.spot_lights.empty() ||
+         !scene.directional_lights.empty() || scene.constant_radiance || scene.environment;
+}
+
 /// Whether some surfaces scatter by delta distributions: mirrors and smooth glass.
 [[nodiscard]] inline bool has_delta(const Scene& scene) {
   return std::any_of(scene.materials.begin(), scene.materials.end(),

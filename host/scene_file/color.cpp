@@ -139,8 +139,8 @@ private:
   [[nodiscard]] Rgb in_gamut(const Rgb& color) const {
     const Rgb clamped = glm::clamp(color, 0.0, most_);
     if (glm::compMax(glm::abs(clamped - color)) > 0.01 * glm::compMax(glm::abs(color)))
-      warn(property_.where,
-           "the colour of '" + property_["name"] + "' is outside the gamut of sRGB: clamped");
+      document_.warnings->add(property_.where, "the colour of '" + property_["name"] +
+                                                   "' is outside the gamut of sRGB: clamped");
     return clamped;
   }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "scene_file/problems.h"
+#include "scene_file/warnings.h"
 
 namespace phlux::scene_file {
 
@@ -40,6 +41,8 @@ struct Document {
       folders; ///< in which other files are sought in this order, the scene's own last
   /// What has been found wrong so far; also readers to whom the document is const add to it.
   const std::unique_ptr<Problems> problems = std::make_unique<Problems>();
+  /// Shared with the requests of mesh files, which are read later.
+  const std::shared_ptr<Warnings> warnings = std::make_shared<Warnings>();
 
   /// The object that a <ref> refers to; any other element, and a <ref> to nothing, itself.
   [[nodiscard]] const Element& resolve(const Element& element) const;

@@ -18,6 +18,7 @@ using Attributes = std::set<std::string>;
 
 constexpr int deepest = 32;                 ///< levels of nesting; a valid scene has at most 8
 constexpr std::size_t most_includes = 1000; ///< of all files, since a file may be included repeatedly
+constexpr std::size_t most_folders = 1000;  ///< by <path>: every file is sought in each of them
 
 const Attributes& object_tags() {
   static const Attributes names{"sensor",  "film",   "rfilter", "sampler", "integrator", "bsdf",      "shape",
@@ -208,7 +209,14 @@ private:
     std::error_code ignored;
     if (!std::filesystem::is_directory(folder, ignored))
       fail(statement.where, "<path>: '" + statement["value"] + "' is no folder", "an existing folder");
-    document_.folders.insert(document_.folders.begin(), folder);
+    std::vector<std::filesystem::path>& folders = document_.folders;
+    if (folders.front() == folder) return;
+    const auto own = folders.end() - 1; // remains the last
+    folders.erase(std::remove(folders.begin(), own, folder), own);
+    if (folders.size() > most_folders)
+      fail(statement.where, "more than " + std::to_string(most_folders) + " folders by <path>",
+           "fewer folders");
+    folders.insert(folders.begin(), folder);
   }
 
   void add_attribute(Element& element, const Attributes& known, const std::string& name,

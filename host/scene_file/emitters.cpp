@@ -32,7 +32,8 @@ Rgb emission(Properties& properties, const std::string& name) {
 /// Whether the emitter is not black; warns if it is.
 bool emits(const Properties& properties, const Rgb& color) {
   if (color != Rgb(0.0)) return true;
-  warn(properties.element().where, properties.element().name() + " emits nothing and is left out");
+  properties.document().warnings->add(properties.element().where,
+                                      properties.element().name() + " emits nothing and is left out");
   return false;
 }
 

@@ -27,13 +27,15 @@ void set_texels(ImageFile image, scene::EnvironmentMap& map) {
     map.texels.emplace_back(image.floats[i], image.floats[i + 1], image.floats[i + 2]);
 }
 
-void check_positive(const Location& file, const scene::EnvironmentMap& map) {
+void check_positive(const std::filesystem::path& file, const Location& named_at,
+                    const scene::EnvironmentMap& map) {
   const auto negative =
       std::ranges::find_if(map.texels, [](const glm::vec3& texel) { return glm::compMin(texel) < 0; });
   if (negative == map.texels.end()) return;
   const auto pixel = negative - map.texels.begin();
-  fail(file, fmt::format("pixel ({}, {}) is negative", pixel % map.width, pixel / map.width),
-       "radiance is 0 or more: clamp the image at 0");
+  fail_in_image(file, named_at,
+                fmt::format("pixel ({}, {}) is negative", pixel % map.width, pixel / map.width),
+                "radiance is 0 or more: clamp the image at 0");
 }
 
 } // namespace
@@ -50,7 +52,7 @@ scene::EnvironmentMap read_environment_map(Properties& properties) {
     properties.fail_at("gamma", "only sRGB is decoded", "leave it out, or use an HDR or OpenEXR image");
   properties.pass_over({"gamma", "cache", "mis_compensation"});
   set_texels(std::move(image), map);
-  check_positive({std::make_shared<const std::string>(file.string()), 0}, map);
+  check_positive(file, properties.where("filename"), map);
 
   map.scale = scene::Rgb(properties.real("scale", 1.0));
   if (map.scale.r < 0.0) properties.fail_at("scale", "negative emission", "0 or more");

@@ -238,6 +238,11 @@ ImageFile read_exr(const std::filesystem::path& file, const Location& where, std
 
 } // namespace
 
+void fail_in_image(const std::filesystem::path& file, const Location& named_at, const std::string& wrong,
+                   const std::string& right) {
+  fail(named_at, "image file '" + file.string() + "': " + wrong, right);
+}
+
 ImageFile read_image(const std::filesystem::path& file, const Location& named_at, ImageChannels channels) {
   const bool alpha = channels == ImageChannels::alpha;
   const Location where{std::make_shared<const std::string>(file.string()), 0};
@@ -245,8 +250,12 @@ ImageFile read_image(const std::filesystem::path& file, const Location& named_at
   if (!source.readable())
     fail(named_at, "image file '" + file.string() + "' cannot be read",
          "an existing file, named relative to the scene's folder");
-  if (source.bytes(0, 4) == "\x76\x2f\x31\x01") return read_exr(file, where, source.size(), alpha);
-  return read_by_stb(where, source, alpha);
+  try {
+    if (source.bytes(0, 4) == "\x76\x2f\x31\x01") return read_exr(file, where, source.size(), alpha);
+    return read_by_stb(where, source, alpha);
+  } catch (const LocatedError& error) {
+    fail_in_image(file, named_at, error.wrong, error.right);
+  }
 }
 
 } // namespace phlux::scene_file

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "scene_file/location.h"
@@ -26,9 +27,13 @@ inline constexpr std::uint64_t most_image_pixels = std::uint64_t{1} << 28;
 /// Reads PNG, JPEG, BMP and TGA (8 or 16 bits a channel), HDR (RGBE) and OpenEXR (channels R, G, B or Y).
 /// Grey becomes three equal channels. The size that the file claims is checked before
 /// memory is allocated.
-/// @throws SceneError at `named_at` if the file cannot be read; "FILE: ..." if it is damaged, cut short, too
-/// large, of another format, without the channels, or has a pixel that is not finite
+/// @throws SceneError at `named_at` if the file cannot be read, is damaged, cut short, too large, of another
+/// format, without the channels, or has a pixel that is not finite
 [[nodiscard]] ImageFile read_image(const std::filesystem::path& file, const Location& named_at,
                                    ImageChannels channels = ImageChannels::colors);
+
+/// @throws SceneError at `named_at`, with the name of the image
+[[noreturn]] void fail_in_image(const std::filesystem::path& file, const Location& named_at,
+                                const std::string& wrong, const std::string& right);
 
 } // namespace phlux::scene_file

@@ -16,10 +16,9 @@ namespace {
 void warn_of_darkness(const Document& document, const scene::Scene& scene) {
   const Location file{document.scene.where.file, 0};
   if (scene.patches.empty() && scene.spheres.empty() && scene.meshes.empty())
-    warn(file, "empty scene: it has no shapes");
-  if (scene.area_emitters.empty() && scene.point_lights.empty() && scene.spot_lights.empty() &&
-      scene.directional_lights.empty() && !scene.constant_radiance && !scene.environment)
-    warn(file, "no light: nothing in the scene emits, and the image will be black");
+    document.warnings->add(file, "empty scene: it has no shapes");
+  if (!scene::has_lights(scene))
+    document.warnings->add(file, "no light: nothing in the scene emits, and the image will be black");
 }
 
 const Element& sensor_of(Properties& scene) {
@@ -64,14 +63,16 @@ scene::Scene load(const std::filesystem::path& file, const std::map<std::string,
       problems.attempt([&] { read_emitter(*emitter, document, scene); });
   MeshFiles meshes;
   std::map<const Element*, int> materials;
+  SharedMaterials shared(scene.materials);
   for (const Element* shape : properties.objects("shape"))
-    problems.attempt([&] { read_shape(*shape, document, {rules, scene, meshes, materials}); });
+    problems.attempt([&] { read_shape(*shape, document, {rules, scene, meshes, materials, shared}); });
   properties.finish();
   problems.throw_if_any();
   scene.files = document.files;
   meshes.load(scene, problems); // which adds their own files
   problems.throw_if_any();
   warn_of_darkness(document, scene);
+  document.warnings->log();
   return scene;
 }
 

@@ -8,6 +8,7 @@
 
 #include "lobes/assignment.h"
 #include "lobes/facets.h"
+#include "scene/hash.h"
 #include "scene_file/named_media.h"
 #include "scene_file/properties.h"
 
@@ -100,7 +101,8 @@ void check_range(Properties& properties, const Parameter& parameter, const std::
 /// measurements that are negative in a channel.
 Rgb read_index(Properties& properties, const std::string& name, const Rgb& index) {
   if (glm::compMin(index) >= 0.0) return index;
-  warn(properties.where(name), "a negative " + name + " counts as positive, as in Mitsuba");
+  properties.document().warnings->add(properties.where(name),
+                                      "a negative " + name + " counts as positive, as in Mitsuba");
   return glm::abs(index);
 }
 
@@ -148,10 +150,14 @@ void conserve_energy(Properties& properties, Material& material, ExcessEnergy ex
       colours += (colours.empty() ? "" : " + ") + properties.spelling(parameter.name);
   if (excess == ExcessEnergy::error)
     fail(where, wrong,
-         colours + " must be at most 1 in every channel (ensureEnergyConservation=true scales them down)");
+         colours + " must be at most 1 in every channel, or <boolean name=\"" +
+             properties.spelling("ensure_energy_conservation") +
+             "\" value=\"true\"/> in the bsdf or the scene scales them down, as Mitsuba 0.6 does by default");
   for (std::size_t i = 0; i < material.values.size(); ++i)
     if (may_be_scaled(material.model->parameters[i], excess)) scale(material, i, kept_energy / most);
-  warn(where, wrong + "; its reflectances are scaled by " + std::to_string(kept_energy / most));
+  properties.document().warnings->add(
+      where, wrong + "; its reflectances are scaled by " + std::to_string(kept_energy / most),
+      "too much energy");
 }
 
 /// The index of refraction that a conductor has unless `eta` and `k` are given: that of `material`, "none"
@@ -268,11 +274,20 @@ scene::Material read_material(const Element& bsdf, const Document& document, Mat
   return lobes::simplest(material);
 }
 
-int share(std::vector<scene::Material>& materials, const scene::Material& material) {
-  const auto found = std::ranges::find(materials, material);
-  const auto index = found - materials.begin();
-  if (found == materials.end()) materials.push_back(material);
-  return static_cast<int>(index);
+SharedMaterials::SharedMaterials(std::vector<scene::Material>& materials) : materials_(materials) {
+  for (std::size_t i = 0; i < materials.size(); ++i)
+    indices_.emplace(scene::hash_of(materials[i]), static_cast<int>(i));
+}
+
+int SharedMaterials::index_of(const scene::Material& material) {
+  const std::size_t hash = scene::hash_of(material);
+  const auto [first, last] = indices_.equal_range(hash);
+  for (auto each = first; each != last; ++each)
+    if (materials_[static_cast<std::size_t>(each->second)] == material) return each->second;
+  const int index = static_cast<int>(materials_.size());
+  materials_.push_back(material);
+  indices_.emplace(hash, index);
+  return index;
 }
 
 } // namespace phlux::scene_file

@@ -1,6 +1,8 @@
 // <bsdf>: the reflectance models of the library, and twosided around one of them.
 #pragma once
 
+#include <cstddef>
+#include <unordered_map>
 #include <vector>
 
 #include "lobes/models.h"
@@ -24,7 +26,17 @@ struct MaterialRules {
 [[nodiscard]] scene::Material read_material(const Element& bsdf, const Document& document,
                                             MaterialRules rules);
 
-/// The index of `material` in `materials`, to which it is added unless it has an equal one.
-[[nodiscard]] int share(std::vector<scene::Material>& materials, const scene::Material& material);
+/// A list of materials, to which one is added unless the list has an equal one.
+class SharedMaterials {
+public:
+  /// @param materials grows by index_of() alone from now on
+  explicit SharedMaterials(std::vector<scene::Material>& materials);
+  /// The index of a material that is equal to this one.
+  [[nodiscard]] int index_of(const scene::Material& material);
+
+private:
+  std::vector<scene::Material>& materials_;
+  std::unordered_multimap<std::size_t, int> indices_; ///< by hash
+};
 
 } // namespace phlux::scene_file

@@ -43,7 +43,8 @@ void transform_positions(Mesh& mesh, const glm::dmat4& to_world, const Location&
   for (Vec3& p : mesh.positions) {
     p = Vec3(to_world * glm::dvec4(p, 1.0));
     if (!representable(p))
-      fail(file, "a vertex is outside the range of single precision", "a smaller mesh or toWorld");
+      fail(file, "a vertex is outside the range of single precision",
+           "a smaller mesh, or a transform to the world that scales it less");
   }
 }
 
@@ -143,8 +144,7 @@ scene::Mesh finish_mesh(MeshPart part, const MeshRequest& request) {
   if (no_normals) mesh.normals.clear();
   transform(mesh, request.to_world, file);
   auto flat = remove_flat(mesh);
-  if (part.incomplete > 0)
-    warn(file, std::to_string(part.incomplete) + " faces with fewer than three corners are dropped");
+  request.warnings->add_number(file, part.incomplete, "faces with fewer than three corners are dropped");
   if (!mesh.normals.empty()) orient_by_normals(mesh);
   if (!no_normals) compute_missing_normals(mesh);
   if (request.flip_normals) flip(mesh);
@@ -152,7 +152,7 @@ scene::Mesh finish_mesh(MeshPart part, const MeshRequest& request) {
     transform_instance(mesh, *request.instance, file);
     flat += remove_flat(mesh);
   }
-  if (flat > 0) warn(file, std::to_string(flat) + " zero-area triangles are dropped");
+  request.warnings->add_number(file, flat, "zero-area triangles are dropped");
   return std::move(mesh);
 }
 

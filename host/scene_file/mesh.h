@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 
 #include "scene/scene.h"
 #include "scene_file/location.h"
+#include "scene_file/warnings.h"
 
 namespace phlux::scene_file {
 
@@ -38,6 +40,7 @@ struct MeshRequest {
   /// obj: groups and materials share no vertices, so that computed normals are not smooth across their
   /// borders.
   bool separate_groups = false;
+  std::shared_ptr<Warnings> warnings = std::make_shared<Warnings>(); ///< of the scene
 };
 
 /// A mesh of a file, in object space, with zero for missing normals.

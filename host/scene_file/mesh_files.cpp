@@ -36,14 +36,16 @@ void warn_without_uv(const scene::Material& material, const MeshRequest& request
                                ? material.value("exponent_u") != material.value("exponent_v")
                                : material.model->needs_tangents;
   if (material.is_textured() || anisotropic)
-    warn(request.named_at,
-         "the mesh has no texture coordinates: as in Mitsuba, a texture is on each triangle by "
-         "itself, and an anisotropic lobe has arbitrary axes: add vt (obj) or u, v (ply)");
+    request.warnings->add(
+        request.named_at,
+        "the mesh has no texture coordinates: as in Mitsuba, a texture is on each triangle by "
+        "itself, and an anisotropic lobe has arbitrary axes: add vt (obj) or u, v (ply)");
 }
 
 class Loader {
 public:
-  Loader(const std::vector<MeshShape>& shapes, scene::Scene& scene) : scene_(scene) {
+  Loader(const std::vector<MeshShape>& shapes, scene::Scene& scene)
+      : scene_(scene), materials_(scene.materials) {
     for (const MeshShape& shape : shapes) ++users_[key_of(shape.request)];
   }
 
@@ -57,7 +59,7 @@ public:
     }
     if (shape.request.format == "obj" && shape.request.shape_index >= static_cast<int>(file.parts.size()))
       fail(shape.request.named_at, "the file has no part " + std::to_string(shape.request.shape_index),
-           "shapeIndex from 0 to " + std::to_string(file.parts.size() - 1));
+           "a shape index from 0 to " + std::to_string(file.parts.size() - 1));
     if (--users_[key_of(shape.request)] == 0) files_.erase(key_of(shape.request));
   }
 
@@ -86,8 +88,8 @@ private:
     auto& library = libraries_[shape.request.file];
     scene_.files.push_back(folder / file.material_library);
     for (const auto& [name, material] :
-         read_obj_materials(folder / file.material_library, shape.request.named_at))
-      library[name] = share(scene_.materials, material);
+         read_obj_materials(folder / file.material_library, shape.request.named_at, *shape.request.warnings))
+      library[name] = materials_.index_of(material);
   }
 
   [[nodiscard]] scene::Surface surface_of(const MeshShape& shape, const MeshPart& part) const {
@@ -118,6 +120,7 @@ private:
   }
 
   scene::Scene& scene_;
+  SharedMaterials materials_;
   std::map<Key, int> users_; ///< shapes that still have to read a file
   std::map<Key, MeshFile> files_;
   std::map<std::filesystem::path, std::map<std::string, int>> libraries_; ///< of obj files: material by name

@@ -48,8 +48,10 @@ public:
       continued_lines_ = 0;
     }
     if (unknown_lines_ > 0)
-      warn(first_unknown_, quoted(unknown_keyword_) + " is no line of a polygon mesh: " +
-                               std::to_string(unknown_lines_) + " such lines are passed over");
+      request_.warnings->add(first_unknown_,
+                             quoted(unknown_keyword_) + " is no line of a polygon mesh: " +
+                                 std::to_string(unknown_lines_) + " such lines are passed over",
+                             "unknown lines of obj files");
     if (!part_.mesh.triangles.empty() || part_.incomplete > 0 || file_.parts.empty()) keep_part();
     return std::move(file_);
   }

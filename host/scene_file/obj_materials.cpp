@@ -56,10 +56,12 @@ double number(const std::vector<std::string_view>& words, const Location& where)
 } // namespace
 
 std::map<std::string, scene::Material> read_obj_materials(const std::filesystem::path& file,
-                                                          const Location& named_at) {
+                                                          const Location& named_at, Warnings& warnings) {
   std::map<std::string, Entry> entries;
   auto bytes = bytes_of(file);
-  if (!bytes) warn(named_at, "material library '" + file.string() + "' cannot be read; diffuse 0.5 is used");
+  if (!bytes)
+    warnings.add(named_at, "material library '" + file.string() + "' cannot be read; diffuse 0.5 is used",
+                 "unreadable material library");
   std::istringstream stream(bytes.value_or(""));
   Location where{std::make_shared<const std::string>(file.string()), 1};
   Entry* entry = nullptr;
@@ -78,7 +80,7 @@ std::map<std::string, scene::Material> read_obj_materials(const std::filesystem:
     if (keyword == "illum") entry->illumination = static_cast<int>(number(words, where));
     if (keyword.starts_with("map_") || keyword == "bump" || (keyword == "d" && number(words, where) < 1.0) ||
         (keyword == "illum" && entry->illumination > 2))
-      warn(where, std::string(keyword) + " of a material library is not supported and not used");
+      warnings.add(where, std::string(keyword) + " of a material library is not supported and not used");
   }
   std::map<std::string, scene::Material> materials;
   for (const auto& [name, found] : entries) materials.emplace(name, material_of(found));

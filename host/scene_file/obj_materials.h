@@ -6,7 +6,7 @@
 #include <string>
 
 #include "scene/scene.h"
-#include "scene_file/location.h"
+#include "scene_file/warnings.h"
 
 namespace phlux::scene_file {
 
@@ -14,7 +14,7 @@ namespace phlux::scene_file {
 /// for illum 2, a diffuse otherwise. Maps and other models of illumination are replaced by the diffuse, with
 /// a warning. A file that cannot be read gives none, with a warning.
 /// @throws SceneError "FILE:LINE: ..." for numbers that cannot be read
-[[nodiscard]] std::map<std::string, scene::Material> read_obj_materials(const std::filesystem::path& file,
-                                                                        const Location& named_at);
+[[nodiscard]] std::map<std::string, scene::Material>
+read_obj_materials(const std::filesystem::path& file, const Location& named_at, Warnings& warnings);
 
 } // namespace phlux::scene_file

@@ -52,7 +52,7 @@ std::string Parameters::substitute(const std::string& text, const Location& wher
     any_unknown_ |= longest == nullptr;
     if (!longest)
       fail(where, "unknown parameter in '" + text + "'",
-           "parameters are given by -D name=value or by an earlier <default>; known here: " +
+           "parameters are given by `D` NAME=VALUE or by an earlier <default>; known here: " +
                names_of(values_));
     if (result.size() + longest->second.size() > longest_text)
       fail(where, "'" + text + "' is longer than " + std::to_string(longest_text) + " characters",
@@ -73,7 +73,7 @@ void Parameters::check_all_used(const Location& file) const {
     if (!used_.contains(name)) known.erase(name);
   for (const auto& [name, value] : defined_)
     if (!used_.contains(name))
-      fail(file, "-D " + name + "=" + value + " is used nowhere in the scene",
+      fail(file, "`D` " + name + "=" + value + " is used nowhere in the scene",
            "its parameters are " + names_of(known));
 }
 

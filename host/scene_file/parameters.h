@@ -1,4 +1,4 @@
-// Substitution of `$name` in a scene file: by -D name=value, else <default name="..." value="..."/>.
+// Substitution of `$name` in a scene file: by a definition, else <default name="..." value="..."/>.
 #pragma once
 
 #include <functional>
@@ -20,7 +20,7 @@ public:
   explicit Parameters(const std::map<std::string, std::string>& definitions)
       : values_(definitions.begin(), definitions.end()), defined_(definitions) {}
 
-  /// Sets the value of a <default>, unless -D or an earlier <default> has set it.
+  /// Sets the value of a <default>, unless a definition or an earlier <default> has set it.
   /// @throws SceneError if its name is too long
   void set_default(const std::string& name, const std::string& value, const Location& where);
 
@@ -31,7 +31,7 @@ public:
   /// Whether substitute() has thrown.
   [[nodiscard]] bool any_unknown() const { return any_unknown_; }
 
-  /// @throws SceneError if a -D was never used, as when its name is misspelt
+  /// @throws SceneError if a definition was never used, as when its name is misspelt
   void check_all_used(const Location& file) const;
 
 private:
@@ -39,7 +39,7 @@ private:
   [[nodiscard]] const Values::value_type* longest_match(std::string_view text) const;
 
   Values values_;
-  std::map<std::string, std::string> defined_; ///< from -D alone
+  std::map<std::string, std::string> defined_; ///< from definitions alone
   std::set<std::string> used_;
   std::size_t substituted_ = 0; ///< characters
   bool any_unknown_ = false;

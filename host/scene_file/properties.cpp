@@ -43,7 +43,8 @@ Properties::Properties(const Element& object, const Document& document)
 }
 
 bool Properties::is_property(const Element& child) const {
-  return is_value(child) || (object_.tag != "scene" && document_.resolve(child).tag == "texture");
+  return is_value(child) ||
+         (object_.tag != "scene" && object_.tag != "texture" && document_.resolve(child).tag == "texture");
 }
 
 const Element* Properties::find(const std::string& name, std::initializer_list<const char*> tags) {

@@ -68,7 +68,8 @@ public:
 private:
   void check_known(const Element& property) const;
   void check_allowed(const Element& nested) const;
-  /// Whether a child is a property: by its tag, or as a texture, which only a scene has by itself.
+  /// Whether a child is a property: by its tag, or as a texture, which only scenes and other textures have by
+  /// itself.
   [[nodiscard]] bool is_property(const Element& child) const;
   const Element* find(const std::string& name, std::initializer_list<const char*> tags);
 

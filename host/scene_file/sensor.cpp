@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
@@ -15,6 +16,7 @@
 #include "scene_file/properties.h"
 #include "scene_file/transform.h"
 #include "scene_file/values.h"
+#include "settings/values.h"
 
 namespace phlux::scene_file {
 
@@ -22,7 +24,6 @@ namespace {
 
 using scene::Vec3;
 
-constexpr int largest_size = 32768;                       ///< pixels along one side of the image
 constexpr int largest_filter = 1000;                      ///< pixels
 const double film_35mm_diagonal = std::hypot(36.0, 24.0); ///< mm, to which Mitsuba's focal lengths refer
 
@@ -57,7 +58,8 @@ scene::Filter read_filter(const Element& element, const Document& document) {
       properties.fail_at("radius", "the box filter is one pixel wide",
                          "leave it out, or use tent or gaussian");
   } else if (negative.contains(element.type())) {
-    warn(element.where, element.name() + " has negative lobes, which cannot be sampled; box is used");
+    document.warnings->add(element.where,
+                           element.name() + " has negative lobes, which cannot be sampled; box is used");
     properties.pass_over_rest();
   } else {
     fail(element.where, element.name() + " is not supported", "supported are box, tent and gaussian");
@@ -75,7 +77,9 @@ std::optional<scene::Window> read_crop(Properties& properties, const scene::Came
   if (!is_within(crop, camera))
     properties.fail_at(properties.has("crop_width") ? "crop_width" : "crop_offset_x",
                        "the crop window is not within the film",
-                       "cropOffsetX + cropWidth and cropOffsetY + cropHeight must be at most " +
+                       properties.spelling("crop_offset_x") + " + " + properties.spelling("crop_width") +
+                           " and " + properties.spelling("crop_offset_y") + " + " +
+                           properties.spelling("crop_height") + " must be at most " +
                            std::to_string(camera.width) + " and " + std::to_string(camera.height));
   return crop == whole ? std::nullopt : std::optional(crop);
 }
@@ -101,8 +105,8 @@ void read_film(const Element& film, const Document& document, scene::Scene& scen
     fail(film.where, film.name() + " is not supported",
          "supported is hdrfilm; others of Mitsuba's become it");
   if (film.type() != "hdrfilm") note(film.where, film.name() + " is read as hdrfilm: linear radiance in EXR");
-  camera.width = positive(properties, "width", camera.width, largest_size);
-  camera.height = positive(properties, "height", camera.height, largest_size);
+  camera.width = positive(properties, "width", camera.width, settings::longest_side);
+  camera.height = positive(properties, "height", camera.height, settings::longest_side);
   scene.defaults.crop = read_crop(properties, camera);
   if (const Element* filter = properties.object("rfilter")) camera.filter = read_filter(*filter, document);
   properties.pass_over({"file_format", "pixel_format", "component_format", "banner", "attach_log",
@@ -114,7 +118,7 @@ void read_film(const Element& film, const Document& document, scene::Scene& scen
 
 void read_sampler(const Element& sampler, const Document& document, scene::RenderDefaults& defaults) {
   if (sampler.type() != "independent")
-    warn(sampler.where, sampler.name() + " is not supported; independent is used");
+    document.warnings->add(sampler.where, sampler.name() + " is not supported; independent is used");
   Properties properties(sampler, document);
   defaults.samples_per_pixel =
       positive(properties, "sample_count", defaults.samples_per_pixel, std::numeric_limits<int>::max());
@@ -204,6 +208,11 @@ void read_sensor(const Element& sensor, const Document& document,
   camera.orthographic = sensor.type() == "orthographic";
   if (const Element* film = properties.object("film"))
     document.problems->attempt([&] { read_film(*film, document, scene); });
+  if (!size && !settings::is_image_size(camera.width, camera.height))
+    document.problems->attempt([&] {
+      fail(properties.object("film")->where,
+           fmt::format("a film of {}x{} pixels", camera.width, camera.height), settings::image_sizes());
+    });
   if (size) {
     if (scene.defaults.crop) scene.defaults.crop = scaled(*scene.defaults.crop, camera, *size);
     camera.width = (*size)[0];

@@ -130,7 +130,7 @@ std::uint64_t offset_of(SerializedFile& file, int index) {
   const std::uint64_t word = version >= 4 ? 8 : 4;
   if (static_cast<std::uint32_t>(index) >= count || count > file.size() / word)
     fail(file.where(), "the file has no mesh " + std::to_string(index),
-         "shapeIndex from 0 to " + std::to_string(std::max(count, 1U) - 1));
+         "a shape index from 0 to " + std::to_string(std::max(count, 1U) - 1));
   const std::uint64_t at = file.size() - 4 - (count - static_cast<std::uint32_t>(index)) * word;
   return version >= 4 ? file.number_at<std::uint64_t>(at) : file.number_at<std::uint32_t>(at);
 }

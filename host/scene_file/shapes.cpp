@@ -107,7 +107,7 @@ int material_of(const Element& bsdf, const Document& document, const ShapeTarget
   if (known != target.materials.end()) return known->second;
   scene::Material material = lobes::diffuse(scene::Rgb(0.0));
   document.problems->attempt([&] { material = read_material(bsdf, document, target.rules); });
-  return target.materials[&bsdf] = share(target.scene.materials, material);
+  return target.materials[&bsdf] = target.shared.index_of(material);
 }
 
 int area_emitter_of(const Element& emitter, const Document& document, scene::Scene& scene) {
@@ -138,7 +138,7 @@ Attached attached(Properties& properties, const ShapeTarget& target) {
   }
   const Element* emitter = properties.object("emitter");
   if (!result.has_bsdf) // Mitsuba's default is grey 0.5, or black if the shape emits
-    result.surface.material = share(target.scene.materials, lobes::diffuse(scene::Rgb(emitter ? 0.0 : 0.5)));
+    result.surface.material = target.shared.index_of(lobes::diffuse(scene::Rgb(emitter ? 0.0 : 0.5)));
   if (emitter)
     document.problems->attempt([&] {
       const auto material = static_cast<std::size_t>(result.surface.material);
@@ -161,6 +161,7 @@ void read_mesh_shape(Properties& properties, const glm::dmat4& own, const Attach
   request.format = properties.element().type();
   request.file = properties.document().find(properties.string("filename", ""));
   request.named_at = properties.where("filename");
+  request.warnings = properties.document().warnings;
   request.to_world = own;
   request.instance = target.instance;
   request.flip_normals = properties.boolean("flip_normals", false);
@@ -212,6 +213,7 @@ void read_cylinder(Properties& properties, const glm::dmat4& own, const scene::S
   if (p0 == p1) properties.fail_at("p1", "it is the same point as p0", "another point");
   MeshRequest request;
   request.file = properties.element().where.text();
+  request.warnings = properties.document().warnings;
   request.to_world = own;
   request.instance = target.instance;
   request.flip_normals = properties.boolean("flip_normals", false);

@@ -20,6 +20,7 @@ struct ShapeTarget {
   scene::Scene& scene;
   MeshFiles& meshes;
   std::map<const Element*, int>& materials; ///< by <bsdf>: indices into scene.materials of those read before
+  SharedMaterials& shared;                  ///< scene.materials
   std::optional<glm::dmat4> instance = {};  ///< transform of the instance whose group is read
 };
 

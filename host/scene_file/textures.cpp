@@ -39,12 +39,14 @@ void find_range(TexelImage& image) {
   }
 }
 
-void decode_floats(TexelImage& image, double gamma, const Location& file) {
+void decode_floats(TexelImage& image, double gamma, const std::filesystem::path& file,
+                   const Location& named_at) {
   const auto negative = std::ranges::find_if(image.floats, [](float value) { return value < 0; });
   if (negative != image.floats.end()) {
     const auto pixel = (negative - image.floats.begin()) / 3;
-    fail(file, fmt::format("pixel ({}, {}) is negative", pixel % image.width, pixel / image.width),
-         "reflectances of 0 or more");
+    fail_in_image(file, named_at,
+                  fmt::format("pixel ({}, {}) is negative", pixel % image.width, pixel / image.width),
+                  "reflectances of 0 or more");
   }
   if (gamma == linear) return;
   for (float& value : image.floats) value = static_cast<float>(decode(static_cast<double>(value), gamma));
@@ -78,9 +80,10 @@ Texture::Wrap wrap(Properties& properties, const std::string& name, const std::s
 bool is_nearest(Properties& properties) {
   const std::string filter = properties.string("filter_type", "bilinear");
   if (filter == "ewa" || filter == "trilinear")
-    warn(properties.where("filter_type"), "'" + filter +
-                                              "' is not supported; bilinear is used, and the samples of a "
-                                              "pixel average what it covers");
+    properties.document().warnings->add(properties.where("filter_type"),
+                                        "'" + filter +
+                                            "' is not supported; bilinear is used, and the samples of a "
+                                            "pixel average what it covers");
   else if (filter != "bilinear" && filter != "nearest")
     properties.fail_at("filter_type", "'" + filter + "' is not supported", "bilinear or nearest");
   return filter == "nearest";
@@ -132,6 +135,7 @@ void read_colors(Properties& properties, Texture& texture) {
 } // namespace
 
 scene::TexturePointer TextureReader::read(const Element& element, const Document& document, bool as_number) {
+  if (element.type() == "scale") return read_scaled(element, document, as_number);
   Properties properties(element, document);
   Texture texture;
   texture.to_uv = to_uv(properties);
@@ -152,7 +156,30 @@ scene::TexturePointer TextureReader::read(const Element& element, const Document
     texture.image = image(document.find(name), {gamma, channel}, properties.where("filename"));
     properties.pass_over({"cache", "max_anisotropy", "format", "accel"});
   } else {
-    fail(element.where, element.name() + " is not supported", "supported are bitmap and checkerboard");
+    fail(element.where, element.name() + " is not supported",
+         "supported are bitmap, checkerboard, and scale around one of them");
+  }
+  properties.finish();
+  return std::make_shared<const Texture>(texture);
+}
+
+/// Mitsuba 0.6's product of a texture and a number or a colour.
+scene::TexturePointer TextureReader::read_scaled(const Element& element, const Document& document,
+                                                 bool as_number) {
+  Properties properties(element, document);
+  const Element* nested = properties.object("texture");
+  if (!nested) fail(element.where, element.name() + " around nothing", "one nested or referenced <texture>");
+  const scene::Rgb factor = properties.color("scale", scene::Rgb(1.0), HUGE_VAL);
+  if (std::min({factor.r, factor.g, factor.b}) < 0)
+    properties.fail_at("scale", "a negative factor", "0 or more in every channel");
+  Texture texture = *read(*nested, document, as_number);
+  if (!texture.image) {
+    for (scene::Rgb& color : texture.colors) color *= factor;
+  } else if (factor.r == factor.g && factor.g == factor.b) {
+    texture.scale *= factor.r;
+  } else {
+    properties.fail_at("scale", "a bitmap with a colour",
+                       "<float name=\"scale\" .../>, one factor for all channels");
   }
   properties.finish();
   return std::make_shared<const Texture>(texture);
@@ -174,7 +201,7 @@ const TextureReader::Image& TextureReader::image(const std::filesystem::path& fi
   result.floats = std::move(read.floats);
   for (std::size_t i = 0; i < result.decoded.size(); ++i)
     result.decoded[i] = static_cast<float>(decode(static_cast<double>(i) / 255, gamma));
-  decode_floats(result, gamma, {std::make_shared<const std::string>(file.string()), 0});
+  decode_floats(result, gamma, file, named_at);
   if (decoding.channel == "y") keep_luminance(result);
   find_range(result);
   return known = std::make_shared<const TexelImage>(std::move(result));

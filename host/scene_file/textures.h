@@ -1,4 +1,4 @@
-// <texture>: bitmap and checkerboard.
+// <texture>: bitmap, checkerboard, and scale around one of them.
 #pragma once
 
 #include <filesystem>
@@ -21,6 +21,9 @@ public:
                                            bool as_number = false);
 
 private:
+  [[nodiscard]] scene::TexturePointer read_scaled(const Element& texture, const Document& document,
+                                                  bool as_number);
+
   using Image = std::shared_ptr<const scene::TexelImage>;
   /// How the values of an image are computed from its file.
   struct Decoding {

@@ -46,9 +46,11 @@ bool is_zero(const dvec3& v) {
 }
 
 dmat4 rotation(const Element& step) {
-  const dvec3 axis = read_triple(step, 0.0);
-  if (is_zero(axis)) fail(step.where, "<rotate> without an axis", "x, y, z are the axis, such as y=\"1\"");
-  if (!step.has("angle")) fail(step.where, "<rotate> without an angle", "angle=\"...\" in degrees");
+  const bool has_axis = step.has("x") || step.has("y") || step.has("z") || step.has("value");
+  const dvec3 axis = has_axis ? read_triple(step, 0.0) : dvec3(0.0);
+  if (is_zero(axis)) fail(step.where, "<rotate> without an axis", "such as <rotate y=\"1\" angle=\"90\"/>");
+  if (!step.has("angle"))
+    fail(step.where, "<rotate> without an angle", "in degrees, such as <rotate y=\"1\" angle=\"90\"/>");
   return glm::rotate(dmat4(1.0), glm::radians(number(step, "angle", 0.0)), glm::normalize(axis));
 }
 

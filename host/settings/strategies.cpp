@@ -22,6 +22,13 @@ std::string read_strategy(const std::string& file) {
   if (!text)
     throw UsageError(fmt::format("{} {}: cannot be read: must be an existing file, or one of {}",
                                  quoted("strategy"), file, joined(strategy_names())));
+  // What a file includes may define them.
+  for (const char* function : {"phong_density", "phong_sample", "phong_survival"})
+    if (text->find(function) == std::string::npos && text->find("#include") == std::string::npos)
+      throw FileError(
+          fmt::format("{}: does not define {}: a strategy defines phong_density, phong_sample and "
+                      "phong_survival, or includes phong/plain.cl, which does",
+                      file, function));
   return *text;
 }
 

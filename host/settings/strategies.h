@@ -40,7 +40,7 @@ inline constexpr std::array<Strategy, 12> strategies = {{
 /// `text` if it is the name of a strategy or of a kernel file, whose existence is not checked.
 /// @throws UsageError "`NAME` TEXT: what would be right"
 [[nodiscard]] std::string strategy(const std::string& name, const std::string& text);
-/// The text of a user's file. @throws UsageError when it cannot be read
+/// The text of a user's file. @throws UsageError when it cannot be read, FileError when it lacks a function
 [[nodiscard]] std::string read_strategy(const std::string& file);
 
 } // namespace phlux::settings

@@ -69,14 +69,23 @@ double number_within(const std::string& name, const std::string& text, double le
   return *number;
 }
 
+bool is_image_size(std::int64_t width, std::int64_t height) {
+  return width >= 1 && height >= 1 && width <= longest_side && height <= longest_side &&
+         width <= most_pixels / height;
+}
+
+std::string image_sizes() {
+  static_assert(most_pixels == std::int64_t{1} << 28);
+  return fmt::format("at most {} pixels along each side, and at most 2^28 pixels in all", longest_side);
+}
+
 std::array<int, 2> size(const std::string& name, const std::string& text) {
   const std::size_t x = text.find_first_of("xX");
   if (x != std::string::npos) {
     const std::optional<int> width = parse<int>(text.substr(0, x)), height = parse<int>(text.substr(x + 1));
-    if (width && height && *width > 0 && *height > 0 && *width <= most_pixels / *height)
-      return {*width, *height};
+    if (width && height && is_image_size(*width, *height)) return {*width, *height};
   }
-  wrong(name, text, "must be WIDTHxHEIGHT in pixels, such as 640x480, of at most 2^28 pixels");
+  wrong(name, text, "must be WIDTHxHEIGHT in pixels, such as 640x480: " + image_sizes());
 }
 
 scene::Window window(const std::string& name, const std::string& text) {
@@ -89,9 +98,11 @@ scene::Window window(const std::string& name, const std::string& text) {
     if (count == numbers.size() || !number) break;
     *numbers[count] = *number;
   }
-  if (count != numbers.size() || text.ends_with(',') || window.x < 0 || window.y < 0 || window.width < 1 ||
-      window.height < 1 || window.width > most_pixels / window.height)
-    wrong(name, text, "must be X,Y,WIDTH,HEIGHT in pixels from the upper left corner, such as 100,50,64,48");
+  if (count != numbers.size() || text.ends_with(',') || window.x < 0 || window.y < 0 ||
+      !is_image_size(window.width, window.height))
+    wrong(name, text,
+          "must be X,Y,WIDTH,HEIGHT in pixels from the upper left corner, such as 100,50,64,48: " +
+              image_sizes());
   return window;
 }
 

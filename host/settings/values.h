@@ -20,9 +20,13 @@ namespace phlux::settings {
 [[nodiscard]] double number_within(const std::string& name, const std::string& text, double least,
                                    double most);
 inline constexpr std::int64_t most_pixels = std::int64_t{1} << 28; ///< of an image
-/// WIDTHxHEIGHT in pixels; at most most_pixels.
+inline constexpr int longest_side = 32768; ///< pixels; an OpenEXR file has no lines of 2^31 bytes
+[[nodiscard]] bool is_image_size(std::int64_t width, std::int64_t height);
+/// "at most 32768 pixels along each side and 2^28 pixels in all"
+[[nodiscard]] std::string image_sizes();
+/// WIDTHxHEIGHT in pixels; is_image_size().
 [[nodiscard]] std::array<int, 2> size(const std::string& name, const std::string& text);
-/// X,Y,WIDTH,HEIGHT in pixels; at most most_pixels.
+/// X,Y,WIDTH,HEIGHT in pixels; is_image_size().
 [[nodiscard]] scene::Window window(const std::string& name, const std::string& text);
 /// NAME=VALUE; the value may be empty.
 [[nodiscard]] std::pair<std::string, std::string> definition(const std::string& name,

@@ -247,6 +247,12 @@ TEST_CASE("phlux bench: bad input is one line and its exit code") {
       {{"sampling", "--lobe", retro, "--set", "exponent"}, 2, "--set exponent: must be NAME=VALUE"},
       {{"sampling", "--lobe", retro, "--set", "exponent=0"}, 2, "must be from 1 to"},
       {{"sampling", "--lobe", retro, "--strategy", "exact"}, 2, "--lobe: excludes --strategy"},
+      {{"sampling", "--strategy", "none.cl"}, 2, "--strategy none.cl: cannot be read"},
+      {{"sampling", "--strategy", "empty.cl"}, 3, "empty.cl: does not define phong_density"},
+      {{"sampling", "--lobe", retro, "--lobe", retro}, 3, "retro"},
+      {{"sampling", "--lobe", retro, "--lobe", "b.cl", "--set", "exponent=2"},
+       2,
+       "--set exponent=2: 2 models"},
       {{"sampling", "--lobe", retro, "--model", "roughconductor"}, 2, "--lobe: excludes --strategy"},
       {{"sampling", "--model", "mirror"}, 2, "--model mirror"},
       {{"sampling", "--out", "/proc/phlux"}, 5, "/proc/phlux"},
@@ -270,6 +276,7 @@ TEST_CASE("phlux bench: bad input is one line and its exit code") {
       {{"figures", "--device", "none such"}, 4, "none such"},
   };
   const TemporaryFolder folder;
+  folder.write("empty.cl", "");
   folder.write("file", "");
   folder.write("broken.xml", "<scene version=");
   folder.write("exact.cl", "#define EXACT_PARAMETERS(COLOUR, NUMBER) NUMBER(n, 1, 0, 2, \"\")\n"

@@ -77,7 +77,7 @@ TEST_CASE("phlux render --lobe: compiler errors name the user's file and line") 
   folder.write("my lobes/minnaert.cl", replaced(minnaert_text, "v.density = minnaert_density(m, generated.z)",
                                                 "v.density = minnaert_density(m, generated.w)"));
   const Outcome wrong = render(folder, {"-q", "--lobe", "my lobes/minnaert.cl"});
-  CHECK(wrong.exit_code == 4);
+  CHECK(wrong.exit_code == 3);
   CHECK(wrong.is_one_line_error());
   CHECK_THAT(wrong.err, Contains("my lobes/minnaert.cl:19: "));
 
@@ -122,8 +122,17 @@ TEST_CASE("phlux render --strategy FILE.cl: a strategy of the user's own") {
   folder.write("plain.cl",
                replaced(plain_strategy, "vec_max(phong_reflectivity", "vec_most(phong_reflectivity"));
   const Outcome wrong = render(folder, {"--strategy", "plain.cl"});
-  CHECK(wrong.exit_code == 4);
+  CHECK(wrong.exit_code == 3);
   CHECK_THAT(wrong.err, Contains("plain.cl:13: "));
+  folder.write("plain.cl", "#include \"nowhere.h\"\n");
+  const Outcome without = render(folder, {"--strategy", "plain.cl"});
+  CHECK(without.exit_code == 3);
+  CHECK_THAT(without.err, Contains("plain.cl:1: "));
+  folder.write("plain.cl", "");
+  const Outcome empty = render(folder, {"--strategy", "plain.cl"});
+  CHECK(empty.exit_code == 3);
+  CHECK(empty.is_one_line_error());
+  CHECK_THAT(empty.err, Contains("plain.cl: does not define phong_density: a strategy defines"));
   const Outcome missing = render(folder, {"--strategy", "none.cl"});
   CHECK(missing.exit_code == 2);
   CHECK_THAT(missing.err, Contains("--strategy none.cl: cannot be read"));
@@ -165,4 +174,26 @@ TEST_CASE("phlux verify --strategy FILE.cl, --model and --set: usage") {
     CHECK(outcome.exit_code == 2);
     CHECK(outcome.is_one_line_error());
   }
+}
+
+TEST_CASE(
+    "The strategy that the page on the Phong model shows is a file that passes verify and bench sampling") {
+  const std::filesystem::path file = std::filesystem::path(PHLUX_SOURCE_DIR) / "scenes/lobes/half-uniform.cl";
+  CHECK_THAT(TemporaryFolder::read(PHLUX_SOURCE_DIR "/kernels/phong/README.md"),
+             Contains("```c\n" + TemporaryFolder::read(file) + "```\n"));
+  const TemporaryFolder folder;
+  const Outcome verified = run({{"verify", "--quick", "--strategy", file.string()}, folder.path(), {}, {}});
+  CAPTURE(verified.out, verified.err);
+  CHECK(verified.exit_code == 0);
+  folder.write("own.cl", TemporaryFolder::read(file));
+  const Outcome measured =
+      run({{"bench", "sampling", "--out", ".", "--samples", "20000", "--strategy", "own.cl", "--strategy",
+            "cosine", "--case", ".4,.4,10,60", "--integrand", "constant"},
+           folder.path(),
+           {},
+           {}});
+  CAPTURE(measured.out, measured.err);
+  CHECK((measured.exit_code == 0 || measured.exit_code == 5)); // without matplotlib
+  CHECK_THAT(TemporaryFolder::read(folder / "sampling.csv"), Contains("\nown.cl,0.4,0.4,10,60,"));
+  CHECK_THAT(TemporaryFolder::read(folder / "sampling-no-roulette.csv"), Contains("\nown.cl,0.4,0.4,10,60,"));
 }

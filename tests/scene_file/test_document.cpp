@@ -25,7 +25,7 @@ TEST_CASE("Parameters that are unknown or unused are errors") {
   CHECK_THAT(
       error_of(with_sensor("<emitter type=\"constant\"><float name=\"radiance\" value=\"$L\"/></emitter>")),
       StartsWith("scene.xml:2: unknown parameter in '$L'"));
-  CHECK_THAT(error_of(with_sensor(""), {{"spp", "3"}}), StartsWith("scene.xml: -D spp=3 is used nowhere"));
+  CHECK_THAT(error_of(with_sensor(""), {{"spp", "3"}}), StartsWith("scene.xml: `D` spp=3 is used nowhere"));
   CHECK_THAT(error_of(with_sensor("<default name=\"spp\"/>")), StartsWith("scene.xml:2: <default> without"));
 }
 

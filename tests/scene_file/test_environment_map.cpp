@@ -74,9 +74,10 @@ TEST_CASE("Environment maps that are wrong, or emit nothing") {
   CHECK_THAT(error_in(envmap("none.exr")), StartsWith("scene.xml:3: image file 'none.exr' cannot be read"));
   const std::string good = hdr();
   CHECK_THAT(error_beside("sky.hdr", good.substr(0, good.size() - 1), envmap("sky.hdr")),
-             StartsWith("sky.hdr: ") && Contains("cut short"));
-  CHECK_THAT(error_beside("sky.exr", exr("Y", {1, 2, 3, -0.5F}, 2), envmap("sky.exr")),
-             StartsWith("sky.exr: pixel (1, 1) is negative: radiance is 0 or more"));
+             StartsWith("scene.xml:3: image file 'sky.hdr': ") && Contains("cut short"));
+  CHECK_THAT(
+      error_beside("sky.exr", exr("Y", {1, 2, 3, -0.5F}, 2), envmap("sky.exr")),
+      StartsWith("scene.xml:3: image file 'sky.exr': pixel (1, 1) is negative: radiance is 0 or more"));
   const auto properties = [&](const std::string& more) {
     return error_beside("sky.hdr", good, envmap("sky.hdr", more));
   };

@@ -76,6 +76,7 @@ std::string needs(const std::string& tag, const std::string& type) {
     return fmt::format(R"(<string name="filename" value="a.{}"/>)", type);
   if (type == "bitmap" || type == "envmap") return R"(<string name="filename" value="a.png"/>)";
   if (type == "thinlens") return R"(<float name="aperture_radius" value="1"/>)";
+  if (type == "scale") return R"(<texture type="checkerboard"/>)";
   if (type == "mask") return R"(<bsdf type="diffuse"/>)";
   if (type == "instance") return R"(<ref id="group"/>)";
   return "";

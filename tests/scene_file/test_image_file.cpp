@@ -88,21 +88,21 @@ TEST_CASE("Images that are cut short, damaged or of no known format are errors")
         const std::size_t end_of_png = whole.starts_with("\x89PNG") ? 12 : 0; // its end mark is not needed
         CAPTURE(whole.substr(0, 4), lost);
         CHECK_THAT(error_of_image(whole.substr(0, whole.size() - lost - end_of_png)),
-                   Catch::StartsWith("image: ") && Contains("the whole file"));
+                   Catch::StartsWith("scene.xml:3: image file 'image': ") && Contains("the whole file"));
       }
   std::string long_chunk = png(); // claims 1 GB
   long_chunk[33] = '\x40';
-  CHECK_THAT(error_of_image(long_chunk), Contains("image: the image is cut short"));
+  CHECK_THAT(error_of_image(long_chunk), Contains("image file 'image': the image is cut short"));
   const std::string floats = exr("RGB", Floats(64 * 64, 0.5F), 64);
   CHECK_THAT(error_of_image(floats.substr(0, floats.size() / 2)), Contains("cut short"));
   CHECK_THAT(error_of_image(floats.substr(0, 8)), Contains("the whole file"));
   CHECK_THAT(error_of_image(""),
-             Contains("image: ") && Contains("a PNG, JPEG, BMP, TGA, HDR or OpenEXR image"));
+             Contains("image file 'image': ") && Contains("a PNG, JPEG, BMP, TGA, HDR or OpenEXR image"));
   CHECK_THAT(error_of_image("GIF89a"), Contains("a PNG, JPEG, BMP, TGA, HDR or OpenEXR image"));
   CHECK_THAT(error_of_image(exr("A", {1}, 1)),
              Contains("an image of channels A: channels R, G and B, or Y alone"));
   CHECK_THAT(error_of_image(exr("Y", {0, std::numeric_limits<float>::quiet_NaN()}, 1)),
-             Contains("image: pixel (0, 1) is not finite"));
+             Contains("image file 'image': pixel (0, 1) is not finite"));
   try {
     static_cast<void>(scene_file::read_image("/nowhere/none.png", here));
     FAIL();
@@ -124,5 +124,5 @@ TEST_CASE("The size that an image claims is checked before memory is allocated")
   attribute.replace(attribute.find("compression", 8) + 24, 4, from_hex("ffffff7f"));
   CHECK_THAT(error_of_image(attribute), Contains("attribute compression claims 2147483647 bytes"));
   large.replace(16, 8, from_hex("0000000000000001"));
-  CHECK_THAT(error_of_image(large), Contains("image: ")); // stb_image's own check
+  CHECK_THAT(error_of_image(large), Contains("image file 'image': ")); // stb_image's own check
 }

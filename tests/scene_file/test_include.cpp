@@ -101,3 +101,18 @@ TEST_CASE("Area emitters by reference, True and False of Mitsuba 3") {
   CHECK(scene.spheres.at(0).front_is_inside);
   CHECK_THAT(error_in("<emitter type=\"area\" id=\"lamp\"/>"), Contains("outside a shape"));
 }
+
+TEST_CASE("A folder that many <path>s name is sought in once; there are at most a thousand") {
+  const TemporaryFolder folder;
+  std::string body;
+  for (int i = 0; i < 1001; ++i) {
+    const std::string name = (folder / std::to_string(i)).string();
+    std::filesystem::create_directory(name);
+    body += "<path value=\"" + name + "\"/>\n";
+  }
+  CHECK_THAT(error_in(body), StartsWith("scene.xml:1002: more than 1000 folders by <path>: fewer folders"));
+  std::string same;
+  for (int i = 0; i < 3000; ++i)
+    same += "<path value=\"" + (folder / std::to_string(i % 2)).string() + "\"/>\n";
+  CHECK(error_in(same).empty());
+}

@@ -266,3 +266,14 @@ TEST_CASE("Masks: opacities, twosided inside and outside, and what they cannot b
   CHECK_THAT(error_in("<shape type=\"disk\">" + mask(half + grey) + "\n<emitter type=\"area\"/></shape>"),
              StartsWith("scene.xml:3: ") && Contains("a masked shape that emits is not supported"));
 }
+
+TEST_CASE("Equal materials are one, of many that differ") {
+  std::string body;
+  for (int round = 0; round < 2; ++round)
+    for (int i = 0; i < 2000; ++i)
+      body += "<shape type=\"disk\"><bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"" +
+              std::to_string(i / 2000.0) + "\"/></bsdf></shape>\n";
+  const auto scene = load_body(body);
+  CHECK(scene.materials.size() == 2000);
+  CHECK(scene.patches.at(7).surface.material == scene.patches.at(2007).surface.material);
+}

@@ -91,5 +91,5 @@ TEST_CASE("shapeIndex of an obj file counts its groups") {
   };
   CHECK(parts(files(index(0))).at(0).triangles == 1);
   CHECK(parts(files(index(2))).at(0).triangles == 2);
-  CHECK_THAT(error_of_files(files(index(3))), Contains("the file has no part 3: shapeIndex from 0 to 2"));
+  CHECK_THAT(error_of_files(files(index(3))), Contains("the file has no part 3: a shape index from 0 to 2"));
 }

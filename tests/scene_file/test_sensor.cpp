@@ -260,3 +260,10 @@ TEST_CASE("An orthographic camera takes the width of its film from the scale of 
              StartsWith("scene.xml:3: ") && Contains("scales x and y differently"));
   CHECK_THAT(error_of(sized("<matrix value=\"1 0 0 0 0 1 1 0 0 0 1 0 0 0 0 1\"/>")), Contains("it shears"));
 }
+
+TEST_CASE("A film has at most 2^28 pixels, unless another size replaces its own") {
+  CHECK_THAT(error_of(sensor(film(32768, 8193))),
+             StartsWith("scene.xml:3: a film of 32768x8193 pixels: at most 32768 pixels along each side"));
+  CHECK(error_of(sensor(film(32768, 8192))).empty());
+  CHECK_THAT(error_of(sensor(film(32769, 1))), Contains("width: 32769 is out of range: 1 to 32768"));
+}

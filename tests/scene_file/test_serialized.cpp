@@ -102,7 +102,7 @@ TEST_CASE("shapeIndex chooses a mesh of a serialized file") {
     const std::string scene = with_sensor(
         "<shape type=\"serialized\"><string name=\"filename\" value=\"m\"/>" + index(3) + "</shape>");
     CHECK_THAT(error_of_files({{"scene.xml", scene}, {"m", file}}),
-               StartsWith("m: the file has no mesh 3: shapeIndex from 0 to 2"));
+               StartsWith("m: the file has no mesh 3: a shape index from 0 to 2"));
   }
 }
 

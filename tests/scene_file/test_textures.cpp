@@ -182,9 +182,9 @@ TEST_CASE("Wrong textures are errors") {
   CHECK_THAT(error_beside(disk("<texture type=\"bitmap\" name=\"reflectance\"/>")),
              Contains("without a filename"));
   CHECK_THAT(error_beside(disk(bitmap()), {{"a.png", png().substr(0, 60)}}),
-             StartsWith("a.png: the image is cut short: the whole file"));
+             StartsWith("scene.xml:2: image file 'a.png': the image is cut short: the whole file"));
   CHECK_THAT(error_beside(disk("<texture type=\"fractal\" name=\"reflectance\"/>")),
-             Contains("<texture type=\"fractal\"> is not supported: supported are bitmap and checkerboard"));
+             Contains("<texture type=\"fractal\"> is not supported: supported are bitmap, checkerboard"));
   CHECK_THAT(error_beside(disk(bitmap("<string name=\"wrapMode\" value=\"zero\"/>"))),
              Contains("wrapMode: 'zero' is not supported: repeat, mirror or clamp"));
   CHECK_THAT(error_beside(disk(bitmap("<string name=\"filterType\" value=\"cubic\"/>"))),
@@ -257,4 +257,30 @@ TEST_CASE("Texture coordinates of meshes, read where the material has textures")
       error_beside("<shape type=\"obj\"><string name=\"filename\" value=\"m.obj\"/>" + textured + "</shape>",
                    {{"m.obj", "v 0 0 0\nvt 1 x\n"}}),
       StartsWith("m.obj:2: texture coordinate with 'x' for a number"));
+}
+
+TEST_CASE("scale multiplies the texture inside by a number, a checkerboard also by a colour") {
+  const auto scaled = [](const std::string& factor, const std::string& inside) {
+    return "<texture type=\"scale\" name=\"reflectance\">" + factor + inside + "</texture>";
+  };
+  const std::string half = "<float name=\"scale\" value=\"0.5\"/>";
+  const auto reflectance = [](const std::string& body) {
+    return load_beside(body).materials.at(0).texture(0);
+  };
+  const auto bitmap_half = reflectance(disk(scaled(half, bitmap("", ""))));
+  CHECK(bitmap_half->scale == 0.5);
+  CHECK(bitmap_half->largest() == 0.5 * reflectance(disk(bitmap()))->largest());
+  CHECK(reflectance(disk(scaled(half, scaled(half, bitmap()))))->scale == 0.25); // with names too
+  const std::string checkerboard = "<texture type=\"checkerboard\" id=\"c\"/>";
+  const std::string red = "<rgb name=\"scale\" value=\"1 0 0\"/>";
+  CHECK(reflectance(checkerboard + disk(scaled(red, "<ref id=\"c\"/>")))->colors[0] ==
+        phlux::scene::Rgb(0.4, 0, 0));
+  CHECK_THAT(error_beside(disk(scaled("\n" + red, bitmap("", "")))),
+             StartsWith("scene.xml:3: <texture type=\"scale\">: scale: a bitmap with a colour: <float"));
+  CHECK_THAT(error_beside(disk(scaled(half, ""))),
+             Contains("<texture type=\"scale\"> around nothing: one nested"));
+  CHECK_THAT(error_beside(disk(scaled("<float name=\"scale\" value=\"-1\"/>", bitmap()))),
+             Contains("a negative factor: 0 or more"));
+  CHECK_THAT(error_beside(disk(scaled("<float name=\"scale\" value=\"2\"/>", bitmap()))),
+             Contains("is out of range: every channel must be in [0, 1]"));
 }

@@ -82,7 +82,8 @@ TEST_CASE("Broken transforms are errors at their line") {
              StartsWith("scene.xml:3: <matrix> is projective"));
   CHECK_THAT(error("<matrix value=\"1 2 3\"/>"),
              StartsWith("scene.xml:3: <matrix>") && Contains("16 finite numbers"));
-  CHECK_THAT(error("<rotate angle=\"3\"/>"), StartsWith("scene.xml:3: <rotate> needs"));
+  CHECK_THAT(error("<rotate angle=\"3\"/>"),
+             StartsWith("scene.xml:3: <rotate> without an axis: such as <rotate y=\"1\" angle=\"90\"/>"));
   CHECK_THAT(error("<rotate x=\"0\" angle=\"3\"/>"), StartsWith("scene.xml:3: <rotate> without an axis"));
   CHECK_THAT(error("<rotate x=\"1\"/>"), StartsWith("scene.xml:3: <rotate> without an angle"));
   CHECK_THAT(error("<scale/>"), StartsWith("scene.xml:3: <scale> needs either"));

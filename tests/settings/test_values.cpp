@@ -28,6 +28,10 @@ TEST_CASE("An invalid value is a UsageError") {
   CHECK_THROWS_AS(settings::number_within("--time", "1s", 0, 1), UsageError);
   CHECK_THROWS_AS(settings::size("--size", "16384x16385"), UsageError);
   CHECK_THROWS_AS(settings::size("--size", "x"), UsageError);
+  CHECK_THROWS_WITH(settings::size("--size", "268435456x1"),
+                    Catch::Contains("at most 32768 pixels along each side"));
+  CHECK_THROWS_AS(settings::window("--crop", "0,0,1,32769"), UsageError);
+  CHECK(settings::size("--size", "32768x8192") == std::array{32768, 8192});
   CHECK_THROWS_AS(settings::definition("-D", "=b"), UsageError);
 }
 
