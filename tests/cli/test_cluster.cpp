@@ -211,4 +211,25 @@ TEST_CASE("A process that cannot help is left out, and an error is said once") {
   CHECK(wrong.err.find("phlux: ") == wrong.err.rfind("phlux: "));
 }
 
+TEST_CASE("A process that lacks the scene or the kernels is left out, with the name of the file") {
+  const Cluster place;
+  const std::filesystem::path elsewhere = place / "elsewhere";
+  std::filesystem::create_directory(elsewhere);
+  std::filesystem::create_directory_symlink(PHLUX_SOURCE_DIR "/kernels", place / "own");
+  REQUIRE(place.render({"-n", samples, "-o", "whole.exr"}).exit_code == 0);
+  for (const std::string missing : {"scene.xml", "own/transport/path.cl"}) {
+    const Texts arguments = {"-n", samples, "--kernel-dir", "own"};
+    Texts mpirun = {"-n", "1", PHLUX_PROGRAM, "render", "scene.xml", "--png", "none"};
+    mpirun.insert(mpirun.end(), arguments.begin(), arguments.end());
+    mpirun.insert(mpirun.end(), {":", "-n", "1", "-wdir", elsewhere});
+    const Outcome outcome = place.render(arguments, mpirun);
+    CAPTURE(outcome.err);
+    CHECK(outcome.exit_code == 0);
+    CHECK_THAT(outcome.err, Contains("warning: process 1: ") && Contains(": " + missing + ": "));
+    CHECK(place.same("scene.exr", "whole.exr"));
+    std::filesystem::copy_file(place / "scene.xml", elsewhere / "scene.xml",
+                               std::filesystem::copy_options::overwrite_existing);
+  }
+}
+
 #endif
