@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <string>
 
@@ -77,12 +76,11 @@ bool is_sound(const render::Launch& launch, std::int64_t pixels, std::int64_t en
 }
 
 // Empty if the schedule is one that a render of this size can have had.
-std::string contradiction(const render::RenderState& state, std::int64_t pixels) {
-  constexpr std::int64_t most_samples = std::numeric_limits<std::int32_t>::max();
+std::string contradiction(const render::RenderState& state, std::int64_t pixels, std::int64_t most_samples) {
   const render::SchedulePosition& position = state.position;
   if (position.sample < 0 || position.sample > most_samples || position.pixel < 0 ||
       position.pixel >= pixels || position.block_samples < 1 ||
-      position.block_samples > render::most_block_samples)
+      position.block_samples > render::most_block_samples || position.end() > most_samples)
     return "its position";
   for (const render::Launch& launch : position.missing)
     if (!is_sound(launch, pixels, position.end())) return "its missing samples";
@@ -100,7 +98,7 @@ void check_state(const Checkpoint& earlier, const render::Settings& now, const s
   const render::RenderState& state = earlier.session.state;
   const film::Film& film = earlier.film;
   const auto pixels = std::int64_t{film.width()} * film.height();
-  std::string wrong = contradiction(state, pixels);
+  std::string wrong = contradiction(state, pixels, settings::most_samples - now.first_sample);
   if (wrong.empty()) {
     const settings::IntegratorInfo& integrator = settings::integrator_named(now.integrator);
     const bool splats = film.splats(); // none before the first launch, and if nothing in the scene shines
