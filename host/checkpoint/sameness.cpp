@@ -6,13 +6,17 @@
 #include <string>
 
 #include <fmt/format.h>
+#include <xxhash.h>
 
 #include "errors.h"
+#include "settings/strategies.h"
 
 namespace phlux::checkpoint {
 namespace {
 
 using settings::Affects;
+
+constexpr char strategy_follows = '+';
 
 bool decides_image(Affects affects) {
   return affects != Affects::amount && affects != Affects::execution;
@@ -122,6 +126,17 @@ void check_state(const Checkpoint& earlier, const render::Settings& now, const s
 
 } // namespace
 
+std::string digest_with_strategy(const std::string& scene_digest, const render::Settings& settings) {
+  if (!settings::is_strategy_file(settings.strategy)) return scene_digest;
+  const std::string text = settings::read_strategy(settings.strategy);
+  const XXH128_hash_t hash = XXH3_128bits(text.data(), text.size());
+  return fmt::format("{}{}{:016x}{:016x}", scene_digest, strategy_follows, hash.high64, hash.low64);
+}
+
+std::string scene_part(const std::string& digest) {
+  return digest.substr(0, digest.find(strategy_follows));
+}
+
 void check_same(const Checkpoint& earlier, const Session& now, int width, int height,
                 const std::filesystem::path& file) {
   const film::Film& film = earlier.film;
@@ -130,12 +145,17 @@ void check_same(const Checkpoint& earlier, const Session& now, int width, int he
   if (film.width() != width || film.height() != height)
     throw FileError(fmt::format("{}: is of {}x{} pixels, not {}x{}: give `size` {}x{}", file.string(),
                                 film.width(), film.height(), width, height, film.width(), film.height()));
-  if (earlier.session.scene_digest != now.scene_digest)
+  if (scene_part(earlier.session.scene_digest) != scene_part(now.scene_digest))
     throw FileError(
         fmt::format("{}: is of another scene: give {} as it was when the checkpoint was written, with "
                     "the same definitions",
                     file.string(), earlier.session.scene));
   check_settings(earlier.session.settings, now.settings, file.string());
+  if (earlier.session.scene_digest != now.scene_digest)
+    throw FileError(
+        fmt::format("{}: is of a render with another {}: give it as it was when the checkpoint was "
+                    "written",
+                    file.string(), now.settings.strategy));
   check_state(earlier, now.settings, file.string());
   check_amount(earlier.session.state.position, now.settings, file.string());
 }

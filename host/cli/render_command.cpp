@@ -8,6 +8,7 @@
 #include <spdlog/spdlog.h>
 
 #include "advice/automatic.h"
+#include "checkpoint/sameness.h"
 #include "cli/attempts.h"
 #include "cli/checkpoints.h"
 #include "cli/commands.h"
@@ -125,7 +126,7 @@ files::RenderInfo info_of(const checkpoint::Session& session, const scene::Scene
   return {
       .version = PHLUX_VERSION,
       .scene = session.scene,
-      .scene_digest = session.scene_digest,
+      .scene_digest = checkpoint::scene_part(session.scene_digest),
       .settings = files::stored(settings),
       .choice = session.choices.auto_reasons,
       .samples = film.samples_per_pixel(),
@@ -286,12 +287,13 @@ int render(const RenderOptions& given) {
   const std::string digest = scene::digest(scene); // of the whole image
   crop(scene, options);
   choose_integrator(options, scene, group);
-  const checkpoint::Session session{
-      .scene = options.scene_file.string(),
-      .scene_digest = digest,
-      .choices = options,
-      .settings = settings::settings_of(options, scene.defaults, defaults_of(options, group)),
-      .state = {}};
+  const render::Settings settings =
+      settings::settings_of(options, scene.defaults, defaults_of(options, group));
+  const checkpoint::Session session{.scene = options.scene_file.string(),
+                                    .scene_digest = checkpoint::digest_with_strategy(digest, settings),
+                                    .choices = options,
+                                    .settings = settings,
+                                    .state = {}};
   const scene::Camera& camera = scene.camera;
   if (earlier) check_same(*earlier, session, camera, options.resume);
   film::Film film = earlier ? std::move(earlier->film)
