@@ -20,6 +20,7 @@
 #include "cli/spelling.h"
 #include "cli/statistics.h"
 #include "cli/work.h"
+#include "clock.h"
 #include "errors.h"
 #include "files/contributions.h"
 #include "files/exr.h"
@@ -42,7 +43,6 @@ class ErrorSoFar {
 public:
   explicit ErrorSoFar(const film::Film& film) : film_(film) {}
   double at(double samples) {
-    using Clock = std::chrono::steady_clock;
     const Clock::time_point start = Clock::now();
     if (start >= next_) {
       value_ = film_.relative_standard_error();
@@ -56,7 +56,7 @@ public:
 private:
   const film::Film& film_;
   double value_ = std::numeric_limits<double>::infinity(), samples_ = 0.0;
-  std::chrono::steady_clock::time_point next_{};
+  Clock::time_point next_{};
 };
 
 // Replaces `--integrator auto` by a method.
@@ -307,7 +307,7 @@ int render(const RenderOptions& given) {
       run(scene, session.settings, film, outputs, options, checkpoints,
           earlier ? earlier->session.state : render::RenderState(), team, interrupt, attempts);
   if (film.samples_per_pixel() == 0.0) // an older image is worth more than a black one
-    spdlog::warn("interrupted before the first sample: nothing is written");
+    spdlog::warn("the render ended before its first sample: no file is written or replaced");
   else
     write_all(outputs, options, session, film, statistics, std::move(scene), checkpoints, interrupt,
               attempts);
