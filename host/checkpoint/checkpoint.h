@@ -14,7 +14,7 @@ namespace phlux::checkpoint {
 /// The state of a render except its film.
 struct Session {
   std::string scene;         ///< the file, as the user named it
-  std::string scene_digest;  ///< scene::digest
+  std::string scene_digest;  ///< digest_with_strategy()
   settings::Choices choices; ///< of the user
   render::Settings settings; ///< from the choices and the scene; a file omits those of execution
   render::RenderState state;

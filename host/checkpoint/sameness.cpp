@@ -2,18 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <string>
 
 #include <fmt/format.h>
+#include <xxhash.h>
 
 #include "errors.h"
+#include "settings/strategies.h"
 
 namespace phlux::checkpoint {
 namespace {
 
 using settings::Affects;
+
+constexpr char strategy_follows = '+';
 
 bool decides_image(Affects affects) {
   return affects != Affects::amount && affects != Affects::execution;
@@ -77,12 +80,11 @@ bool is_sound(const render::Launch& launch, std::int64_t pixels, std::int64_t en
 }
 
 // Empty if the schedule is one that a render of this size can have had.
-std::string contradiction(const render::RenderState& state, std::int64_t pixels) {
-  constexpr std::int64_t most_samples = std::numeric_limits<std::int32_t>::max();
+std::string contradiction(const render::RenderState& state, std::int64_t pixels, std::int64_t most_samples) {
   const render::SchedulePosition& position = state.position;
   if (position.sample < 0 || position.sample > most_samples || position.pixel < 0 ||
       position.pixel >= pixels || position.block_samples < 1 ||
-      position.block_samples > render::most_block_samples)
+      position.block_samples > render::most_block_samples || position.end() > most_samples)
     return "its position";
   for (const render::Launch& launch : position.missing)
     if (!is_sound(launch, pixels, position.end())) return "its missing samples";
@@ -100,7 +102,7 @@ void check_state(const Checkpoint& earlier, const render::Settings& now, const s
   const render::RenderState& state = earlier.session.state;
   const film::Film& film = earlier.film;
   const auto pixels = std::int64_t{film.width()} * film.height();
-  std::string wrong = contradiction(state, pixels);
+  std::string wrong = contradiction(state, pixels, settings::most_samples - now.first_sample);
   if (wrong.empty()) {
     const settings::IntegratorInfo& integrator = settings::integrator_named(now.integrator);
     const bool splats = film.splats(); // none before the first launch, and if nothing in the scene shines
@@ -124,6 +126,17 @@ void check_state(const Checkpoint& earlier, const render::Settings& now, const s
 
 } // namespace
 
+std::string digest_with_strategy(const std::string& scene_digest, const render::Settings& settings) {
+  if (!settings::is_strategy_file(settings.strategy)) return scene_digest;
+  const std::string text = settings::read_strategy(settings.strategy);
+  const XXH128_hash_t hash = XXH3_128bits(text.data(), text.size());
+  return fmt::format("{}{}{:016x}{:016x}", scene_digest, strategy_follows, hash.high64, hash.low64);
+}
+
+std::string scene_part(const std::string& digest) {
+  return digest.substr(0, digest.find(strategy_follows));
+}
+
 void check_same(const Checkpoint& earlier, const Session& now, int width, int height,
                 const std::filesystem::path& file) {
   const film::Film& film = earlier.film;
@@ -132,12 +145,17 @@ void check_same(const Checkpoint& earlier, const Session& now, int width, int he
   if (film.width() != width || film.height() != height)
     throw FileError(fmt::format("{}: is of {}x{} pixels, not {}x{}: give `size` {}x{}", file.string(),
                                 film.width(), film.height(), width, height, film.width(), film.height()));
-  if (earlier.session.scene_digest != now.scene_digest)
+  if (scene_part(earlier.session.scene_digest) != scene_part(now.scene_digest))
     throw FileError(
         fmt::format("{}: is of another scene: give {} as it was when the checkpoint was written, with "
                     "the same definitions",
                     file.string(), earlier.session.scene));
   check_settings(earlier.session.settings, now.settings, file.string());
+  if (earlier.session.scene_digest != now.scene_digest)
+    throw FileError(
+        fmt::format("{}: is of a render with another {}: give it as it was when the checkpoint was "
+                    "written",
+                    file.string(), now.settings.strategy));
   check_state(earlier, now.settings, file.string());
   check_amount(earlier.session.state.position, now.settings, file.string());
 }

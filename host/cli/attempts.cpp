@@ -11,7 +11,8 @@ namespace phlux::cli {
 
 int Attempts::report(int otherwise) const {
   for (const Error& error : errors_) print_error(error.what());
-  if (!interrupted_.empty()) spdlog::warn("interrupted, and left out: {}", fmt::join(interrupted_, ", "));
+  if (!interrupted_.empty())
+    spdlog::warn("interrupted before these were done: {}", fmt::join(interrupted_, ", "));
   if (!errors_.empty()) return errors_.front().exit_code();
   return interrupted_.empty() ? otherwise : interrupted_exit_code;
 }

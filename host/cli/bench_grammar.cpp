@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "bench/arithmetic/arithmetic.h"
+#include "bench/common/methods/timed_render.h"
 #include "bench/figures/figures.h"
 #include "bench/precision/precision.h"
 #include "bench/rays/rays.h"
@@ -22,8 +23,10 @@
 #include "cli/grammar.h"
 #include "cli/interrupt.h"
 #include "errors.h"
+#include "printable.h"
 #include "settings/strategies.h"
 #include "settings/values.h"
+#include "terminal.h"
 
 namespace phlux::cli {
 namespace {
@@ -120,7 +123,10 @@ void measure_by(bool (*measure)(const Options&), CLI::App& app, std::optional<Co
     command = [=] {
       const InterruptGuard guard;
       options->interrupted = [&guard] { return guard.requested(); };
-      return measure(*options) ? 0 : interrupted_exit_code;
+      bool complete = false;
+      if (!bench::runs_to_end([&] { complete = measure(*options); }, options->interrupted))
+        say("interrupted: {} contains what was finished\n", printable(options->folder.string()));
+      return complete ? 0 : interrupted_exit_code;
     };
   });
 }

@@ -29,11 +29,11 @@ void check_outputs(const CompareOptions& options) {
   if (is_of_another_format(options.picture, ".png"))
     throw UsageError(fmt::format("--png {}: the picture is a PNG file, such as {}", options.picture.string(),
                                  fs::path(options.picture).replace_extension(".png").string()));
-  for (const fs::path& file : {options.picture, options.page}) {
-    if (file.empty()) continue;
-    reject_inputs({file}, {options.a, options.b});
-    files::check_writable(file);
-  }
+  std::vector<fs::path> outputs = {options.picture, options.page};
+  std::erase(outputs, fs::path());
+  reject_same_names(outputs);
+  reject_inputs(outputs, {options.a, options.b});
+  for (const fs::path& file : outputs) files::check_writable(file);
 }
 
 // Metrics that these images have.

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "cli/spelling.h"
+#include "cli/work.h"
 #include "errors.h"
 
 namespace phlux::cli {
@@ -94,7 +95,7 @@ void add_kernel_dir(CLI::App& app, std::filesystem::path& folder) {
   add_value(app, "--kernel-dir", "FOLDER",
             "folder of kernel sources to use instead of the built-in ones; for development",
             [&folder](const std::string& text) {
-              if (!std::filesystem::is_directory(text))
+              if (!std::filesystem::is_directory(text) && !is_worker())
                 throw UsageError(fmt::format("--kernel-dir {}: must be a folder of kernel files", text));
               folder = text;
             });

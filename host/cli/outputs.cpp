@@ -50,16 +50,15 @@ bool same(const fs::path& a, const fs::path& b) {
   return files::same_file(a, b) && !is_device(a);
 }
 
-void reject_same_names(const std::vector<fs::path>& files) {
-  for (std::size_t i = 0; i < files.size(); ++i)
-    for (std::size_t other = 0; other < i; ++other)
-      if (same(files[i], files[other]))
-        throw UsageError(fmt::format(
-            "{}: named for two outputs: image, preview, statistics and checkpoint need a file each",
-            files[i].string()));
-}
-
 } // namespace
+
+void reject_same_names(const std::vector<fs::path>& outputs) {
+  for (std::size_t i = 0; i < outputs.size(); ++i)
+    for (std::size_t other = 0; other < i; ++other)
+      if (same(outputs[i], outputs[other]))
+        throw UsageError(
+            fmt::format("{}: named for two outputs: each needs a file of its own", outputs[i].string()));
+}
 
 void warn_of_nonfinite(const fs::path& file, const files::NonFinite& values) {
   for (const auto& [channel, count] : values)

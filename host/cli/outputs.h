@@ -37,6 +37,9 @@ void require_exr(const std::filesystem::path& image, const std::string& advice =
 /// @throws UsageError for two outputs in one file, or the name of another image format
 [[nodiscard]] Outputs outputs_of(const RenderOptions& options);
 
+/// @throws UsageError if two of `outputs` are one file
+void reject_same_names(const std::vector<std::filesystem::path>& outputs);
+
 /// @throws UsageError if a file of `outputs` is one of `inputs`, the files that are read
 void reject_inputs(const std::vector<std::filesystem::path>& outputs,
                    const std::vector<std::filesystem::path>& inputs);

@@ -8,6 +8,7 @@
 #include <spdlog/spdlog.h>
 
 #include "advice/automatic.h"
+#include "checkpoint/sameness.h"
 #include "cli/attempts.h"
 #include "cli/checkpoints.h"
 #include "cli/commands.h"
@@ -19,6 +20,7 @@
 #include "cli/spelling.h"
 #include "cli/statistics.h"
 #include "cli/work.h"
+#include "clock.h"
 #include "errors.h"
 #include "files/contributions.h"
 #include "files/exr.h"
@@ -41,7 +43,6 @@ class ErrorSoFar {
 public:
   explicit ErrorSoFar(const film::Film& film) : film_(film) {}
   double at(double samples) {
-    using Clock = std::chrono::steady_clock;
     const Clock::time_point start = Clock::now();
     if (start >= next_) {
       value_ = film_.relative_standard_error();
@@ -55,7 +56,7 @@ public:
 private:
   const film::Film& film_;
   double value_ = std::numeric_limits<double>::infinity(), samples_ = 0.0;
-  std::chrono::steady_clock::time_point next_{};
+  Clock::time_point next_{};
 };
 
 // Replaces `--integrator auto` by a method.
@@ -125,7 +126,7 @@ files::RenderInfo info_of(const checkpoint::Session& session, const scene::Scene
   return {
       .version = PHLUX_VERSION,
       .scene = session.scene,
-      .scene_digest = session.scene_digest,
+      .scene_digest = checkpoint::scene_part(session.scene_digest),
       .settings = files::stored(settings),
       .choice = session.choices.auto_reasons,
       .samples = film.samples_per_pixel(),
@@ -286,12 +287,13 @@ int render(const RenderOptions& given) {
   const std::string digest = scene::digest(scene); // of the whole image
   crop(scene, options);
   choose_integrator(options, scene, group);
-  const checkpoint::Session session{
-      .scene = options.scene_file.string(),
-      .scene_digest = digest,
-      .choices = options,
-      .settings = settings::settings_of(options, scene.defaults, defaults_of(options, group)),
-      .state = {}};
+  const render::Settings settings =
+      settings::settings_of(options, scene.defaults, defaults_of(options, group));
+  const checkpoint::Session session{.scene = options.scene_file.string(),
+                                    .scene_digest = checkpoint::digest_with_strategy(digest, settings),
+                                    .choices = options,
+                                    .settings = settings,
+                                    .state = {}};
   const scene::Camera& camera = scene.camera;
   if (earlier) check_same(*earlier, session, camera, options.resume);
   film::Film film = earlier ? std::move(earlier->film)
@@ -305,7 +307,7 @@ int render(const RenderOptions& given) {
       run(scene, session.settings, film, outputs, options, checkpoints,
           earlier ? earlier->session.state : render::RenderState(), team, interrupt, attempts);
   if (film.samples_per_pixel() == 0.0) // an older image is worth more than a black one
-    spdlog::warn("interrupted before the first sample: nothing is written");
+    spdlog::warn("the render ended before its first sample: no file is written or replaced");
   else
     write_all(outputs, options, session, film, statistics, std::move(scene), checkpoints, interrupt,
               attempts);

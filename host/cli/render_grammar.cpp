@@ -10,6 +10,7 @@
 #include "cli/checkpoints.h"
 #include "cli/commands.h"
 #include "cli/grammar.h"
+#include "cli/work.h"
 #include "cluster/group.h"
 #include "errors.h"
 #include "files/image.h"
@@ -167,7 +168,7 @@ void require_own_files(const RenderOptions& options, const std::vector<std::file
 int render_all(RenderOptions options, const std::vector<std::filesystem::path>& scenes) {
   std::error_code none;
   for (const std::filesystem::path& scene : scenes) // before the first is rendered
-    if (!std::filesystem::is_regular_file(scene, none))
+    if (!std::filesystem::is_regular_file(scene, none) && !is_worker())
       throw SceneError(
           fmt::format("{}: cannot be read: an existing Mitsuba scene file is needed", scene.string()));
   for (const std::filesystem::path& scene : scenes) {

@@ -20,6 +20,7 @@
 #include "cli/command_line.h"
 #include "cli/interrupt.h"
 #include "cli/spelling.h"
+#include "cli/work.h"
 #include "cluster/group.h"
 #include "errors.h"
 #include "printable.h"
@@ -52,7 +53,7 @@ void set_up_log() {
 
 // Prints an error; lines after the first, such as a compiler's log, only with --verbose.
 int report(const std::string& error, int exit_code) {
-  if (cluster::started().rank > 0) return exit_code; // the first of several processes says it
+  if (is_worker()) return exit_code; // process 0 says it
   print_error(error);
   if (const std::size_t end = error.find('\n'); end != std::string::npos)
     spdlog::info("{}", with_options(error.substr(end + 1)));

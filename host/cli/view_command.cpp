@@ -19,6 +19,7 @@ void write_picture(const ViewOptions& options, const files::Image& image) {
   const std::string name = options.picture.string();
   if (is_of_another_format(options.picture, ".png"))
     throw UsageError(fmt::format("--png {}: the picture is a PNG file", name));
+  reject_inputs({options.picture}, {options.image});
   if (!image.has(files::radiance_names))
     throw FileError(
         fmt::format("{}: lacks a channel of R, G and B, which a picture shows", options.image.string()));

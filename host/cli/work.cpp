@@ -5,6 +5,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include "checkpoint/sameness.h"
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "errors.h"
@@ -19,8 +20,8 @@ void work_on(const RenderOptions& options, cluster::Group& group) {
       scene_file::load(options.scene_file, options.definitions, options.size, lobes::Library(options.lobes));
   const render::Settings settings =
       settings::settings_of(options, scene.defaults, defaults_of(options, group));
-  const std::string digest = scene::digest(scene); // of the whole image
-  crop(scene, options);
+  const std::string digest = checkpoint::digest_with_strategy(scene::digest(scene), settings);
+  crop(scene, options); // whose digest is that of the whole image
   if (!cluster::wait_for_kernels(group)) return;
   const render::Renderer renderer(scene, settings, {});
   cluster::serve(group, *renderer.processors().front(), settings, digest);

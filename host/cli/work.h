@@ -7,6 +7,11 @@
 
 namespace phlux::cli {
 
+/// Whether process 0 reports for this one: what it cannot read here, it tells process 0 in work().
+[[nodiscard]] inline bool is_worker() {
+  return cluster::started().rank > 0;
+}
+
 /// The settings that options other than those of settings::all() give. Of several processes, each has one
 /// device.
 [[nodiscard]] render::Settings defaults_of(const RenderOptions& options, const cluster::Group& group);

@@ -3,22 +3,21 @@
 #include <array>
 #include <charconv>
 #include <chrono>
-#include <condition_variable>
 #include <cstdlib>
 #include <cstring>
-#include <deque>
-#include <mutex>
+#include <functional>
+#include <future>
 #include <thread>
+#include <utility>
 
 #include <fmt/format.h>
 #include <malloc.h>
 #include <sched.h>
 
-#include "clock.h"
 #include "errors.h"
 
 #ifdef PHLUX_MPI
-#include <mpi.h>
+#include "cluster/connection.h"
 #endif
 
 namespace phlux::cluster {
@@ -65,149 +64,101 @@ std::vector<std::vector<int>> gather_cores(MPI_Comm machine, int processes) {
   return cores;
 }
 
-constexpr int message_tag = 0, life_tag = 1;
+// Whether MPI returns in time: calls that wait for other processes never do once one of these is lost.
+bool return_within(double seconds, const std::function<void()>& calls) {
+  auto is_done = std::make_shared<std::promise<void>>();
+  const std::future<void> done = is_done->get_future();
+  std::thread([is_done = std::move(is_done), calls] {
+    calls();
+    is_done->set_value();
+  }).detach();
+  return done.wait_for(std::chrono::duration<double>(seconds)) == std::future_status::ready;
+}
+
+// What a process knows once it has joined the others.
+struct Membership {
+  int rank = 0, size = 1, local_rank = 0, local_size = 1;
+  std::string machine;
+  std::vector<std::vector<int>> cores; // that each process of this machine may use
+  bool may_use_threads = false;
+};
+
+Membership join() {
+  Membership own;
+  int threads = 0;
+  MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &threads);
+  MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN);
+  MPI_Comm_rank(MPI_COMM_WORLD, &own.rank);
+  MPI_Comm_size(MPI_COMM_WORLD, &own.size);
+  own.may_use_threads = threads >= MPI_THREAD_SERIALIZED;
+  std::array<char, MPI_MAX_PROCESSOR_NAME> name{};
+  int length = 0;
+  MPI_Get_processor_name(name.data(), &length);
+  own.machine.assign(name.data(), static_cast<std::size_t>(length));
+  MPI_Comm machine = MPI_COMM_NULL;
+  MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, own.rank, MPI_INFO_NULL, &machine);
+  MPI_Comm_rank(machine, &own.local_rank);
+  MPI_Comm_size(machine, &own.local_size);
+  own.cores = gather_cores(machine, own.local_size);
+  MPI_Comm_free(&machine);
+  return own;
+}
 
 } // namespace
-
-// Waiting inside MPI would keep a core busy: a thread looks for messages once in a millisecond.
-struct Group::Connection {
-  const int rank, size;
-  std::mutex mpi; // calls of MPI: most transports allow one at a time
-  std::mutex mutex;
-  std::condition_variable arrived;
-  std::vector<std::deque<Message>> inbox;   // by sender
-  std::vector<Clock::time_point> last_sign; // of life, by sender
-  std::jthread receiver;
-
-  Connection(int own_rank, int processes)
-      : rank(own_rank), size(processes), inbox(static_cast<std::size_t>(processes)),
-        last_sign(static_cast<std::size_t>(processes), Clock::now()),
-        receiver([this](const std::stop_token& stop) { run(stop); }) {}
-
-  void run(const std::stop_token& stop) {
-    using namespace std::chrono_literals;
-    Clock::time_point next_sign = Clock::now();
-    while (!stop.stop_requested()) {
-      if (Clock::now() >= next_sign) {
-        give_sign();
-        next_sign = Clock::now() + 1s;
-      }
-      if (!receive_one()) std::this_thread::sleep_for(1ms);
-    }
-  }
-
-  void give_sign() {
-    const std::lock_guard lock(mpi);
-    for (int other = 0; other < size; ++other)
-      if (other != rank && (rank == 0 || other == 0)) {
-        MPI_Request request = MPI_REQUEST_NULL;
-        MPI_Isend(nullptr, 0, MPI_UINT64_T, other, life_tag, MPI_COMM_WORLD, &request);
-        if (request != MPI_REQUEST_NULL) MPI_Request_free(&request);
-      }
-  }
-
-  bool receive_one() {
-    MPI_Status status;
-    Message message;
-    {
-      const std::lock_guard lock(mpi);
-      int is_there = 0;
-      MPI_Message handle = MPI_MESSAGE_NULL;
-      if (MPI_Improbe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &is_there, &handle, &status) !=
-              MPI_SUCCESS ||
-          is_there == 0)
-        return false;
-      int words = 0;
-      MPI_Get_count(&status, MPI_UINT64_T, &words);
-      message.size = static_cast<std::size_t>(words) * sizeof(std::uint64_t);
-      message.bytes = std::make_shared_for_overwrite<std::byte[]>(message.size);
-      if (MPI_Mrecv(message.bytes.get(), words, MPI_UINT64_T, &handle, &status) != MPI_SUCCESS) return false;
-    }
-    const std::lock_guard lock(mutex);
-    const auto from = static_cast<std::size_t>(status.MPI_SOURCE);
-    last_sign[from] = Clock::now();
-    if (status.MPI_TAG == message_tag) inbox[from].push_back(std::move(message));
-    arrived.notify_all();
-    return true;
-  }
-};
 
 Group::Group() {
   const Started start = started();
   if (start.processes == 1) return;
-  int threads = 0;
-  MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &threads);
-  MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN);
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
-  MPI_Comm_size(MPI_COMM_WORLD, &size_);
-  if (size_ != start.processes || threads < MPI_THREAD_SERIALIZED) {
-    MPI_Finalize();
+  constexpr double most_seconds = 120.0; // between the starts of the first process and the last
+  const auto own = std::make_shared<Membership>();
+  if (!return_within(most_seconds, [own] { *own = join(); }))
+    throw UsageError(fmt::format("{} has started {} processes, not all of which have joined within {} s",
+                                 start.by, start.processes, most_seconds));
+  if (own->size != start.processes || !own->may_use_threads) {
+    return_within(patience_seconds, [] { MPI_Finalize(); });
     throw UsageError(
         fmt::format("{} has started {} processes that {}: start them by the mpirun of the MPI that phlux was "
                     "built with, or by srun with its support for that MPI",
                     start.by, start.processes,
-                    size_ != start.processes ? "do not reach each other" : "may not use threads with MPI"));
+                    own->may_use_threads ? "do not reach each other" : "may not use threads with MPI"));
   }
-  std::array<char, MPI_MAX_PROCESSOR_NAME> name{};
-  int length = 0;
-  MPI_Get_processor_name(name.data(), &length);
-  machine_.assign(name.data(), static_cast<std::size_t>(length));
-  MPI_Comm machine = MPI_COMM_NULL;
-  MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, rank_, MPI_INFO_NULL, &machine);
-  MPI_Comm_rank(machine, &local_rank_);
-  MPI_Comm_size(machine, &local_size_);
-  cores_ = gather_cores(machine, local_size_);
-  MPI_Comm_free(&machine);
-  if (size_ > 1) {
-    // Messages of megabytes come and go; returning their memory to the system takes longer than to fill it.
-    constexpr int kept = 1 << 30; // bytes
-    ::mallopt(M_MMAP_THRESHOLD, kept);
-    ::mallopt(M_TRIM_THRESHOLD, kept);
-    connection_ = std::make_unique<Connection>(rank_, size_);
-  }
+  rank_ = own->rank;
+  size_ = own->size;
+  local_rank_ = own->local_rank;
+  local_size_ = own->local_size;
+  machine_ = std::move(own->machine);
+  cores_ = std::move(own->cores);
+  // Messages of megabytes come and go; returning their memory to the system takes longer than to fill it.
+  constexpr int kept = 1 << 30; // bytes
+  ::mallopt(M_MMAP_THRESHOLD, kept);
+  ::mallopt(M_TRIM_THRESHOLD, kept);
+  connection_ = std::make_unique<Connection>(rank_, size_, patience_seconds);
 }
 
 Group::~Group() {
   if (size_ == 1) return;
-  bool lost = false;
-  for (int other = 0; other < size_; ++other) lost = lost || is_lost(other);
-  connection_.reset();
-  if (!lost) MPI_Finalize(); // which waits for the others
+  if (connection_->leave())
+    return_within(patience_seconds, [] { MPI_Finalize(); }); // one may be lost since it has left
+  else
+    static_cast<void>(connection_.release()); // MPI still knows the memory of messages to lost processes
 }
 
 void Group::send(int to, const Message& message) {
-  MPI_Request request = MPI_REQUEST_NULL;
-  int is_done = 0;
-  std::unique_lock lock(connection_->mpi);
-  MPI_Isend(message.bytes.get(), static_cast<int>(message.size / sizeof(std::uint64_t)), MPI_UINT64_T, to,
-            message_tag, MPI_COMM_WORLD, &request);
-  while (MPI_Test(&request, &is_done, MPI_STATUS_IGNORE) == MPI_SUCCESS && is_done == 0) {
-    lock.unlock();
-    std::this_thread::sleep_for(std::chrono::microseconds(200));
-    lock.lock();
-  }
+  connection_->send(to, message);
 }
 
 std::optional<Message> Group::receive(int from, double most_seconds) {
-  std::unique_lock lock(connection_->mutex);
-  std::deque<Message>& inbox = connection_->inbox[static_cast<std::size_t>(from)];
-  if (!connection_->arrived.wait_for(lock, std::chrono::duration<double>(most_seconds),
-                                     [&] { return !inbox.empty(); }))
-    return std::nullopt;
-  Message message = std::move(inbox.front());
-  inbox.pop_front();
-  return message;
+  return connection_->receive(from, most_seconds);
 }
 
 bool Group::is_lost(int rank) const {
   if (!connection_ || rank == rank_ || (rank_ != 0 && rank != 0)) return false;
-  const std::lock_guard lock(connection_->mutex);
-  return seconds_since(connection_->last_sign[static_cast<std::size_t>(rank)]) > patience_seconds;
+  return connection_->is_lost(rank);
 }
 
 #else
 
-struct Group::Connection {};
+class Connection {};
 
 Group::Group() {
   if (const Started start = started(); start.processes > 1)

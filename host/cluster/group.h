@@ -18,6 +18,8 @@ struct Started {
 };
 [[nodiscard]] Started started();
 
+class Connection;
+
 /// Processes 0 to size() - 1; one alone, without MPI, unless started() says otherwise. There may be one
 /// object in the life of a process.
 class Group {
@@ -40,16 +42,15 @@ public:
   /// its own already. To be called before OpenCL's drivers start their threads.
   void divide_cores() const;
 
-  /// From several threads. A message to a process that is lost is lost too.
+  /// From several threads. Returns at once. A message to a process that is lost is lost too.
   void send(int to, const Message& message);
   /// The oldest message from a process, for which it waits.
   [[nodiscard]] std::optional<Message> receive(int from, double most_seconds);
-  /// Whether no message from it for patience_seconds. Process 0 and the others send signs of life.
+  /// Whether nothing has come from it for patience_seconds. Process 0 and the others send signs of life.
   [[nodiscard]] bool is_lost(int rank) const;
   static constexpr double patience_seconds = 30.0;
 
 private:
-  struct Connection;
   int rank_ = 0, size_ = 1, local_rank_ = 0, local_size_ = 1;
   std::string machine_;
   std::vector<std::vector<int>> cores_; ///< that each process of this machine may use

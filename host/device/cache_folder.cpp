@@ -23,6 +23,15 @@ std::optional<std::string> environment(const char* name) {
   return value;
 }
 
+// Opens a new file that is gone when it is closed, or -1 and errno. Its name is removed at once, so that it
+// is not left behind by a process that is killed; what such a one leaves in between is in no other's way.
+int nameless_file(const fs::path& folder) {
+  std::string name = (folder / ".probe-XXXXXX").string();
+  const int file = mkostemp(name.data(), O_CLOEXEC);
+  if (file >= 0) unlink(name.c_str());
+  return file;
+}
+
 // Whether the folder has room for what PoCL writes for several programs.
 bool has_room(const fs::path& folder) {
   constexpr double least = 16 << 20; // bytes
@@ -31,13 +40,9 @@ bool has_room(const fs::path& folder) {
   if (statvfs(folder.c_str(), &of_folder) == 0 &&
       static_cast<double>(of_folder.f_bavail) * static_cast<double>(of_folder.f_frsize) < least)
     return false;
-  const std::string probe = (folder / fmt::format(".room-{}", getpid())).string();
-  const int file = open(probe.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0600);
+  const int file = nameless_file(folder);
   const int error = file < 0 ? errno : posix_fallocate(file, 0, probed);
-  if (file >= 0) {
-    close(file);
-    unlink(probe.c_str());
-  }
+  if (file >= 0) close(file);
   return error != ENOSPC && error != EDQUOT;
 }
 
@@ -75,11 +80,9 @@ std::optional<fs::path> user_cache_folder(const std::string& name) {
 bool writable_folder(const fs::path& folder) {
   std::error_code ignored;
   fs::create_directories(folder, ignored);
-  const std::string probe = (folder / fmt::format(".writable-{}", getpid())).string();
-  const int file = open(probe.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0600);
+  const int file = nameless_file(folder);
   if (file < 0) return false;
   close(file);
-  unlink(probe.c_str());
   return true;
 }
 

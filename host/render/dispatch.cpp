@@ -65,7 +65,8 @@ DispatchLoop::DispatchLoop(const Settings& settings, film::Film& film, const Eve
       seconds_before_(from.seconds_render), open_ended_(settings.time_limit || settings.target_error),
       schedule_(static_cast<std::int64_t>(film.pixels().size()),
                 open_ended_ ? std::nullopt : std::optional<std::int64_t>(settings.samples_per_pixel),
-                from.position, samples_point_sets(settings) ? Blocks::of_point_sets : Blocks::of_independent),
+                from.position, samples_point_sets(settings) ? Blocks::of_point_sets : Blocks::of_independent,
+                settings::most_samples - settings.first_sample),
       folder_(static_cast<std::int64_t>(film.pixels().size()), settings.techniques, folding_threads),
       counts_(from), started_paths_(from.paths) {
   if (settings.target_error) target_.emplace(*settings.target_error, film.pixels().size());

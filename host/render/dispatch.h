@@ -26,14 +26,15 @@ struct Failure {
 /// Of the exception that is being handled; nothing if it is another one.
 [[nodiscard]] std::optional<Failure> current_failure();
 
-/// Waits for Settings::pause_seconds: a driver may be resetting the device.
+/// Waits for Settings::pause_seconds, the time that a driver may need to reset a device that has failed.
 void pause(const Settings& settings);
 
 /// A processor that fails is tried again, once after a pause, and with ever smaller launches where memory is
 /// short; then it is given up. In both cases others may take its launches. Launches are added to the film in
 /// the order of the schedule, so that the film is the same, bit for bit, with any number of like processors,
-/// and after failures. Results that are early are kept until it is their turn; while there are too many, only
-/// launches that others wait for begin.
+/// and after failures. The result of a launch that ends before an earlier one is kept until that one is
+/// added. While too many are kept, the only launches that begin are those of a failed processor, which are
+/// repeated.
 class DispatchLoop {
 public:
   /// Up to `folding_threads` threads add a launch to the film.

@@ -115,10 +115,10 @@ double in_units(const char* setting, double radiance, double unit) {
 // With fewer, descending the tree takes more time than the lower variance gains (bench/saved/REMEDIES.md).
 constexpr std::size_t fewest_lights_of_tree = 8;
 
-Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, const tables::LightTable& lights,
-                 const Settings& settings, int lanes) {
-  Parts parts;
-  parts.lanes = lanes;
+namespace {
+
+// What the settings choose, as far as the lights allow.
+void add_method(Parts& parts, const Settings& settings, const tables::LightTable& lights) {
   parts.double_precision = settings.double_precision;
   parts.integrator = settings::integrator_named(settings.integrator).integrator;
   parts.weights = settings.weights;
@@ -140,6 +140,9 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
   }
   parts.strategy = settings::strategy(settings::quoted("strategy"), settings.strategy);
   parts.connect = possible_connect(settings, lights);
+}
+
+void add_geometry(Parts& parts, const scene::Scene& scene, const accel::Geometry& geometry) {
   parts.hierarchy = !geometry.nodes.empty() || geometry.root < 0;
   parts.triangles = geometry.has_triangles;
   parts.parallelograms = geometry.has_parallelograms;
@@ -147,20 +150,30 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
   parts.spheres = geometry.sphere_count > 0;
   parts.smooth_normals = !geometry.vertex_normals.empty();
   parts.strict_normals = parts.smooth_normals && scene.strict_normals;
-  const std::vector<scene::Material> materials = tables::used_materials(scene, geometry);
-  parts.models = lobes::models_of(materials);
+  parts.few_primitives = geometry.primitives.size() <= few_entries && !parts.hierarchy;
+}
+
+void add_textures(Parts& parts, const scene::Material& material) {
+  std::vector<scene::TexturePointer> textures = material.textures;
+  textures.push_back(material.opacity_texture);
+  for (const scene::TexturePointer& texture : textures) {
+    if (!texture) continue;
+    parts.checkerboards |= !texture->image;
+    parts.byte_textures |= texture->image && !texture->image->bytes.empty();
+    parts.float_textures |= texture->image && texture->image->bytes.empty();
+  }
+}
+
+// After add_method().
+void add_materials(Parts& parts, const scene::Scene& scene, const std::vector<scene::Material>& used,
+                   const Settings& settings) {
+  parts.models = lobes::models_of(used);
   parts.masks = lobes::any_masked(scene.materials);
-  for (const scene::Material& m : materials) {
+  parts.few_materials = scene.materials.size() <= few_entries;
+  for (const scene::Material& m : used) {
     parts.two_sided |= m.two_sided || m.model->transmits;
     parts.black |= !lobes::reflects(m);
-    std::vector<scene::TexturePointer> textures = m.textures;
-    textures.push_back(m.opacity_texture);
-    for (const scene::TexturePointer& texture : textures) {
-      if (!texture) continue;
-      parts.checkerboards |= !texture->image;
-      parts.byte_textures |= texture->image && !texture->image->bytes.empty();
-      parts.float_textures |= texture->image && texture->image->bytes.empty();
-    }
+    add_textures(parts, m);
     if (settings.strategy == "rejection" && m.model == lobes::shipped("phong")) refuse_endless_rejection(m);
   }
   for (const auto& model : parts.models)
@@ -171,15 +184,15 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
     else if (parts.ambient && model->transmits)
       throw UsageError(
           fmt::format("`ambient`: does not support {}, which transmits light: leave it out", model->name));
+}
+
+// After add_method().
+void add_lights(Parts& parts, const scene::Scene& scene, const tables::LightTable& lights) {
   parts.light_planar = lights.has(LIGHT_PLANAR);
   parts.light_sphere = lights.has(LIGHT_SPHERE);
   parts.light_point = lights.has(LIGHT_POINT);
   parts.light_spot = lights.has(LIGHT_SPOT);
   parts.light_directional = lights.has(LIGHT_DIRECTIONAL);
-  parts.lens = scene.camera.aperture_radius > 0;
-  parts.orthographic = scene.camera.orthographic;
-  parts.tent_filter = scene.camera.filter.kind == scene::Filter::Kind::tent;
-  parts.gaussian_filter = scene.camera.filter.kind == scene::Filter::Kind::gaussian;
   parts.environment_map = scene.environment.has_value();
   parts.hidden_emitters = scene.hide_emitters;
   parts.light_constant = lights.has(LIGHT_SKY) && !parts.environment_map;
@@ -189,8 +202,26 @@ Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, con
   parts.sky_samples = parts.connect != Connect::none && lights.samples_sky();
   parts.one_light = lights.records.size() == 1;
   parts.few_lights = lights.records.size() <= few_entries;
-  parts.few_materials = scene.materials.size() <= few_entries;
-  parts.few_primitives = geometry.primitives.size() <= few_entries && !parts.hierarchy;
+}
+
+void add_camera(Parts& parts, const scene::Camera& camera) {
+  parts.lens = camera.aperture_radius > 0;
+  parts.orthographic = camera.orthographic;
+  parts.tent_filter = camera.filter.kind == scene::Filter::Kind::tent;
+  parts.gaussian_filter = camera.filter.kind == scene::Filter::Kind::gaussian;
+}
+
+} // namespace
+
+Parts find_parts(const scene::Scene& scene, const accel::Geometry& geometry, const tables::LightTable& lights,
+                 const Settings& settings, int lanes) {
+  Parts parts;
+  parts.lanes = lanes;
+  add_method(parts, settings, lights);
+  add_geometry(parts, scene, geometry);
+  add_materials(parts, scene, tables::used_materials(scene, geometry), settings);
+  add_lights(parts, scene, lights);
+  add_camera(parts, scene.camera);
   return parts;
 }
 

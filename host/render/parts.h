@@ -32,13 +32,13 @@ struct Parts {
        light_directional = false, light_constant = false, environment_map = false;
   bool lens = false, orthographic = false;           ///< of the camera
   bool tent_filter = false, gaussian_filter = false; ///< else the box
-  bool ambient = false;                              ///< a control variate
+  bool ambient = false;                              ///< a control variate: Settings::ambient
   bool light_choice = false;                         ///< more than one light to choose from
   bool hidden_emitters = false;                      ///< from the camera
   bool light_tree = false;                           ///< light samples choose by contribution
   bool sky_samples = false;                          ///< light samples may choose the sky
   bool one_light = false, few_lights = false, few_materials = false,
-       few_primitives = false; ///< optimizations
+       few_primitives = false; ///< at most few_entries, which fit registers
   Connect connect = Connect::mis;
   Weights weights = Weights::balance;
   Sampler sampler = Sampler::independent;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <deque>
-#include <limits>
 #include <memory>
 #include <thread>
 
@@ -26,12 +25,11 @@ struct Worker {
 };
 
 void check_samples(const Settings& settings) {
-  constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max(); // of the kernels' int
   if (settings.samples_per_pixel < 1)
     throw UsageError(fmt::format("{} samples per pixel: at least 1 is needed", settings.samples_per_pixel));
-  if (settings.first_sample + settings.samples_per_pixel > most)
+  if (settings.first_sample + settings.samples_per_pixel > settings::most_samples)
     throw UsageError(fmt::format("`first-sample` {}: samples are numbered up to {}: begin earlier",
-                                 settings.first_sample, most));
+                                 settings.first_sample, settings::most_samples));
 }
 
 // The unit of the film's sums depends on the scene's lights.

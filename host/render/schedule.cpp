@@ -3,13 +3,9 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
-#include <limits>
 
 namespace phlux::render {
 namespace {
-
-// More samples than any render takes; fits the kernels' int.
-constexpr std::int64_t endless = std::numeric_limits<std::int32_t>::max() / 2;
 
 // log2 of the number of point sets in an octave of samples.
 constexpr int octave_bits = 3;
@@ -22,8 +18,8 @@ int point_bits(std::int64_t sample) {
 }
 
 Schedule::Schedule(std::int64_t pixels, std::optional<std::int64_t> samples, const SchedulePosition& from,
-                   Blocks blocks)
-    : pixels_(pixels), end_(samples.value_or(endless)), blocks_(blocks),
+                   Blocks blocks, std::int64_t most)
+    : pixels_(pixels), end_(samples.value_or(most)), blocks_(blocks),
       short_blocks_first_(!samples && blocks == Blocks::of_independent),
       missing_(from.missing.begin(), from.missing.end()), phase_end_(from.sample) {
   assert(from.end() <= end_ && from.pixel < pixels);

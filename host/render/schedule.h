@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "settings/settings.h"
+
 namespace phlux::render {
 
 /// Samples of one pixel that a device sums in float before the film adds them in double: few enough for the
@@ -56,16 +58,16 @@ struct SchedulePosition {
 };
 
 /// The sequence of launches. With `samples` given, every pixel gets exactly that many, in blocks of
-/// samples_per_block and a last one of the rest. Otherwise it never ends, and the first blocks are short (1,
-/// 1, 2, 4, 8 samples), so that a render that is stopped early has samples in every pixel. The last
+/// samples_per_block and a last one of the rest. Otherwise it goes on to `most`, and the first blocks are
+/// short (1, 1, 2, 4, 8 samples), so that a render that is stopped early has samples in every pixel. The last
 /// point set of a pixel may be incomplete.
 class Schedule {
 public:
-  /// Continues `from` a position, whose end() is at most `samples`: first its missing launches, then the
-  /// launches of an uninterrupted schedule. If the number of samples is no multiple of samples_per_block, the
-  /// first blocks complete it to one.
+  /// Continues `from` a position, whose end() is at most `samples` or `most`: first its missing launches,
+  /// then the launches of an uninterrupted schedule. If the number of samples is no multiple of
+  /// samples_per_block, the first blocks complete it to one.
   Schedule(std::int64_t pixels, std::optional<std::int64_t> samples, const SchedulePosition& from = {},
-           Blocks blocks = Blocks::of_independent);
+           Blocks blocks = Blocks::of_independent, std::int64_t most = settings::most_samples);
   /// The next launch; nothing when the work is done. `wanted` returns the number of jobs (>= 1) of a launch,
   /// given the number of similar jobs left and the samples of each.
   using Wanted = std::function<std::int64_t(std::int64_t left, int block_samples)>;

@@ -106,10 +106,12 @@ struct Settings {
   return names;
 }
 
+/// Samples of a pixel are numbered below it, from `first-sample` on: the kernels' numbers are ints.
+inline constexpr std::int64_t most_samples = std::numeric_limits<std::int32_t>::max();
+
 /// The settings that can be given as texts, in the order of the help.
 [[nodiscard]] inline std::vector<Setting> declared_settings() {
   using A = Affects;
-  constexpr std::uint64_t most_samples = std::numeric_limits<std::int32_t>::max(); // of the kernels' int
   const auto from_eye_alone = [](const Settings& s) { return !integrator_named(s.integrator).light_paths; };
   const auto bidirectional = [](const Settings& s) { return integrator_named(s.integrator).bidirectional(); };
   return {
@@ -180,7 +182,7 @@ struct Settings {
               "of the sampling strategy: for exact the reflectivity, for lobe-ks kd + ks)")
           .only_where([](const Settings& s) { return s.rr_depth >= 0; },
                       ": with `rr-depth` -1 there is no roulette: leave out one of the two"),
-      Setting("spp", A::amount, &Settings::samples_per_pixel, Whole{1, most_samples}, "N",
+      Setting("spp", A::amount, &Settings::samples_per_pixel, Whole{1, std::uint64_t{most_samples}}, "N",
               "samples per pixel; for light: number of light paths / number of pixels")
           .or_scene(&Settings::samples_per_pixel, &scene::RenderDefaults::samples_per_pixel),
       Setting("time", A::amount, &Settings::time_limit, Within{1e-6, 1e9}, "SECONDS",
@@ -195,7 +197,7 @@ struct Settings {
       Setting("seed", A::samples, &Settings::seed, Whole{0, std::numeric_limits<std::uint64_t>::max()}, "N",
               "seed of the random numbers; the same seed gives the same image on the same device"),
       Setting(
-          "first-sample", A::samples, &Settings::first_sample, Whole{0, most_samples / 2}, "N",
+          "first-sample", A::samples, &Settings::first_sample, Whole{0, std::uint64_t{most_samples} / 2}, "N",
           "index of every pixel's first sample; renders of samples 0 to 99 and of 100 to 199 of one seed are "
           "independent and can be merged"),
       Setting("threads", A::execution, &Settings::threads, Whole{1, 65'536}, "N",

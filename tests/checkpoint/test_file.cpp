@@ -208,7 +208,8 @@ TEST_CASE("A forged state is refused, whatever number is wrong") {
   constexpr auto huge = std::int64_t{1} << 62;
   for (const std::int64_t wrong : {std::int64_t{-1}, std::int64_t{6}, huge})
     refuses("its position", [&](Checkpoint& c) { c.session.state.position.pixel = wrong; });
-  for (const std::int64_t wrong : {std::int64_t{-1}, huge})
+  // With the two pixels' block of 16 beyond it, the last is one sample more than there can be.
+  for (const std::int64_t wrong : {std::int64_t{-1}, huge, settings::most_samples - 15})
     refuses("its position", [&](Checkpoint& c) { c.session.state.position.sample = wrong; });
   for (const int wrong : {0, -1, 65, 1 << 30})
     refuses("its position", [&](Checkpoint& c) { c.session.state.position.block_samples = wrong; });

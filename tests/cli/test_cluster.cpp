@@ -153,22 +153,48 @@ TEST_CASE("A signal to mpirun leaves a checkpoint, from which any number of proc
   }
 }
 
-TEST_CASE("When a process dies, the others' work is kept") {
-  const Cluster place;
-  REQUIRE(place.render({"-n", samples, "-o", "whole.exr"}).exit_code == 0);
-  const Texts arguments = {"-n", samples, "--checkpoint", "c", "--checkpoint-every", "0.02"};
-  Texts mpirun = {"-n", "1", PHLUX_PROGRAM, "render", "scene.xml", "--png", "none"};
+namespace {
+
+// Arguments of mpirun: the second of two processes is killed as soon as there is a file `c`.
+Texts with_killed_process(const Texts& arguments, const Texts& options = {}) {
+  Texts mpirun = options;
+  mpirun.insert(mpirun.end(), {"-n", "1", PHLUX_PROGRAM, "render", "scene.xml", "--png", "none"});
   mpirun.insert(mpirun.end(), arguments.begin(), arguments.end());
   const char* const killed =
       "\"$@\" & process=$!; while ! [ -e c ]; do sleep .01; done; kill -KILL $process; "
       "wait $process";
   mpirun.insert(mpirun.end(), {":", "-n", "1", "sh", "-c", killed, "sh"});
-  const Outcome broken = place.render(arguments, mpirun);
+  return mpirun;
+}
+
+} // namespace
+
+TEST_CASE("When a process dies, the others' work is kept") {
+  const Cluster place;
+  REQUIRE(place.render({"-n", samples, "-o", "whole.exr"}).exit_code == 0);
+  const Texts arguments = {"-n", samples, "--checkpoint", "c", "--checkpoint-every", "0.02"};
+  const Outcome broken = place.render(arguments, with_killed_process(arguments));
   CAPTURE(broken.out, broken.err);
   CHECK(broken.exit_code != 0);
   CHECK_THAT(broken.out, Contains("interrupted: --resume c goes on"));
   REQUIRE(place.render({"--resume", "c", "-o", "on.exr"}).exit_code == 0);
   CHECK(place.same("on.exr", "whole.exr"));
+}
+
+TEST_CASE("Where mpirun lets the others go on when a process dies, they finish the render") {
+  const Cluster place;
+  // Messages of megabytes, one of which the process is likely to leave unfinished.
+  const Texts arguments = {"-i", "light", "--size", "512x384", "-n", "60"};
+  Texts alone = arguments, to_checkpoint = arguments;
+  alone.insert(alone.end(), {"-o", "whole.exr"});
+  to_checkpoint.insert(to_checkpoint.end(), {"--checkpoint", "c", "--checkpoint-every", "0.02"});
+  REQUIRE(place.render(alone).exit_code == 0);
+  const Outcome outcome =
+      place.render(to_checkpoint, with_killed_process(to_checkpoint, {"--enable-recovery"}));
+  CAPTURE(outcome.out, outcome.err);
+  CHECK_THAT(outcome.err, Contains("no message from it for 30 s"));
+  CHECK(std::ranges::count(outcome.out, '\n') == 1);
+  CHECK(place.same("scene.exr", "whole.exr"));
 }
 
 TEST_CASE("A process that cannot help is left out, and an error is said once") {
@@ -183,6 +209,27 @@ TEST_CASE("A process that cannot help is left out, and an error is said once") {
   const Outcome wrong = place.render({"-n", "0"}, {"-n", "2"});
   CHECK(wrong.exit_code == 2);
   CHECK(wrong.err.find("phlux: ") == wrong.err.rfind("phlux: "));
+}
+
+TEST_CASE("A process that lacks the scene or the kernels is left out, with the name of the file") {
+  const Cluster place;
+  const std::filesystem::path elsewhere = place / "elsewhere";
+  std::filesystem::create_directory(elsewhere);
+  std::filesystem::create_directory_symlink(PHLUX_SOURCE_DIR "/kernels", place / "own");
+  REQUIRE(place.render({"-n", samples, "-o", "whole.exr"}).exit_code == 0);
+  for (const std::string missing : {"scene.xml", "own/transport/path.cl"}) {
+    const Texts arguments = {"-n", samples, "--kernel-dir", "own"};
+    Texts mpirun = {"-n", "1", PHLUX_PROGRAM, "render", "scene.xml", "--png", "none"};
+    mpirun.insert(mpirun.end(), arguments.begin(), arguments.end());
+    mpirun.insert(mpirun.end(), {":", "-n", "1", "-wdir", elsewhere});
+    const Outcome outcome = place.render(arguments, mpirun);
+    CAPTURE(outcome.err);
+    CHECK(outcome.exit_code == 0);
+    CHECK_THAT(outcome.err, Contains("warning: process 1: ") && Contains(": " + missing + ": "));
+    CHECK(place.same("scene.exr", "whole.exr"));
+    std::filesystem::copy_file(place / "scene.xml", elsewhere / "scene.xml",
+                               std::filesystem::copy_options::overwrite_existing);
+  }
 }
 
 #endif

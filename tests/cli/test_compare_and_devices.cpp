@@ -153,6 +153,11 @@ TEST_CASE("phlux compare --png writes a picture, and never over an image") {
     CHECK_THAT(outcome.err, Catch::Contains(message));
     CHECK(outcome.out.empty());
   }
+  const Outcome both =
+      run({{"compare", "a.exr", "b.exr", "--png", "p", "--html", "./p"}, folder.path(), {}, {}});
+  CHECK(both.exit_code == 2);
+  CHECK(both.is_one_line_error());
+  CHECK_THAT(both.err, Catch::Contains("./p: named for two outputs"));
   CHECK(phlux::files::read_exr(folder / "a.exr").width == 2);
   CHECK(folder.names() == std::set<std::string>{"a.exr", "b.exr", "flip.html", "link.png", "picture.png"});
 }

@@ -206,6 +206,26 @@ TEST_CASE("A device that fails leaves image and checkpoint, from which the rende
   CHECK(place.image("on.exr").channels == place.image("whole.exr").channels);
 }
 
+TEST_CASE("A device that fails after a signal does not make an interrupted benchmark an error") {
+  const Renders place;
+  Invocation how =
+      with({{"LD_PRELOAD", PHLUX_DEVICE_FAULTS},
+            {"PHLUX_DEVICE_FAULT", fault("clEnqueueNDRangeKernel 0 1000000000", out_of_resources)}});
+  how.folder = place.path();
+  for (const std::string name : {"samplers", "remedies"}) {
+    how.arguments = {"bench", name, "--quick", "--out", "tables"};
+    how.interrupt_after = std::nullopt;
+    const Outcome broken = run(how);
+    CAPTURE(broken.err);
+    CHECK(broken.exit_code == 4);
+    how.interrupt_after = std::chrono::milliseconds(0);
+    const Outcome interrupted = run(how);
+    CAPTURE(interrupted.err, interrupted.out);
+    CHECK(interrupted.exit_code == 130);
+    CHECK_THAT(interrupted.out, Contains("interrupted: tables contains what was finished"));
+  }
+}
+
 TEST_CASE("A failure while devices are looked for is an error of the device, or another one is used") {
   const Renders place;
   for (const std::string call :

@@ -118,6 +118,13 @@ TEST_CASE("phlux render --strategy FILE.cl: a strategy of the user's own") {
       run({{"render", "scene.xml", "-n", "8", "--resume", "c.ckpt"}, folder.path(), {}, {}});
   CHECK(resumed.exit_code == 2);
   CHECK_THAT(resumed.err, Contains("give --strategy plain.cl too"));
+  const std::vector<std::string> more = {"render",   "scene.xml", "-n",         "8",
+                                         "--resume", "c.ckpt",    "--strategy", "plain.cl"};
+  CHECK(run({more, folder.path(), {}, {}}).exit_code == 0);
+  folder.write("plain.cl", plain_strategy + std::string("// changed\n"));
+  const Outcome changed = run({more, folder.path(), {}, {}});
+  CHECK(changed.exit_code == 3);
+  CHECK_THAT(changed.err, Contains("c.ckpt: is of a render with another plain.cl"));
 
   folder.write("plain.cl",
                replaced(plain_strategy, "vec_max(phong_reflectivity", "vec_most(phong_reflectivity"));

@@ -295,8 +295,9 @@ TEST_CASE("A signal after the image ends what is left to do, and only that") {
   const Outcome outcome = run(invocation);
   CAPTURE(outcome.out, outcome.err);
   CHECK(outcome.exit_code == 130);
-  CHECK_THAT(outcome.err,
-             Catch::EndsWith("phlux: warning: interrupted, and left out: trials of other integrators\n"));
+  CHECK_THAT(
+      outcome.err,
+      Catch::EndsWith("phlux: warning: interrupted before these were done: trials of other integrators\n"));
   CHECK(place.image().info.samples == 16.0);
   CHECK_THAT(outcome.out, Catch::Contains("relative standard error") && !Catch::Contains("advice"));
   const nlohmann::json stats = place.json("stats.json");

@@ -1,5 +1,7 @@
 #include <catch2/catch.hpp>
 
+#include <fmt/format.h>
+
 #include <atomic>
 #include <chrono>
 #include <thread>
@@ -167,6 +169,8 @@ TEST_CASE("a folder is writable or not") {
   CHECK_FALSE(writable_folder(folder.path() / "file"));
   CHECK_FALSE(writable_folder(folder.path() / "file" / "below"));
   CHECK(files_in(folder.path() / "new" / "one").empty());
+  folder.write(fmt::format(".writable-{}", getpid()), ""); // left by a killed process of the same number
+  CHECK(writable_folder(folder.path()));
   const auto temporary = temporary_cache_folder("test");
   REQUIRE(temporary.has_value());
   CHECK(writable_folder(*temporary));

@@ -109,6 +109,21 @@ TEST_CASE("a schedule with another number of samples goes on without a gap and w
     }
 }
 
+TEST_CASE("a schedule without an end goes on from every position that a finite one can have, up to the last "
+          "sample") {
+  const std::int64_t most = phlux::settings::most_samples, begin = most - 40;
+  for (const Blocks blocks : {Blocks::of_independent, Blocks::of_point_sets}) {
+    Schedule schedule(pixels, std::nullopt, {begin, 0, samples_per_block, {}}, blocks);
+    std::int64_t next = begin;
+    for (const Job& job : jobs_of(schedule, 3))
+      if (job.pixel == 0) {
+        CHECK(job.first_sample == next);
+        next += job.samples;
+      }
+    CHECK(next == most);
+  }
+}
+
 TEST_CASE("point sets grow with the number of samples") {
   Schedule schedule(1, 1100, {}, Blocks::of_point_sets);
   std::int64_t next = 0;
